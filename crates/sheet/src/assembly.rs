@@ -1,15 +1,15 @@
 //! Assemblies: the parts of models, parts lists, masses and exploded views.
 //!
 //! ```text
-//!   models ─part─► parts ─geometry─► equal ones ─parts_list─► items: number, quantity, name …
+//!   models ─part─► parts ─geometry─► identical ─parts_list─► items: number, quantity, name …
 //!                    │                                           │
 //!                    └─explosion─► moves ─exploded_models─┐      └─part_model─► one sheet each
 //!                                                         ▼
 //!                                      exploded view with the paths of the parts
 //! ```
 //!
-//! A part is a node with a mesh, once for each of its instances. The objects of drawings are the
-//! same nodes in the same order.
+//! Each instance of a node with a mesh is a part. The objects of a drawing are the same parts in
+//! the same order.
 
 mod explosion;
 mod geometry;
@@ -28,20 +28,20 @@ pub(crate) use part_model::{PATHS, exploded_models, part_model};
 pub(crate) use part_shapes::PartShapes;
 pub use parts_list::{PartDensity, PartPlace, PartsList, PartsListItem};
 
-/// The pages of a sheet that show its models as an assembly of parts. Default: none.
+/// The pages of a sheet that show its models as an assembly of parts. There are none by default.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct AssemblyPages {
-    /// Whether to draw a parts list: on the page of the assembly if it fits there, otherwise on
-    /// separate pages.
+    /// Whether to draw a parts list: on the assembly page if it fits there, otherwise on separate
+    /// pages.
     pub parts_list: bool,
     /// Whether a page shows the assembly with balloons that contain the item numbers.
     pub balloons: bool,
     /// The settings for moving the parts apart on that page; `None` keeps them in place. An
-    /// exploded view has a page with or without balloons.
+    /// exploded view is drawn even without balloons.
     pub explosion: Option<ExplosionSettings>,
-    /// Whether each item of the list has a page with its principal views.
+    /// Whether each item in the list has a page with its principal views.
     pub part_sheets: bool,
-    /// The densities used for the masses in the list; without any, the list has no masses.
+    /// The densities used for the masses in the list; if empty, the list has no masses.
     pub densities: Vec<PartDensity>,
 }
 
@@ -52,7 +52,7 @@ impl AssemblyPages {
         self.balloons || self.explosion.is_some()
     }
 
-    /// Whether it has any page.
+    /// Whether the assembly has any pages.
     #[must_use]
     pub const fn has_pages(&self) -> bool {
         self.has_view() || self.parts_list || self.part_sheets

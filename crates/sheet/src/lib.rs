@@ -1,4 +1,4 @@
-//! Drawing sheets of models: orthographic views to scale, with dimensions and title block;
+//! Drawing sheets of models: orthographic views to scale, with dimensions and a title block, and
 //! assemblies with parts lists.
 //!
 //! ```text
@@ -29,7 +29,7 @@ pub use warning::{AssemblyWarning, DimensionFault, SheetLabelFault, SheetWarning
 /// A page of a sheet with its warnings.
 pub type SheetPage = page::Page<SheetWarning>;
 
-/// The example of the README, compiled as a documentation test.
+/// The README example, compiled as a documentation test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

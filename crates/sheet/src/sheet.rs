@@ -227,7 +227,7 @@ pub enum SheetError {
 /// If no view reaches this size, in millimeters of paper, the views cannot be read.
 const LEAST_DRAWING: f64 = 1.0;
 
-/// A length in whole units, or with an exponent if it has more than six digits.
+/// Returns a length in whole units, or with an exponent if it has more than six digits.
 fn in_few_digits(length: f64) -> String {
     if length < 1e6 { format!("{length:.0}") } else { format!("{length:.2e}") }
 }
@@ -334,7 +334,7 @@ impl Sheet {
         Ok(self.warnings_of_layout(&plan, &layout, &self.title_of(models)))
     }
 
-    /// The title of the drawing: from the title block, otherwise the model names.
+    /// Returns the title of the drawing: from the title block, otherwise the model names.
     fn title_of(&self, models: &[ModelInstance]) -> String {
         let own = &self.title_block.title;
         if own.is_empty() { model_names(models) } else { own.clone() }
@@ -381,7 +381,7 @@ impl Sheet {
         warnings
     }
 
-    /// The style of a view's lines.
+    /// Returns the style of a view's lines.
     ///
     /// Hidden lines are removed from axonometric views and from sectional views, where they would
     /// only confuse (ISO 128-3). Part hatchings are removed from cut views, where hatching marks
@@ -444,7 +444,7 @@ impl Sheet {
         page.layers.extend(title_block::title_block_layers(self, &title, scale, block, ink));
     }
 
-    /// The frame, with zones if requested; centering marks stop near contents.
+    /// Returns the frame, with zones if requested; centering marks stop near contents.
     fn frame_layers(&self, contents: &[Extent], ink: Ink) -> Vec<Layer> {
         let frame = frame::frame_layer(self.paper, self.frame, contents, ink);
         let zones = match self.frame {
@@ -454,7 +454,7 @@ impl Sheet {
         core::iter::once(frame).chain(zones).collect()
     }
 
-    /// The line group, or 0.5 mm if the style has other widths.
+    /// Returns the line group, or 0.5 mm if the style has other widths.
     fn line_width_group(&self) -> IsoLineGroup {
         match self.style.line_widths {
             LineWidths::Iso(group) => group,
@@ -462,12 +462,12 @@ impl Sheet {
         }
     }
 
-    /// The format of lengths.
+    /// Returns the format of lengths.
     fn length_format(&self) -> LengthFormat {
         LengthFormat { unit: self.dimension_unit, numbers: self.numbers }
     }
 
-    /// The character height in millimeters: a standard size (ISO 3098) for the line group.
+    /// Returns the character height in millimeters: a standard size (ISO 3098) for the line group.
     fn lettering_height(&self) -> f64 {
         match self.line_width_group().wide_width() {
             wide if wide < 0.4 => 2.5,
@@ -476,23 +476,23 @@ impl Sheet {
         }
     }
 
-    /// The area within the frame.
+    /// Returns the area within the frame.
     fn drawing_area(&self) -> Rectangle {
         frame::area_within_frame(self.paper)
     }
 
-    /// The usual area of the scale bar.
+    /// Returns the usual area of the scale bar.
     fn scale_bar_area(&self) -> Rectangle {
         scale_bar::scale_bar_areas(self)[0]
     }
 
-    /// The area of the title block: the lower right corner of the frame.
+    /// Returns the area of the title block: the lower right corner of the frame.
     fn title_block_area(&self) -> Rectangle {
         title_block::title_block_area(self, self.drawing_area())
     }
 }
 
-/// A rectangle from finite values; its sides are made positive.
+/// Returns a rectangle from finite values; its sides are made positive.
 fn rectangle_from_size(x: f64, y: f64, width: f64, height: f64) -> Rectangle {
     let fallback = || Rectangle::from_size(1.0, 1.0);
     let rectangle = Rectangle::new(x, y, width.max(1e-6), height.max(1e-6)).or_else(|_| fallback());

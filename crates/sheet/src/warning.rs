@@ -1,4 +1,4 @@
-//! Warnings about missing parts of a sheet, returned along with its pages.
+//! Warnings about what is missing from a sheet, returned along with its pages.
 
 mod assembly;
 mod dimension;
@@ -10,13 +10,14 @@ pub use dimension::DimensionFault;
 use drawing::Warning;
 use files::visible_excerpt;
 
-/// A part that a sheet lacks or could not compute, with the reason in its `Display` text.
+/// An element that is missing from a sheet or could not be computed. Its `Display` text gives the
+/// reason.
 ///
 /// Warnings are sorted and reported once each; see [`Warning`].
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum SheetWarning {
-    /// A part that a drawing on the sheet lacks.
+    /// A warning from a drawing on the sheet.
     Drawing(Warning),
     /// No principal view of a sheet sees a section plane face-on or edge-on.
     SectionOblique {
@@ -40,19 +41,19 @@ pub enum SheetWarning {
         /// The name of the section, such as `A-A`.
         section: String,
     },
-    /// A view overlaps another one, or the title block, at its given position.
+    /// A view overlaps another view or the title block at its requested position.
     ViewOverlaps {
         /// The name of the view, such as `isometric view`.
         view: String,
         /// The other view, or the title block.
         other: String,
     },
-    /// Sheets do not show an overlay of the scene.
+    /// Sheets do not show this overlay of the scene.
     OverlayNotOnSheets {
         /// The kind of overlay, such as `grid`.
         overlay: String,
     },
-    /// A point label or an axis name is missing from a view.
+    /// A point label or axis name is missing from a view.
     LabelNotInView {
         /// The text of the label.
         text: String,
@@ -63,20 +64,20 @@ pub enum SheetWarning {
     },
     /// The style of the scene shows surfaces, but a sheet is a line drawing.
     StyleIgnored,
-    /// A part that the pages of an assembly lack.
+    /// A warning about the assembly pages.
     Assembly(AssemblyWarning),
-    /// The models have no size, or only points: no view of a sheet has a line.
+    /// The models have no extent or only points, so no view has a line.
     NothingDrawn,
-    /// No view of a sheet is as large as a millimeter of paper.
+    /// Every view is smaller than a millimeter on paper.
     ViewsTiny,
 }
 
-/// The reason why a label is not in a view of a sheet.
+/// The reason why a label is missing from a view.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum SheetLabelFault {
     /// The point is too far from the models.
     Far,
-    /// The label would touch something at every position.
+    /// The label would overlap something at every position.
     NoRoom,
     /// The view has too many labels.
     TooMany,
@@ -102,7 +103,7 @@ impl SheetWarning {
         }
     }
 
-    /// The order of two warnings of the same kind.
+    /// Returns the order of two warnings of the same kind.
     fn compare_values(&self, other: &Self) -> Ordering {
         match (self, other) {
             (Self::Drawing(a), Self::Drawing(b)) => a.cmp(b),
@@ -120,7 +121,7 @@ impl SheetWarning {
         }
     }
 
-    /// The view, section and overlay names in a warning.
+    /// Returns the view, section and overlay names in a warning.
     fn texts(&self) -> [&str; 2] {
         match self {
             Self::ViewLeftOut { view: text }
@@ -176,8 +177,8 @@ impl fmt::Display for SheetWarning {
             }
             Self::CutLineNotShown { section } => write!(
                 f,
-                "no view of the sheet looks along the steps of section {section}, so none shows \
-                 its line"
+                "no view of the sheet looks along the steps of section {section}, so its cut line \
+                 is not shown"
             ),
             Self::ViewOverlaps { view, other } => write!(
                 f,

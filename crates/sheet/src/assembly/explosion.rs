@@ -1,37 +1,37 @@
 //! Exploded views: how far each part moves along an axis to be clear of all others.
 //!
 //! ```text
-//!   ┌──┐                      the largest part stays; every other one leaves on the side where its
-//!   └──┘        up, in the    way is free, those near first, beyond all that is in its way: what
-//!    ┆          order of      of other parts is in the column of its box
+//!   ┌──┐                      the largest part stays. Every other part leaves on its free side,
+//!   └──┘        up, in the    starting with the nearest, and moves beyond all parts in its way,
+//!    ┆          order of      that is, all parts in the column of its box
 //!   ┌──┐        their ends
 //!   └──┘
 //!  ┌────┐
 //!  └────┘  base
 //! ```
 //!
-//! The box of a moved part does not meet the parts placed before it, so no two parts intersect. The
-//! computation always ends.
+//! The box of a moved part does not touch any part that was placed earlier, so no two parts
+//! intersect. The computation always terminates.
 
 use super::part_shapes::{Column, Corners, PartShapes, PlacedPart};
 use super::removal::removal_sides;
 use glam::DVec3;
 
-/// The maximum number of parts to explode: each is compared with all earlier ones.
+/// The maximum number of parts to explode, because each part is compared with all earlier ones.
 pub(crate) const MAX_EXPLODED_PARTS: usize = 5000;
 
-/// The distance between parts, as a fraction of the diagonal of the assembly.
+/// The distance between parts, as a fraction of the assembly's diagonal.
 const DEFAULT_DISTANCE: f64 = 0.08;
 
-/// The maximum distance of the center of an aligned part from a line, as a fraction of that
+/// The maximum distance between the center of an aligned part and the line, as a fraction of that
 /// diagonal.
 const IN_LINE: f64 = 0.01;
 
 /// The direction in which the parts of an exploded view move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum ExplosionAxis {
-    /// Along the axis on which most parts are aligned with the largest one; if equal, the one along
-    /// which parts move the least.
+    /// Along the axis on which most parts are aligned with the largest one. In a tie, the axis
+    /// along which the parts move the least.
     #[default]
     Auto,
     /// To the left and to the right.
@@ -47,22 +47,22 @@ pub enum ExplosionAxis {
 /// Settings for moving the parts of an exploded view.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct ExplosionSettings {
-    /// The direction.
+    /// The direction of the moves.
     pub axis: ExplosionAxis,
     /// The minimum distance between parts in this direction, in scene units, not negative; `None`
-    /// for 0.08 of the diagonal of the assembly.
+    /// means 0.08 of the assembly's diagonal.
     pub distance: Option<f64>,
 }
 
 impl ExplosionSettings {
-    /// Returns the move of each part: 0 for the largest.
+    /// Returns the move of each part, which is zero for the largest.
     pub(crate) fn moves(&self, shapes: &PartShapes) -> Vec<DVec3> {
         let boxes = &shapes.boxes;
         let whole = boxes.iter().copied().reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
         let Some([low, high]) = whole else { return Vec::new() };
         let size = high - low;
         let gap = self.distance.unwrap_or(size.length() * DEFAULT_DISTANCE).max(0.0);
-        // Rounding could make touching parts overlap.
+        // Rounding could make parts that touch overlap.
         let gap = gap.max(size.length() * 1e-6);
         let base = largest(boxes);
         let axis = match self.axis {
@@ -76,7 +76,8 @@ impl ExplosionSettings {
     }
 }
 
-/// The moves of all parts away from the base, along one axis or each along its own axis.
+/// Returns the moves of all parts away from the base, either along one axis or each along its own
+/// axis.
 fn moves_along(shapes: &PartShapes, base: usize, axis: Option<usize>, gap: f64) -> Vec<DVec3> {
     let boxes = &shapes.boxes;
     let directions: Vec<Direction> =
@@ -91,8 +92,8 @@ fn moves_along(shapes: &PartShapes, base: usize, axis: Option<usize>, gap: f64) 
             (Direction { sign, ..directions[part] }, part)
         })
         .collect();
-    // From the base outward, so that each part clears those already placed. Part numbers break
-    // ties.
+    // Works outward from the base, so that each part clears the parts already placed. Part numbers
+    // break ties.
     order.sort_by(|(way, i), (other, k)| {
         way.distance(boxes[*i]).total_cmp(&other.distance(boxes[*k])).then(i.cmp(k))
     });
@@ -115,10 +116,10 @@ struct Direction {
 }
 
 impl Direction {
-    /// The direction of a part away from the base: along its axis, or along the axis on which it is
-    /// farthest from the base, relative to the size of the base.
+    /// Returns the direction of a part away from the base: along `axis` if set, otherwise along the
+    /// axis on which it is farthest from the base, relative to the base's size.
     ///
-    /// On that side a part extends farther beyond the base than on the other.
+    /// The part extends farther beyond the base in this direction than in the opposite one.
     fn away_from_base(part: Corners, base: Corners, axis: Option<usize>) -> Self {
         let away = (part[0] + part[1] - base[0] - base[1]) * 0.5;
         let half = (base[1] - base[0]) * 0.5;
@@ -136,16 +137,16 @@ impl Direction {
         DVec3::AXES[self.axis] * self.sign
     }
 
-    /// The distance from the center of the base to the farther end of a part. A part that extends
-    /// beyond another one is in its way, like the head of a bolt for the parts it holds.
+    /// Returns the distance from the center of the base to the far end of a part. A part whose end
+    /// is farther out blocks the parts below it, as the head of a bolt blocks the parts it holds.
     fn distance(self, part: Corners) -> f64 {
         (part[usize::from(self.sign > 0.0)][self.axis] - self.base) * self.sign
     }
 
-    /// The distance that the box of a part has to move to be beyond all parts in its column, at
-    /// least 0.
+    /// Returns how far the box of a part has to move to be beyond all parts in its column; never
+    /// negative.
     fn clearance(self, part: Corners, shapes: &PartShapes, placed: &[PlacedPart], gap: f64) -> f64 {
-        // At the border of a column, rounding must not decide.
+        // The margin keeps rounding from deciding whether a part at the border is in the column.
         let column = Column::new(part, self.axis, gap * 1e-3);
         let near = part[usize::from(self.sign < 0.0)][self.axis] * self.sign;
         let reaches = placed.iter().filter_map(|other| shapes.reach(*other, &column, self.sign));
@@ -153,7 +154,7 @@ impl Direction {
     }
 }
 
-/// The part with the largest box; the first one if equal.
+/// Returns the part with the largest box; the first of several equally large parts.
 fn largest(boxes: &[Corners]) -> usize {
     let size = |[low, high]: Corners| {
         let sides = high - low;
@@ -167,8 +168,8 @@ fn largest(boxes: &[Corners]) -> usize {
     (0..boxes.len()).reduce(greater).unwrap_or(0)
 }
 
-/// The axis on which most parts are aligned with the base; if equal, the one along which parts move
-/// the least, y before x before z.
+/// Returns the axis on which most parts are aligned with the base. In a tie, returns the axis along
+/// which the parts move the least, preferring y, then x, then z.
 fn axis_of_assembly(shapes: &PartShapes, base: usize, size: DVec3, gap: f64) -> usize {
     let boxes = &shapes.boxes;
     let center = |[low, high]: Corners| (low + high) * 0.5;
@@ -202,14 +203,14 @@ mod tests {
         [low.into(), high.into()]
     }
 
-    /// The moves of solid boxes.
+    /// Returns the moves of solid boxes.
     fn moves_of(settings: ExplosionSettings, boxes: &[Corners]) -> Vec<DVec3> {
         let triangles = vec![Vec::new(); boxes.len()];
         settings.moves(&PartShapes::from_raw(boxes.to_vec(), triangles))
     }
 
     #[test]
-    fn parts_leave_the_largest_in_their_order() {
+    fn parts_move_away_from_the_largest_in_order() {
         // A plate, a ring on it with a pin through both, and a nut below.
         let boxes = [
             boxed([-1.0, 2.0, -1.0], [1.0, 3.0, 1.0]),
@@ -219,16 +220,16 @@ mod tests {
         ];
         let settings = ExplosionSettings { axis: ExplosionAxis::Y, distance: Some(1.0) };
         let heights: Vec<f64> = moves_of(settings, &boxes).iter().map(|by| by.y).collect();
-        // The pin extends beyond the ring, so the ring moves first, to 3, then the pin to 5.
+        // The pin extends beyond the ring, so the ring moves first, to 3, and then the pin, to 5.
         assert_eq!(heights, [1.0, 0.0, 6.0, -1.0]);
     }
 
     #[test]
-    fn parts_beside_each_other_move_alike() {
+    fn parts_side_by_side_move_equally_far() {
         let bolt = |x: f64| boxed([x - 1.0, 1.0, -0.5], [x + 1.0, 4.0, 0.5]);
         let boxes = [boxed([-9.0, 0.0, -9.0], [9.0, 2.0, 9.0]), bolt(-5.0), bolt(0.0), bolt(5.0)];
         let settings = ExplosionSettings { axis: ExplosionAxis::Auto, distance: Some(0.5) };
-        // One bolt is aligned with the plate along y; all move by the same distance.
+        // One bolt is aligned with the plate along y. All bolts move by the same distance.
         assert_eq!(moves_of(settings, &boxes)[1..], [DVec3::Y * 1.5; 3]);
         let settings = ExplosionSettings { axis: ExplosionAxis::Y, distance: Some(0.5) };
         assert_eq!(moves_of(settings, &boxes)[1..], [DVec3::Y * 1.5; 3]);
@@ -261,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn one_part_or_none_stays() {
+    fn a_single_part_does_not_move() {
         let settings = ExplosionSettings::default();
         assert!(moves_of(settings, &[]).is_empty());
         assert_eq!(moves_of(settings, &[boxed([0.0; 3], [0.0; 3])]), [DVec3::ZERO]);

@@ -1,8 +1,9 @@
-//! Equal parts: parts with the same triangles, lines and materials at the same size, in any place.
+//! Identical parts: parts with the same triangles, lines and materials at the same size, wherever
+//! they are.
 //!
 //! Meshes are compared by content, so copies in a file count as one part. A mirror image is a
-//! different part. Meshes with the same shape but different vertex positions in the file are
-//! different here, because positions are compared as they are.
+//! different part. Meshes that have the same shape but different vertex positions in the file count
+//! as different, because positions are compared as stored.
 
 use super::part::{Part, drawn_primitives};
 use glam::DMat3;
@@ -10,29 +11,31 @@ use model::{MeshInstance, Model, ModelInstance, Primitive};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// The maximum relative difference between lengths and angles of equal parts, due to rounding.
+/// The maximum relative difference, due to rounding, between the lengths and angles of identical
+/// parts.
 const SHAPE_TOLERANCE: f64 = 1e-5;
 
-/// The maximum number of sizes of a mesh that are compared: beyond that, each is a separate part.
+/// The maximum number of sizes of a mesh that are compared. Each further size counts as a separate
+/// part.
 const MAX_SIZES: usize = 1000;
 
 /// A size of a mesh content: its linear map, whether it is mirrored, and its class number.
 type SizeClass = (DMat3, bool, usize);
 
-/// Finds equal parts: two parts have the same number if they are equal.
+/// Assigns the same class number to identical parts.
 pub(super) struct PartClasses<'a> {
     models: &'a [ModelInstance],
-    /// Contents by digest: a part with this content, and the content's number.
+    /// Mesh contents by digest: the model index and instance of the first part with the content.
     contents: BTreeMap<u64, Vec<(usize, MeshInstance)>>,
-    /// The digests of undeformed meshes, by the first model that has them.
+    /// The content keys of undeformed meshes, by the first model with the mesh and the mesh index.
     rigid: BTreeMap<(usize, usize), (u64, usize)>,
-    /// The sizes of a content, and the number of each class.
+    /// The sizes that occur for each content, with their class numbers.
     sizes: BTreeMap<(u64, usize), Vec<SizeClass>>,
     count: usize,
 }
 
 impl<'a> PartClasses<'a> {
-    /// Starts without classes.
+    /// Creates an empty set of classes.
     pub(super) fn new(models: &'a [ModelInstance]) -> Self {
         Self {
             models,
@@ -60,10 +63,12 @@ impl<'a> PartClasses<'a> {
         class
     }
 
-    /// The digest of a part's mesh, and its number among the contents with this digest.
+    /// Returns the digest of a part's mesh and the index of its content among those with this
+    /// digest.
     fn content_of(&mut self, part: &Part) -> (u64, usize) {
         let model = &self.models[part.model].model;
-        // Instances of one model share its meshes, and therefore the cache entry of the first.
+        // Instances of one model share its meshes, so they use the cache entry of the first
+        // instance.
         let is_same = |other: &ModelInstance| Arc::ptr_eq(&other.model, model);
         let first = self.models.iter().take(part.model).position(is_same).unwrap_or(part.model);
         let node = &model.nodes[part.instance.node];
@@ -76,7 +81,7 @@ impl<'a> PartClasses<'a> {
         }
         let digest = digest_of_mesh(model, part.instance);
         let same_digest = self.contents.entry(digest).or_default();
-        // Digests may collide, so the contents are compared too.
+        // Digests may collide, so the contents are compared as well.
         let is_equal = |(number, instance): &(usize, MeshInstance)| {
             let other = &self.models[*number].model;
             meshes_are_equal(model, part.instance, other, *instance)
@@ -98,14 +103,14 @@ fn are_close(a: DMat3, b: DMat3) -> bool {
     (a - b).to_cols_array().iter().all(|difference| difference.abs() <= SHAPE_TOLERANCE * size)
 }
 
-/// The material of a primitive as distinguished in a list: its name and base color.
+/// Returns the material properties that distinguish parts in a list: the name and base color.
 fn material_key<'a>(model: &'a Model, primitive: &Primitive) -> (Option<&'a str>, [u32; 4]) {
     let material = primitive.material.and_then(|index| model.materials.get(index));
     let color = material.map_or([1.0; 4], |material| material.base_color);
     (material.and_then(|material| material.name.as_deref()), color.map(f32::to_bits))
 }
 
-/// A digest shared by equal meshes (Fowler, Noll and Vo, by words).
+/// Returns a digest that identical meshes share (Fowler–Noll–Vo, word by word).
 fn digest_of_mesh(model: &Model, instance: MeshInstance) -> u64 {
     let mut digest = 0xcbf2_9ce4_8422_2325_u64;
     let mut add = |word: u32| {

@@ -7,15 +7,15 @@ use model::{MeshInstance, Model, ModelInstance, Primitive, SkinnedPrimitive, Top
 /// A node with a mesh that has lines or triangles, once for each instance of the mesh.
 #[derive(Clone, Debug)]
 pub(crate) struct Part {
-    /// The name on one line: see [`part_name`].
+    /// The name, on one line; see [`part_name`].
     pub(crate) name: String,
     /// The index of its object in drawings of the same models.
     pub(crate) object: u32,
     /// The index of its model.
     pub(crate) model: usize,
-    /// The node and its place in the model.
+    /// The node and its transform in the model.
     pub(crate) instance: MeshInstance,
-    /// Its bounding box in the world.
+    /// Its bounding box in world space.
     pub(crate) bounds: Bounds<World>,
 }
 
@@ -37,7 +37,7 @@ pub(crate) fn gather_parts(models: &[ModelInstance]) -> Vec<Part> {
     parts
 }
 
-/// The primitives of a mesh instance that have lines or triangles.
+/// Returns the primitives of a mesh instance that have lines or triangles.
 pub(crate) fn drawn_primitives(
     model: &Model,
     instance: MeshInstance,
@@ -47,7 +47,8 @@ pub(crate) fn drawn_primitives(
     primitives.filter(|one| one.topology != Topology::Points && one.item_count() > 0)
 }
 
-/// The bounding box of the vertices used by lines and triangles; `None` without any.
+/// Returns the bounding box of the vertices used by lines and triangles, or `None` if there are
+/// none.
 fn part_bounds(placed: &ModelInstance, instance: MeshInstance) -> Option<Bounds<World>> {
     let mut extent: Option<[DVec3; 2]> = None;
     for primitive in drawn_primitives(&placed.model, instance) {
@@ -68,7 +69,7 @@ fn part_bounds(placed: &ModelInstance, instance: MeshInstance) -> Option<Bounds<
 }
 
 impl Part {
-    /// The map from its vertex positions, after skinning, to the world.
+    /// Returns the transform from skinned vertex positions to world space.
     pub(crate) fn to_world(
         &self,
         models: &[ModelInstance],
@@ -77,21 +78,21 @@ impl Part {
         skinned.to_model.then(models[self.model].model_to_world)
     }
 
-    /// The lengths and angles of the part's axes in the world (the Gram matrix of the linear part),
-    /// and whether the part is mirrored.
+    /// Returns the lengths and angles of the part's axes in world space (the Gram matrix of the
+    /// linear map), and whether the part is mirrored.
     pub(crate) fn shape(&self, models: &[ModelInstance]) -> (DMat3, bool) {
         let to_world = self.instance.node_to_model.then(models[self.model].model_to_world).raw();
         let linear = DMat3::from_mat4(to_world);
         (linear.transpose() * linear, linear.determinant() < 0.0)
     }
 
-    /// Whether it contains lines.
+    /// Whether the part contains lines.
     pub(crate) fn has_lines(&self, models: &[ModelInstance]) -> bool {
         let mut primitives = drawn_primitives(&models[self.model].model, self.instance);
         primitives.any(|primitive| primitive.topology != Topology::Triangles)
     }
 
-    /// Calls `visit` with each triangle of the part in the world.
+    /// Calls `visit` with each triangle of the part, in world space.
     pub(crate) fn for_each_triangle(
         &self,
         models: &[ModelInstance],
@@ -114,8 +115,8 @@ impl Part {
     }
 }
 
-/// The name of a part: from its node, its mesh, or the nearest named ancestor; otherwise from the
-/// model if it has no other part; otherwise `part`.
+/// Returns the name of a part: the name of its node, its mesh, or the nearest named ancestor.
+/// Otherwise returns the model's name if the model has no other part, or `part`.
 fn part_name(model: &Model, node: usize, is_alone: bool) -> String {
     let own = model.nodes[node].name.as_deref();
     let mesh = || model.nodes[node].mesh.and_then(|mesh| model.meshes[mesh].name.as_deref());
@@ -123,7 +124,7 @@ fn part_name(model: &Model, node: usize, is_alone: bool) -> String {
     if let Some(name) = candidates.map(one_line).find(|name| !name.is_empty()) {
         return name;
     }
-    // The importer rejects cycles; the count is a bound all the same.
+    // The importer rejects cycles, but the count limits the loop in any case.
     let mut above = model.nodes[node].parent;
     for _ in 0..model.nodes.len() {
         let Some(parent) = above.and_then(|parent| model.nodes.get(parent)) else { break };
@@ -137,7 +138,7 @@ fn part_name(model: &Model, node: usize, is_alone: bool) -> String {
     if is_alone && !name.is_empty() { name } else { "part".to_owned() }
 }
 
-/// Removes control characters and direction marks from a text and separates its words by single
+/// Removes control characters and direction marks from a string and separates its words with single
 /// spaces.
 pub(crate) fn one_line(text: &str) -> String {
     let is_mark = |c: char| matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}');
@@ -164,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn a_part_without_a_name_has_that_of_the_next_node_above() {
+    fn an_unnamed_part_has_the_name_of_its_nearest_named_ancestor() {
         let node = |name: Option<&str>, parent, mesh| Node {
             name: name.map(str::to_owned),
             parent,

@@ -1,4 +1,4 @@
-//! Models of parts: a single part, or all parts moved apart, with their paths.
+//! Part models: a single part, or all parts moved apart with their paths.
 
 use super::explosion::ExplosionSettings;
 use super::part::{Part, drawn_primitives, gather_parts};
@@ -11,10 +11,10 @@ use std::sync::Arc;
 /// The name of the object with the paths of an exploded view.
 pub(crate) const PATHS: &str = "paths";
 
-/// Builds a model of a single part, around the origin: in its own coordinates, with its axes turned
-/// to the nearest world axes.
+/// Builds a model of a single part in its own coordinates, with its axes turned to the nearest
+/// world axes.
 ///
-/// A part that is oblique in the assembly is drawn straight.
+/// A part that is tilted in the assembly is therefore drawn straight.
 pub(crate) fn part_model(part: &Part, models: &[ModelInstance]) -> ModelInstance {
     let to_world = part.instance.node_to_model.then(models[part.model].model_to_world).raw();
     let (axes, scale) = orthonormal_axes(DMat3::from_mat4(to_world));
@@ -29,11 +29,11 @@ pub(crate) fn part_model(part: &Part, models: &[ModelInstance]) -> ModelInstance
     ModelInstance { model: Arc::new(model), model_to_world }
 }
 
-/// Moves the parts of models apart for an exploded view: one object for each part, and a last one
-/// for the straight paths of the moved parts.
+/// Moves the parts of models apart for an exploded view: one object for each part, then one for the
+/// straight paths of the moved parts.
 ///
 /// The largest part stays. Every other part leaves on the side where the fewest parts are in its
-/// way; afterward no two parts intersect.
+/// way. In the result, no two parts intersect.
 #[must_use]
 pub fn explode_models(
     models: &[ModelInstance],
@@ -43,8 +43,7 @@ pub fn explode_models(
     exploded_models(models, &parts, &settings.moves(&PartShapes::new(&parts, models)))
 }
 
-/// Moves every part, in the order of the parts, and adds the straight paths of the moved parts as
-/// lines of a last object.
+/// Moves every part and appends an object whose lines are the straight paths of the moved parts.
 pub(crate) fn exploded_models(
     models: &[ModelInstance],
     parts: &[Part],
@@ -88,9 +87,9 @@ pub(crate) fn exploded_models(
     exploded
 }
 
-/// The paths of the centers of moved parts, as lines; `None` if nothing moved.
+/// Returns the paths of the moved parts' centers, as lines, or `None` if nothing moved.
 fn path_model(parts: &[Part], moves: &[DVec3]) -> Option<ModelInstance> {
-    // Positions are f32: relative to a point of the scene they keep their precision.
+    // Positions are `f32`; relative to a point in the scene they keep their precision.
     let about = parts.first()?.bounds.center().raw();
     let moved = parts.iter().zip(moves).filter(|(_, by)| by.length() > 0.0);
     let ends = moved.flat_map(|(part, by)| {
@@ -109,8 +108,8 @@ fn path_model(parts: &[Part], moves: &[DVec3]) -> Option<ModelInstance> {
     Some(ModelInstance { model, model_to_world: Affine::translation(Vector::from_raw(about)) })
 }
 
-/// A mesh of the lines and triangles of a part, skinned and morphed; parts deformed by a skin are
-/// in model space.
+/// Returns a mesh of the lines and triangles of a part, skinned and morphed. Skinned parts are in
+/// model space.
 fn part_mesh(part: &Part, models: &[ModelInstance]) -> Mesh {
     let model = &models[part.model].model;
     let has_skin = model.nodes[part.instance.node].skin.is_some();
@@ -137,7 +136,7 @@ fn part_mesh(part: &Part, models: &[ModelInstance]) -> Mesh {
     Mesh { primitives, ..Mesh::default() }
 }
 
-/// A model with one node per mesh and the materials of another model.
+/// Returns a model with one node per mesh and the materials of another model.
 fn model_of_meshes(meshes: Vec<Mesh>, name: &str, source: &Model) -> Model {
     let count = meshes.len();
     let mut model = Model {
@@ -153,14 +152,14 @@ fn model_of_meshes(meshes: Vec<Mesh>, name: &str, source: &Model) -> Model {
 
 /// Appends a root node.
 fn push_node(model: &mut Model, name: &str, mesh: Option<usize>, to_model: DMat4) {
-    // A matrix that is not finite is skipped, like a vertex that is not: the part is not visible.
+    // A part whose matrix is not finite is skipped, as are vertices that are not finite.
     let to_model = Affine::<ModelSpace, ModelSpace>::from_raw(to_model).unwrap_or(Affine::IDENTITY);
     model.roots.push(model.nodes.len());
     let (name, to_parent) = (Some(name.to_owned()), to_model);
     model.nodes.push(Node { name, mesh, to_parent, to_model, trs: None, ..Node::default() });
 }
 
-/// The material properties that drawings show: names and colors.
+/// Returns the material properties that drawings show: names and colors.
 fn plain_materials(source: &Model) -> Vec<Material> {
     let plain = |material: &Material| Material {
         name: material.name.clone(),
@@ -170,9 +169,10 @@ fn plain_materials(source: &Model) -> Vec<Material> {
     source.materials.iter().map(plain).collect()
 }
 
-/// Orthonormal axes along the columns of a matrix (Gram and Schmidt), and the matrix in these axes.
+/// Returns orthonormal axes along the columns of a matrix (Gram–Schmidt), and the matrix in these
+/// axes.
 ///
-/// Columns without a direction get one perpendicular to the others.
+/// Zero columns get a direction perpendicular to the others.
 fn orthonormal_axes(linear: DMat3) -> (DMat3, DMat3) {
     let x = linear.x_axis.normalize_or(DVec3::X);
     let across = linear.y_axis - x * x.dot(linear.y_axis);
@@ -182,7 +182,7 @@ fn orthonormal_axes(linear: DMat3) -> (DMat3, DMat3) {
     (axes, axes.transpose() * linear)
 }
 
-/// The nearest axes parallel to world axes, assigned in order of how clear the choice is.
+/// Returns the nearest axes parallel to world axes, assigning the clearest choice first.
 fn nearest_axes(axes: DMat3) -> DMat3 {
     let mut pairs: Vec<(f64, usize, usize)> = (0..3)
         .flat_map(|column| (0..3).map(move |row| (axes.col(column)[row], column, row)))
@@ -203,7 +203,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn askew_axes_turn_to_those_of_the_world() {
+    fn tilted_axes_turn_to_the_world_axes() {
         for (angle, about_y) in [(0.0, 0.0), (0.3, 0.2), (1.3, 0.0), (-0.6, 3.0)] {
             let turn = DMat3::from_mat4(
                 (Affine::<World, World>::rotation_z(angle)

@@ -2,8 +2,8 @@
 //! of a grid.
 //!
 //! ```text
-//!        ┆ column ┆              a column is the cross-section of a box, without ends;
-//!   ┌────┆───┐    ┆              triangles are clipped to it, so that the result is exact
+//!        ┆ column ┆              a column is the cross-section of a box, unbounded along the axis;
+//!   ┌────┆───┐    ┆              triangles are clipped to it, so the result is exact
 //!   │    ┆   └────┆──┐ ◄ reach
 //!   └────┆────────┆──┘
 //! ```
@@ -16,27 +16,28 @@ use std::cell::Cell;
 /// A box, as its minimum and maximum corners.
 pub(super) type Corners = [DVec3; 2];
 
-/// A part index, and how far the part has moved from its place.
+/// A part index, and how far the part has moved from its original position.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlacedPart {
     pub(super) part: usize,
     pub(super) by: DVec3,
 }
 
-/// The maximum number of stored triangles, 72 bytes each; further parts are represented by boxes.
+/// The maximum number of stored triangles, at 72 bytes each. Boxes represent the remaining parts.
 const MAX_TRIANGLES: usize = 4_000_000;
 
-/// The maximum number of triangles compared with columns; after that, boxes represent parts.
+/// The maximum number of triangles compared with columns; after that, parts are compared as boxes.
 const MAX_VISITS: u64 = 1 << 30;
 
-/// The cells of a grid along each side of a column.
+/// The number of grid cells along each side of a column.
 const CELLS: usize = 16;
 
 /// The boxes and world-space triangles of parts.
 #[derive(Debug)]
 pub(crate) struct PartShapes {
     pub(super) boxes: Vec<Corners>,
-    /// Empty for parts with lines and beyond [`MAX_TRIANGLES`]: these are solid boxes.
+    /// Empty for parts with lines and for parts beyond [`MAX_TRIANGLES`], which count as solid
+    /// boxes.
     triangles: Vec<Vec<[DVec3; 3]>>,
     visits_left: Cell<u64>,
 }
@@ -70,15 +71,15 @@ impl PartShapes {
         Self { boxes, triangles, visits_left: Cell::new(MAX_VISITS) }
     }
 
-    /// Takes visits from the rest; `false` if there are not enough.
+    /// Takes visits from the remaining budget, and returns `false` if there are too few.
     pub(super) fn take_visits(&self, count: usize) -> bool {
         let left = self.visits_left.get();
         self.visits_left.set(left.saturating_sub(count as u64));
         count as u64 <= left
     }
 
-    /// The farthest extent of a placed part within a column, in the direction of `sign`; `None` if
-    /// it is outside the column.
+    /// Returns how far a placed part extends within a column in the direction of `sign`, or `None`
+    /// if it is outside the column.
     pub(super) fn reach(&self, placed: PlacedPart, column: &Column, sign: f64) -> Option<f64> {
         let PlacedPart { part, by } = placed;
         let corners = self.boxes[part].map(|corner| corner + by);
@@ -101,7 +102,7 @@ impl PartShapes {
         reach
     }
 
-    /// The lowest and highest points of a part in the cells of a column.
+    /// Returns the lowest and highest points of a part in the cells of a column.
     pub(super) fn heights(&self, part: usize, column: &Column) -> CellHeights {
         let mut heights = CellHeights::default();
         for triangle in &self.triangles[part] {
@@ -113,7 +114,7 @@ impl PartShapes {
         heights
     }
 
-    /// The number of triangles of a part.
+    /// Returns the number of triangles of a part.
     pub(super) fn triangle_count(&self, part: usize) -> usize {
         self.triangles[part].len()
     }
@@ -137,7 +138,7 @@ impl Column {
         Self { axis, across, low, high }
     }
 
-    /// Whether a box is partly in the column.
+    /// Whether a box is at least partly in the column.
     pub(super) fn meets(&self, other: Corners) -> bool {
         (0..2).all(|k| {
             let axis = self.across[k];
@@ -145,8 +146,8 @@ impl Column {
         })
     }
 
-    /// The farthest extent of a triangle within the column; clipped side by side (Sutherland and
-    /// Hodgman).
+    /// Returns how far a triangle extends within the column, after clipping it to one side at a
+    /// time (Sutherland–Hodgman).
     fn reach_of_triangle(&self, corners: [DVec3; 3], sign: f64) -> Option<f64> {
         let outside = |k: usize| {
             let along = corners.map(|corner| corner[self.across[k]]);
@@ -164,7 +165,7 @@ impl Column {
         polygon.into_iter().map(|corner| corner[self.axis] * sign).reduce(f64::max)
     }
 
-    /// The center of a cell.
+    /// Returns the center of a cell.
     fn cell_center(&self, cell: [usize; 2]) -> [f64; 2] {
         [0, 1].map(|k| {
             let part = (cell[k] as f64 + 0.5) / CELLS as f64;
@@ -172,7 +173,7 @@ impl Column {
         })
     }
 
-    /// The cells whose centers may be between two coordinates across the column.
+    /// Returns the cells whose centers may be between two coordinates across the column.
     fn cells_between(&self, k: usize, low: f64, high: f64) -> std::ops::Range<usize> {
         let size = (self.high[k] - self.low[k]) / CELLS as f64;
         if size <= 0.0 {
@@ -185,7 +186,7 @@ impl Column {
     }
 }
 
-/// Keeps the part of a polygon where a linear function is not negative.
+/// Clips a polygon to the half-space where a linear function is not negative.
 fn clip_polygon(polygon: &mut Vec<DVec3>, inside: impl Fn(DVec3) -> f64) {
     let mut clipped = Vec::with_capacity(polygon.len() + 1);
     for (index, &corner) in polygon.iter().enumerate() {
@@ -201,7 +202,8 @@ fn clip_polygon(polygon: &mut Vec<DVec3>, inside: impl Fn(DVec3) -> f64) {
     *polygon = clipped;
 }
 
-/// The lowest and highest points at the center of each cell; empty intervals outside the part.
+/// The lowest and highest points at the center of each cell; the interval is empty outside the
+/// part.
 #[derive(Clone, Debug)]
 pub(super) struct CellHeights(pub(super) [[f64; 2]; CELLS * CELLS]);
 
@@ -212,7 +214,7 @@ impl Default for CellHeights {
 }
 
 impl CellHeights {
-    /// The number of occupied cells.
+    /// Returns the number of occupied cells.
     pub(super) fn count(&self) -> usize {
         self.0.iter().filter(|[low, high]| low <= high).count()
     }
@@ -223,7 +225,7 @@ impl CellHeights {
         *cell = [cell[0].min(height), cell[1].max(height)];
     }
 
-    /// Adds both ends of a box.
+    /// Adds the bottom and the top of a box.
     pub(super) fn add_box(&mut self, [low, high]: Corners, column: &Column) {
         let [across, up] = column.across;
         for row in column.cells_between(1, low[up], high[up]) {
@@ -237,7 +239,7 @@ impl CellHeights {
         }
     }
 
-    /// Adds the heights of a triangle at cell centers; none if it is seen edge-on.
+    /// Adds the heights of a triangle at the cell centers. A triangle seen edge-on adds none.
     fn add_triangle(&mut self, corners: &[DVec3; 3], column: &Column) {
         let flat = corners.map(|corner| column.across.map(|axis| corner[axis]));
         let extent = |k: usize| {
@@ -275,7 +277,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_part_reaches_as_far_as_its_surface_in_the_column() {
+    fn reach_ends_at_the_surface_within_the_column() {
         // A ramp: from height 0 at x = 0 to 10 at x = 10.
         let ramp = [DVec3::ZERO, DVec3::new(10.0, 10.0, -5.0), DVec3::new(10.0, 10.0, 5.0)];
         let corners = [DVec3::new(0.0, 0.0, -5.0), DVec3::new(10.0, 10.0, 5.0)];
@@ -297,12 +299,13 @@ mod tests {
     }
 
     #[test]
-    fn a_part_without_triangles_is_its_box() {
+    fn a_part_without_triangles_is_treated_as_its_box() {
         let corners = [DVec3::ZERO, DVec3::ONE];
         let shapes = PartShapes::from_raw(vec![corners], vec![Vec::new()]);
         let column = Column::new([DVec3::splat(0.5), DVec3::splat(2.0)], 2, 0.0);
         assert_eq!(shapes.reach(PlacedPart { part: 0, by: DVec3::Z }, &column, 1.0), Some(2.0));
-        // The column is from 0.5 to 2: a third of its cells in each direction are over the box.
+        // The column extends from 0.5 to 2, so a third of its cells in each direction are over the
+        // box.
         assert_eq!(shapes.heights(0, &column).count(), 25);
     }
 }

@@ -1,4 +1,4 @@
-//! Parts lists: counts of equal parts, with names, materials and masses (ISO 7573).
+//! Parts lists: counts of identical parts, with names, materials and masses (ISO 7573).
 
 use super::geometry::PartClasses;
 use super::part::{Part, drawn_primitives, gather_parts, one_line};
@@ -10,39 +10,39 @@ use std::collections::BTreeMap;
 /// The density of a material, or of the parts with a given name.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PartDensity {
-    /// The name of a material or of a part, or `*` for everything without its own density.
+    /// The name of a material or a part, or `*` for all parts without a more specific density.
     pub of: String,
-    /// Grams per cubic centimeter, equal to tons per cubic meter: about 7.85 for steel.
+    /// Grams per cubic centimeter (tonnes per cubic meter), about 7.85 for steel.
     pub grams_per_cubic_centimeter: f64,
 }
 
-/// A list of the parts of models.
+/// A parts list of models.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct PartsList {
     /// The items, numbered from 1, in the order of their first nodes in the models.
     pub items: Vec<PartsListItem>,
-    /// Whether densities were given, so items may have masses.
+    /// Whether densities were specified, so that items may have masses.
     pub has_masses: bool,
-    /// Warnings about items without the mass that their density should give.
+    /// Warnings about items that have a density but no computable mass.
     pub warnings: Vec<SheetWarning>,
 }
 
 /// An item of a parts list: a part and its quantity.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PartsListItem {
-    /// The number, from 1.
+    /// The item number, from 1.
     pub number: usize,
-    /// The number of equal parts.
+    /// The number of identical parts.
     pub quantity: usize,
     /// The name, on one line.
     pub name: String,
-    /// Its material names, joined by commas; empty without any.
+    /// Its material names, joined by commas; empty if it has none.
     pub material: String,
     /// The mass of a single part in grams.
     pub mass: Option<f64>,
-    /// The indices of their objects in drawings of the models.
+    /// The object indices of the parts in drawings of the models.
     pub objects: Vec<u32>,
-    /// Their places in the models, in the order of `objects`.
+    /// The places of the parts in the models, in the order of `objects`.
     pub places: Vec<PartPlace>,
 }
 
@@ -58,7 +58,7 @@ pub struct PartPlace {
 }
 
 impl PartPlace {
-    /// The place of a part in these models.
+    /// Returns the place of a part in these models.
     fn from_part(part: &Part, models: &[ModelInstance]) -> Self {
         let nodes = &models[part.model].model.nodes;
         let name = |node: usize| {
@@ -66,7 +66,7 @@ impl PartPlace {
             own.map_or_else(|| format!("node {node}"), str::to_owned)
         };
         let above = |node: &usize| nodes[*node].parent.filter(|parent| *parent < nodes.len());
-        // The importer rejects cycles; the count is a bound all the same.
+        // The importer rejects cycles, but the count limits the loop in any case.
         let chain = core::iter::successors(Some(part.instance.node), above).take(nodes.len());
         let mut path: Vec<String> = chain.map(name).collect();
         path.reverse();
@@ -75,11 +75,11 @@ impl PartPlace {
 }
 
 impl PartsList {
-    /// Lists the parts of models, given the number of millimeters per unit.
+    /// Lists the parts of models at this number of millimeters per unit.
     ///
-    /// Parts are one item if their meshes have the same positions, indices and materials at the
-    /// same size, and if their names are equal except for a number at the end: `bolt.001` and
-    /// `bolt.002` are two bolts.
+    /// Parts share an item if their meshes have the same positions, indices and materials at the
+    /// same size, and if their names differ at most in a trailing number: `bolt.001` and `bolt.002`
+    /// are two bolts.
     #[must_use]
     pub fn new(
         models: &[ModelInstance],
@@ -101,7 +101,8 @@ impl PartsList {
         let mut known: BTreeMap<(usize, &str), usize> = BTreeMap::new();
         let mut groups: Vec<Vec<&Part>> = Vec::new();
         for part in parts {
-            // Programs number the copies of a part, as in `bolt.001`; they are still one item.
+            // Modeling programs number the copies of a part, as in `bolt.001`, but the copies are
+            // one item.
             let key = (classes.class_of(part), without_number(&part.name));
             let group = *known.entry(key).or_insert(groups.len());
             if group == groups.len() {
@@ -115,8 +116,8 @@ impl PartsList {
         for (group, number) in groups.iter().zip(1..) {
             let (name, materials) = (common_name(group), material_names(group[0], models));
             let density = find_density(densities, &name, &materials);
-            // The volume takes a pass over the mesh, so it is computed only where a density needs
-            // it.
+            // Computing the volume takes a pass over the mesh, so this is done only if there is a
+            // density.
             let volume = density.and_then(|_| part_volume(group[0], models));
             if density.is_some() && volume.is_none() {
                 warnings.push(SheetWarning::Assembly(AssemblyWarning::MassUnknown {
@@ -157,9 +158,9 @@ impl PartsList {
     }
 }
 
-/// A field of a CSV file, in quotation marks if needed.
+/// Returns a CSV field, quoted if necessary.
 ///
-/// Spreadsheets run text that begins like a formula, even from untrusted files; a leading
+/// Spreadsheets evaluate text that begins like a formula, even in untrusted files. A leading
 /// apostrophe marks it as text.
 fn csv_field(text: &str) -> String {
     if text.starts_with(['=', '+', '-', '@', '\t', '\r']) {
@@ -169,7 +170,8 @@ fn csv_field(text: &str) -> String {
     if needs_quotes { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
-/// The density of a part: by its name, by its only material, or the default for all parts.
+/// Returns the density of a part: the density for its name, for its only material, or the default
+/// for all parts.
 fn find_density<'a>(
     densities: &'a [PartDensity],
     name: &str,
@@ -180,7 +182,7 @@ fn find_density<'a>(
     of(name).or_else(of_material).or_else(|| of("*"))
 }
 
-/// A part's material names, without duplicates.
+/// Returns a part's material names, without duplicates.
 fn material_names(part: &Part, models: &[ModelInstance]) -> Vec<String> {
     let model = &models[part.model].model;
     let mut names: Vec<String> = Vec::new();
@@ -194,19 +196,19 @@ fn material_names(part: &Part, models: &[ModelInstance]) -> Vec<String> {
     names
 }
 
-/// Whether a character separates a name from the number of a copy.
+/// Whether a character may separate a name from a copy number.
 fn is_separator(character: char) -> bool {
     matches!(character, ' ' | '.' | '_' | '-' | ':' | '#')
 }
 
-/// Removes the number of a copy from the end of a name: `bolt.001` becomes `bolt`.
+/// Removes the copy number from the end of a name: `bolt.001` becomes `bolt`.
 fn without_number(name: &str) -> &str {
     let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
     if stem.len() == name.len() { name } else { stem.trim_end_matches(is_separator) }
 }
 
-/// The common name of parts: their name if they agree, otherwise their common prefix, without copy
-/// numbers.
+/// Returns the common name of parts: their name if all are the same, otherwise their common prefix,
+/// without copy numbers.
 fn common_name(parts: &[&Part]) -> String {
     let first = parts[0].name.as_str();
     if parts.iter().all(|part| part.name == first) {
@@ -239,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn copies_have_their_name_in_common() {
+    fn copies_share_a_name_without_their_numbers() {
         for (names, stem, common) in [
             (["bolt.001", "bolt.002"], "bolt", "bolt"),
             (["bolt", "bolt.001"], "bolt", "bolt"),
@@ -257,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn fields_of_a_csv_file_are_quoted() {
+    fn csv_fields_are_quoted_if_necessary() {
         for (text, field) in [
             ("plain", "plain"),
             ("a, b", "\"a, b\""),
@@ -269,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn no_field_of_a_csv_file_is_a_formula() {
+    fn csv_fields_are_never_formulas() {
         for text in ["=1+1", "+1", "-1", "@sum(a1)", "\tx", "\rx"] {
             assert_eq!(csv_field(text), format!("\"'{text}\""));
         }

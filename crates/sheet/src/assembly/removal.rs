@@ -1,42 +1,43 @@
-//! Order of removal: the sides on which parts can leave an assembly without collisions.
+//! Removal order: the sides on which parts can leave an assembly without collisions.
 //!
 //! ```text
-//!     ┌─┐ bolt          upward nothing is above the bolt; downward the plate is in the way of its
-//!   ┌─┤ ├─┐             head. Once the bolt is gone, the plate can follow.
+//!     ┌─┐ bolt          nothing blocks the bolt upward, but downward the plate blocks its head.
+//!   ┌─┤ ├─┐             Once the bolt is gone, the plate can follow.
 //!   └─┤ ├─┘ plate
 //!     └─┘
 //! ```
 //!
-//! A part is in the way of another if it is ahead of it in more than a few cells of a grid across
-//! the axis. Parts are removed one by one, as soon as nothing is in their way, on the preferred
-//! side if possible. If no part can leave, the least hindered one leaves first.
+//! A part blocks another if it is ahead of it in more than a few cells of a grid across the axis.
+//! Parts are removed one by one as soon as nothing blocks them, on the preferred side if possible.
+//! If no part can leave, the least hindered part leaves first.
 
 use super::part_shapes::{CellHeights, Column, PartShapes};
 use std::collections::VecDeque;
 
-/// A part that covers at most this fraction of another part's cells is not in its way: the facets
-/// of round parts cause such differences.
+/// A part that covers at most this fraction of another part's cells does not block it, because the
+/// facets of round parts cause such small overlaps.
 const LEAST_COVER: f64 = 0.05;
 
-/// The cost of comparing two parts, in addition to their triangles, in visits.
+/// The cost of comparing two parts, in visits, not counting their triangles.
 const PAIR_VISITS: usize = 300;
 
-/// A side of an axis: 0 toward negative coordinates, 1 toward positive ones.
+/// A direction along an axis: 0 is negative, 1 is positive.
 type AxisSide = usize;
 
-/// The parts that hinder others from leaving.
+/// Which parts prevent others from leaving.
 #[derive(Debug)]
 struct Hindrances {
-    /// For each part, the parts that it hinders, on which side, and the fraction of cells it
+    /// For each part, the parts that it hinders, each with the side and the fraction of cells it
     /// covers.
     hinders: Vec<Vec<(usize, AxisSide, f64)>>,
-    /// The number of parts in the way of each part on each side.
+    /// The number of parts that hinder each part on each side.
     counts: Vec<[u32; 2]>,
     /// The summed fraction of each part's cells that hindering parts cover.
     covers: Vec<[f64; 2]>,
 }
 
-/// The sides on which parts leave along their axes, for all parts except the base, which stays.
+/// Returns the sides on which parts leave along their axes, for all parts except the base, which
+/// stays.
 pub(super) fn removal_sides(
     shapes: &PartShapes,
     base: usize,
@@ -49,7 +50,7 @@ pub(super) fn removal_sides(
     };
     let mut sides: Vec<Option<AxisSide>> = vec![None; preferred.len()];
     sides[base] = Some(preferred[base]);
-    // Free parts: on the preferred side, and on the other.
+    // Parts that are free to leave on their preferred side, and on the other side.
     let mut queues = [VecDeque::new(), VecDeque::new()];
     for part in 0..preferred.len() {
         for side in 0..2 {
@@ -60,7 +61,7 @@ pub(super) fn removal_sides(
     }
     loop {
         let next = queues[0].pop_front().or_else(|| queues[1].pop_front());
-        // If the remaining parts interlock, the one with the least in its way breaks the cycle.
+        // If the remaining parts interlock, the least hindered part breaks the cycle.
         let next = next.or_else(|| hindrances.least_hindered(&sides, preferred));
         let Some((part, side)) = next else { break };
         // A part may be queued for both sides.
@@ -76,7 +77,7 @@ pub(super) fn removal_sides(
 }
 
 impl Hindrances {
-    /// Compares all parts; `None` if that would take too long.
+    /// Compares all parts, or returns `None` if that would take too long.
     fn find(shapes: &PartShapes, base: usize, axes: &[usize]) -> Option<Self> {
         let count = shapes.boxes.len();
         let mut found = Self {
@@ -88,17 +89,17 @@ impl Hindrances {
             let corners = shapes.boxes[part];
             let column = Column::new(corners, axes[part], 0.0);
             let mut own = shapes.heights(part, &column);
-            // A part whose triangles are all edge-on covers no cell; its box is used instead.
+            // A part whose triangles are all edge-on covers no cells, so its box is used instead.
             if own.count() == 0 {
                 own.add_box(corners, &column);
             }
-            // If parts touch, rounding must not decide.
+            // Rounding must not decide whether touching parts block each other.
             let touch = (corners[1] - corners[0]).length() * 1e-3;
             for other in (0..count).filter(|&other| other != part) {
                 if !column.meets(shapes.boxes[other]) {
                     continue;
                 }
-                // One budget of triangle visits bounds the time of all pairs together.
+                // One budget of triangle visits limits the total time for all pairs.
                 if !shapes.take_visits(PAIR_VISITS + shapes.triangle_count(other)) {
                     return None;
                 }
@@ -129,7 +130,7 @@ impl Hindrances {
         freed
     }
 
-    /// The least hindered remaining part, and the side.
+    /// Returns the least hindered remaining part and the side on which it leaves.
     fn least_hindered(
         &self,
         sides: &[Option<AxisSide>],
@@ -139,7 +140,7 @@ impl Hindrances {
         for part in (0..sides.len()).filter(|&part| sides[part].is_none()) {
             for side in [preferred[part], 1 - preferred[part]] {
                 let cover = self.covers[part][side];
-                // The order of summation must not decide either.
+                // The order of summation must not affect the choice either.
                 if least.is_none_or(|(most, ..)| cover < most - 1e-9) {
                     least = Some((cover, part, side));
                 }
@@ -149,7 +150,8 @@ impl Hindrances {
     }
 }
 
-/// The fraction of a part's cells where another part is below its top, and above its bottom.
+/// Returns the fractions of a part's cells where another part is below its top and where it is
+/// above its bottom.
 fn covered_cells(own: &CellHeights, other: &CellHeights, touch: f64) -> [f64; 2] {
     let mut covered = [0_u32; 2];
     for ([low, high], [other_low, other_high]) in own.0.iter().zip(&other.0) {
@@ -166,7 +168,7 @@ mod tests {
     use super::*;
     use glam::DVec3;
 
-    /// The sides of boxes along y, given by their minimum and maximum corners.
+    /// Returns the sides on which boxes leave along y. A box is its minimum and maximum corners.
     fn sides_of(boxes: &[([f64; 3], [f64; 3])], preferred: &[AxisSide]) -> Vec<AxisSide> {
         let corners = |(low, high): &([f64; 3], [f64; 3])| [DVec3::from(*low), DVec3::from(*high)];
         let boxes: Vec<_> = boxes.iter().map(corners).collect();
@@ -176,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_leave_where_nothing_is_in_the_way() {
+    fn parts_leave_on_the_unblocked_side() {
         // A plate, a washer on it and a screw on top, with a foot below.
         let boxes = [
             ([-5.0, 0.0, -5.0], [5.0, 1.0, 5.0]),
@@ -190,8 +192,8 @@ mod tests {
     }
 
     #[test]
-    fn parts_that_are_free_leave_on_the_preferred_side() {
-        // Three plates beside the base: the lowest is free below, and free above once the others
+    fn free_parts_leave_on_the_preferred_side() {
+        // Three plates next to the base: the lowest can leave downward, and upward once the others
         // have left.
         let plate = |y: f64| ([9.0, y, 9.0], [10.0, y + 1.0, 10.0]);
         let boxes = [([-5.0; 3], [5.0; 3]), plate(0.0), plate(1.0), plate(2.0)];
@@ -201,8 +203,8 @@ mod tests {
     }
 
     #[test]
-    fn interlocked_parts_leave_where_they_are_hindered_least() {
-        // A pin, a quarter as wide as the collar around it, through both plates.
+    fn interlocked_parts_leave_on_the_least_hindered_side() {
+        // A pin through a plate and the collar on it; the pin is a quarter as wide as the collar.
         let boxes = [
             ([-5.0, 0.0, -5.0], [5.0, 1.0, 5.0]),
             ([-2.0, 1.0, -2.0], [2.0, 2.0, 2.0]),

@@ -1,12 +1,12 @@
 //! Volumes of closed meshes, by the divergence theorem.
 //!
 //! ```text
-//!   V = ∑ a · (b × c) / 6      over all triangles abc: the signed volumes of the pyramids
+//!   V = ∑ a · (b × c) / 6      over all triangles abc: the signed volumes of pyramids
 //!                              with their tips at one point
 //! ```
 //!
-//! A mesh is closed if each of its sides runs equally often in both directions. Overlapping pieces
-//! count twice.
+//! A mesh is closed if each edge occurs equally often in both directions. Overlapping pieces count
+//! twice.
 
 use super::part::{Part, drawn_primitives};
 use glam::{DMat3, DVec3};
@@ -25,7 +25,7 @@ pub(super) fn part_volume(part: &Part, models: &[ModelInstance]) -> Option<f64> 
         let skinned = model.skin_primitive(part.instance, primitive);
         // All primitives of a part have the same scale.
         scale = DMat3::from_mat4(part.to_world(models, &skinned).raw()).determinant().abs();
-        // Adding 0 turns −0 into 0, so both are the same position.
+        // Adding 0 turns −0 into 0, so that both give the same position.
         let corner = |&index: &u32| skinned.positions[index as usize].map(|c| c + 0.0);
         corners.extend(primitive.indices.iter().map(corner));
     }
@@ -34,8 +34,8 @@ pub(super) fn part_volume(part: &Part, models: &[ModelInstance]) -> Option<f64> 
         return None;
     }
     let point = |[x, y, z]: [f32; 3]| DVec3::new(x.into(), y.into(), z.into());
-    // The pyramids meet at a corner of the mesh: relative to a distant origin, their sum would lose
-    // digits.
+    // The tip of the pyramids is a corner of the mesh, because their sum would lose precision if
+    // the origin were far away.
     let tip = point(triangles[0][0]);
     let pyramid = |triangle: &[[f32; 3]; 3]| {
         let [a, b, c] = triangle.map(|corner| point(corner) - tip);
@@ -45,7 +45,7 @@ pub(super) fn part_volume(part: &Part, models: &[ModelInstance]) -> Option<f64> 
     volume.is_finite().then_some(volume)
 }
 
-/// Whether every side of the triangles runs equally often forward and backward.
+/// Whether every triangle edge occurs equally often in both directions.
 fn is_closed(triangles: &[[[f32; 3]; 3]]) -> bool {
     let mut order: Vec<([u32; 3], u32)> =
         triangles.as_flattened().iter().zip(0..).map(|(c, at)| (c.map(f32::to_bits), at)).collect();

@@ -40,7 +40,7 @@ struct AngleArc<'a> {
 }
 
 impl DimensionBoard {
-    /// The free position of an angle nearest to its vertex.
+    /// Returns the free position of an angle nearest to its vertex.
     pub(super) fn angle_candidate(&self, dimension: &ViewDimension) -> Option<Candidate> {
         let ViewMeasure::Angle { vertex, ends } = &dimension.measure else { return None };
         let ratio = self.settings.scale.ratio();
@@ -76,7 +76,8 @@ impl DimensionBoard {
 }
 
 impl AngleArc<'_> {
-    /// The point of the arc at an angle from the first side, and the unit vector along the arc.
+    /// Returns the point of the arc at an angle from the first side, and the unit vector along the
+    /// arc.
     fn at(&self, angle: f64) -> (DVec2, DVec2) {
         let (sine, cosine) = libm::sincos(angle);
         let arm = DVec2::new(cosine, sine).rotate(self.sides[0]);
@@ -114,7 +115,7 @@ impl AngleArc<'_> {
         candidate
     }
 
-    /// The degrees, horizontal, on the outer side of the arc.
+    /// Returns the degrees, horizontal, on the outer side of the arc.
     fn label(&self) -> AnnotationText {
         let (middle, _) = self.at(0.5 * self.sweep);
         let out = (middle - self.vertex).normalize_or(DVec2::NEG_Y);

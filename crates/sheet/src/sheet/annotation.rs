@@ -109,14 +109,14 @@ pub(super) struct PlacedDimension {
 }
 
 impl AnnotationText {
-    /// A text centered on a point.
+    /// Returns a text centered on a point.
     pub(super) fn centered(text: impl Into<String>, middle: DVec2, height: f64) -> Self {
         let anchor = middle + DVec2::Y * (0.5 * height);
         let align = TextAlign::Middle;
         Self { text: text.into(), anchor, height, direction: DVec2::X, align }
     }
 
-    /// The text as a label, with the center of the view at `origin`.
+    /// Returns the text as a label, with the center of the view at `origin`.
     fn label(&self, origin: DVec2) -> Label<'_> {
         let label = Label::new(&self.text, origin + self.anchor, self.height);
         label.with_direction(self.direction).with_align(self.align)
@@ -124,7 +124,7 @@ impl AnnotationText {
 }
 
 impl AnnotationShape {
-    /// The area that the shape covers, without the width of its lines.
+    /// Returns the area that the shape covers, without the width of its lines.
     fn extent(&self) -> Option<Extent> {
         match self {
             Self::Line(ends) => extent_of_points(ends.iter().copied()),
@@ -156,7 +156,7 @@ impl AnnotationShape {
 }
 
 impl AnnotationShape {
-    /// The shape as a group, with the center of the view at `origin`.
+    /// Returns the shape as a group, with the center of the view at `origin`.
     fn group(&self, origin: DVec2) -> Group {
         let line = |points: &[DVec2], closed: bool| {
             let moved: Vec<DVec2> = points.iter().map(|point| origin + *point).collect();
@@ -227,13 +227,13 @@ impl ViewAnnotations {
         !self.shapes_with_extents().any(lies_across)
     }
 
-    /// The rectangle around the object and all annotations.
+    /// Returns the rectangle around the object and all annotations.
     pub(super) fn extent_with(&self, object: Extent) -> Extent {
         let extents = self.shapes_with_extents().filter_map(|(_, extent)| extent);
         extents.fold(object, |[low, high], other| [low.min(other[0]), high.max(other[1])])
     }
 
-    /// The rectangle around the object and the requested dimensions.
+    /// Returns the rectangle around the object and the requested dimensions.
     pub(super) fn extent_of_dimensions(&self, object: Extent) -> Extent {
         let shapes = self.dimensions.iter().flat_map(|dimension| &dimension.shapes);
         let extents = shapes.filter_map(|(_, shape)| shape.extent());
@@ -258,7 +258,7 @@ impl ViewAnnotations {
         self.items.iter().map(|placed| (&placed.shape, placed.extent)).chain(of_dimensions)
     }
 
-    /// The annotations of one layer as groups, with the center of the view at `origin`.
+    /// Returns the annotations of one layer as groups, with the center of the view at `origin`.
     pub(super) fn groups(
         &self,
         layer: AnnotationLayer,
@@ -271,7 +271,7 @@ impl ViewAnnotations {
 }
 
 impl PlacedDimension {
-    /// The shapes of one layer: the lines as one group, each text as its own group.
+    /// Returns the shapes of one layer: the lines as one group, each text as its own group.
     ///
     /// Their ids are the number of the dimension, with the number of the text if there are several.
     fn groups(&self, layer: AnnotationLayer, origin: DVec2) -> Vec<Group> {
@@ -354,7 +354,7 @@ impl AnnotationLayer {
     }
 }
 
-/// The rectangle around points; `None` without any.
+/// Returns the rectangle around points; `None` without any.
 fn extent_of_points(points: impl Iterator<Item = DVec2>) -> Option<Extent> {
     points.fold(None, |extent: Option<Extent>, point| {
         Some(extent.map_or([point; 2], |[low, high]| [low.min(point), high.max(point)]))

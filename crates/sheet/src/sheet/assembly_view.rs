@@ -98,17 +98,18 @@ impl AssemblyLayout {
         free_regions(sheet, list).into_iter().filter_map(fitting).reduce(better)
     }
 
-    /// The number of balloons that fit around the view.
+    /// Returns the number of balloons that fit around the view.
     pub(super) fn capacity(&self) -> usize {
         ring_places(self.ring(1.0), self.pitch()).len()
     }
 
-    /// The distance between neighboring balloons.
+    /// Returns the distance between neighboring balloons.
     fn pitch(&self) -> f64 {
         2.0 * self.radius + BALLOON_GAP
     }
 
-    /// The rectangle of the centers of balloons: around the view for 0, at the border for 1.
+    /// Returns the rectangle of the centers of balloons: around the view for 0, at the border for
+    /// 1.
     fn ring(&self, part: f64) -> Extent {
         let [low, high] = self.region;
         let near = self.half + DVec2::splat(VIEW_GAP + self.radius);
@@ -148,7 +149,7 @@ impl AssemblyLayout {
         best
     }
 
-    /// The layers of balloons and their numbers, and the items that could not be placed.
+    /// Returns the layers of balloons and their numbers, and the items that could not be placed.
     pub(super) fn balloon_layers<'a>(
         &self,
         targets: &[BalloonTarget<'a>],
@@ -176,7 +177,7 @@ impl AssemblyLayout {
         ([lines, numbers], left_out)
     }
 
-    /// The circle of an item, its leader and the dot at its end.
+    /// Returns the circle of an item, its leader and the dot at its end.
     fn balloon_group(&self, target: &BalloonTarget<'_>, center: DVec2) -> Group {
         let away = (target.spot - center).normalize_or(DVec2::Y);
         let leader = [center + away * self.radius, target.spot];
@@ -192,7 +193,7 @@ impl AssemblyLayout {
     }
 }
 
-/// The radius of balloons for numbers up to `count`: the widest number fits well inside.
+/// Returns the radius of balloons for numbers up to `count`: the widest number fits well inside.
 fn balloon_radius(count: usize, letters: f64) -> f64 {
     let digits = count.to_string().len();
     let widest = "0".repeat(digits);
@@ -200,7 +201,7 @@ fn balloon_radius(count: usize, letters: f64) -> f64 {
     (half.length() + 0.35 * letters).max(1.25 * letters)
 }
 
-/// A circle as a polygon.
+/// Returns a circle as a polygon.
 fn circle(center: DVec2, radius: f64) -> Option<Polyline> {
     let corner = |k: u32| {
         let angle = core::f64::consts::TAU * f64::from(k) / f64::from(CIRCLE_CORNERS);
@@ -210,8 +211,8 @@ fn circle(center: DVec2, radius: f64) -> Option<Polyline> {
     Polyline::through_points(&corners, true)
 }
 
-/// The parts of the drawing area not taken by the title block and a list above it: above both, and
-/// beside them.
+/// Returns the parts of the drawing area not taken by the title block and a list above it: above
+/// both, and beside them.
 fn free_regions(sheet: &Sheet, list: Option<Rectangle>) -> Vec<Extent> {
     let (frame, block) = (sheet.drawing_area(), sheet.title_block_area());
     let top = list.map_or(block.y(), |list| list.y());

@@ -94,7 +94,7 @@ pub(super) fn clear_places(
     assigned.into_iter().enumerate().map(is_free).collect()
 }
 
-/// The distance of a point to a segment.
+/// Returns the distance of a point to a segment.
 fn distance_to_segment(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
     let along = b - a;
     let length = along.length_squared();

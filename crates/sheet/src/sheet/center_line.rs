@@ -108,7 +108,7 @@ impl CenterLines {
     }
 }
 
-/// The largest circle at each center, the largest overall first.
+/// Returns the largest circle at each center, the largest overall first.
 fn merge_crosses(mut crosses: Vec<(DVec2, f64)>, same: f64) -> Vec<(DVec2, f64)> {
     crosses.sort_by(|(a, r), (b, s)| {
         s.total_cmp(r).then(a.x.total_cmp(&b.x)).then(a.y.total_cmp(&b.y))

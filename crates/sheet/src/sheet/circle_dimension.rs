@@ -27,7 +27,7 @@ const DIRECTIONS: [f64; 20] = [
 const LENGTHS: u32 = 40;
 
 impl DimensionBoard {
-    /// The free position of a diameter or radius with the shortest leader.
+    /// Returns the free position of a diameter or radius with the shortest leader.
     pub(super) fn leader_candidate(&self, dimension: &ViewDimension) -> Option<Candidate> {
         let ViewMeasure::Round { center, radius, prefix, radii } = &dimension.measure else {
             return None;
@@ -58,7 +58,7 @@ impl DimensionBoard {
         best.map(|(_, candidate)| candidate)
     }
 
-    /// The length of a ray from a point inside the hull of the part.
+    /// Returns the length of a ray from a point inside the hull of the part.
     fn exit_distance(&self, from: DVec2, along: DVec2) -> f64 {
         let hull = &self.hull;
         let crossings = hull.iter().enumerate().filter_map(|(at, &a)| {
@@ -71,7 +71,8 @@ impl DimensionBoard {
     }
 }
 
-/// An arrow onto a point of a circle from a direction, with a shelf at the other end of its shaft.
+/// Returns an arrow onto a point of a circle from a direction, with a shelf at the other end of its
+/// shaft.
 fn leader(text: &str, tip: DVec2, away: DVec2, length: f64, letters: f64) -> Candidate {
     let mut candidate = Candidate::default();
     let corner = tip + away * length;

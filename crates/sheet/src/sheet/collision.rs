@@ -10,7 +10,7 @@ use page::Label;
 /// Overlaps up to this, in millimeters, count as contacts.
 const CONTACT: f64 = 1e-6;
 
-/// The corners of a text, with a margin around it.
+/// Returns the corners of a text, with a margin around it.
 pub(super) fn text_outline(text: &AnnotationText, margin: f64) -> [DVec2; 4] {
     let width = Label::new(&text.text, DVec2::ZERO, text.height).width();
     let part = match text.align {
@@ -24,7 +24,7 @@ pub(super) fn text_outline(text: &AnnotationText, margin: f64) -> [DVec2; 4] {
     [start, start + across, start + across + height, start + height]
 }
 
-/// The convex parts of a shape; texts get this margin.
+/// Returns the convex parts of a shape; texts get this margin.
 pub(super) fn convex_parts(shape: &AnnotationShape, margin: f64) -> Vec<Vec<DVec2>> {
     match shape {
         AnnotationShape::Line(ends) => vec![ends.to_vec()],
@@ -53,13 +53,13 @@ pub(super) fn convex_overlap(a: &[DVec2], b: &[DVec2]) -> bool {
     })
 }
 
-/// The unit normals of the sides of an outline.
+/// Returns the unit normals of the sides of an outline.
 fn sides(points: &[DVec2]) -> impl Iterator<Item = DVec2> {
     let next = (0..points.len()).map(|k| points[(k + 1) % points.len()] - points[k]);
     next.filter_map(|side| side.perp().try_normalize())
 }
 
-/// The convex hull of points, counterclockwise with y up (Andrew's monotone chain).
+/// Returns the convex hull of points, counterclockwise with y up (Andrew's monotone chain).
 pub(super) fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.retain(|point| point.is_finite());
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -85,8 +85,8 @@ pub(super) fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     hull
 }
 
-/// The farthest extent, in a direction perpendicular to an axis, of the part of a convex outline
-/// between two values along that axis; `None` if there is no such part.
+/// Returns the farthest extent, in a direction perpendicular to an axis, of the part of a convex
+/// outline between two values along that axis; `None` if there is no such part.
 pub(super) fn reach_between(
     hull: &[DVec2],
     along: DVec2,

@@ -83,7 +83,7 @@ pub(super) struct PartDrawing<'a, 'm> {
 }
 
 impl Break {
-    /// The omitted length, as a vector.
+    /// Returns the omitted length, as a vector.
     pub(super) fn length(&self) -> DVec2 {
         DVec2::AXES[self.axis] * (self.to - self.from)
     }
@@ -124,7 +124,7 @@ impl Composition {
 }
 
 impl ComposedDrawing {
-    /// The part of the drawing within a radius, in pixels, of its center.
+    /// Returns the part of the drawing within a radius, in pixels, of its center.
     pub(super) fn within_disc(self, radius: f64) -> Self {
         let area = ClipArea::Disc { center: self.drawing.size * 0.5, radius };
         let parts = |line: &Vec<DVec2>| {
@@ -147,7 +147,7 @@ impl From<Drawing> for ComposedDrawing {
 }
 
 impl ViewSide {
-    /// The area of this side of a point in pixels, `inset` pixels away from it.
+    /// Returns the area of this side of a point in pixels, `inset` pixels away from it.
     fn area(self, point: DVec2, inset: f64) -> ClipArea {
         let outward = match self {
             Self::Left => -DVec2::X,
@@ -158,7 +158,7 @@ impl ViewSide {
         ClipArea::half_plane(point + outward * inset, DVec2::new(-outward.y, outward.x))
     }
 
-    /// The other side.
+    /// Returns the other side.
     const fn opposite(self) -> Self {
         match self {
             Self::Left => Self::Right,
@@ -268,7 +268,7 @@ impl PartDrawing<'_, '_> {
         Ok(ComposedDrawing { drawing, break_lines })
     }
 
-    /// The parts of a line in front of the uncut object.
+    /// Returns the parts of a line in front of the uncut object.
     fn within_outline(&mut self, line: &[DVec2]) -> Result<Vec<Vec<DVec2>>, SheetError> {
         let (view_projection, size) = self.view.view_projection()?;
         let surface: &WeldedSurface = self.surfaces.cut_by(&[]);
@@ -280,7 +280,7 @@ impl PartDrawing<'_, '_> {
     }
 }
 
-/// The area beyond a line that runs across the drawing, toward `outward`.
+/// Returns the area beyond a line that runs across the drawing, toward `outward`.
 fn end_area(line: &[DVec2], outward: DVec2) -> ClipArea {
     const FAR: f64 = 1e6;
     let ends = [line[0], line[line.len() - 1]];
@@ -295,7 +295,7 @@ fn end_area(line: &[DVec2], outward: DVec2) -> ClipArea {
     ClipArea::Star { center, corners: corners.collect() }
 }
 
-/// The parts of a line inside the area of directed sides.
+/// Returns the parts of a line inside the area of directed sides.
 fn parts_within(line: &[DVec2], edges: &[RegionEdge]) -> Vec<Vec<DVec2>> {
     let mut parts: Vec<Vec<DVec2>> = Vec::new();
     let mut is_open = false;
@@ -331,7 +331,7 @@ fn parts_within(line: &[DVec2], edges: &[RegionEdge]) -> Vec<Vec<DVec2>> {
     parts
 }
 
-/// The winding number of directed sides around a point, along a ray to the right.
+/// Returns the winding number of directed sides around a point, along a ray to the right.
 fn winding_number(point: DVec2, edges: &[RegionEdge]) -> i32 {
     let crossing = |edge: &RegionEdge| {
         let [a, b] = edge.ends;

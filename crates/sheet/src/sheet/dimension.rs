@@ -86,7 +86,7 @@ pub(super) struct DimensionSettings {
 }
 
 impl DimensionSettings {
-    /// The settings of an overall dimension placed beyond the other dimensions on its side.
+    /// Returns the settings of an overall dimension placed beyond the other dimensions on its side.
     fn beyond(&self, annotations: &ViewAnnotations, side: OverallSide, half: DVec2) -> Self {
         let [low, high] = annotations.extent_of_dimensions([-half, half]);
         let taken = match side {
@@ -100,7 +100,7 @@ impl DimensionSettings {
 }
 
 impl OverallSide {
-    /// The unit vector from the object to the dimension line.
+    /// Returns the unit vector from the object to the dimension line.
     pub(super) const fn outward(self) -> DVec2 {
         match self {
             Self::Above => DVec2::NEG_Y,
@@ -110,7 +110,7 @@ impl OverallSide {
     }
 }
 
-/// The dimension of the whole extent on one side.
+/// Returns the dimension of the whole extent on one side.
 fn overall_dimension(
     side: OverallSide,
     half: DVec2,
@@ -132,13 +132,13 @@ fn overall_dimension(
 }
 
 impl LinearDimension {
-    /// The direction of the dimension line; its text reads along it, from the bottom or the right
-    /// of the sheet.
+    /// Returns the direction of the dimension line; its text reads along it, from the bottom or the
+    /// right of the sheet.
     fn line_direction(&self) -> DVec2 {
         (self.ends[1] - self.ends[0]).normalize_or(DVec2::X)
     }
 
-    /// The ends of the dimension line.
+    /// Returns the ends of the dimension line.
     fn dimension_line(&self) -> [DVec2; 2] {
         self.ends.map(|end| end + self.outward * self.distance)
     }
@@ -187,7 +187,7 @@ impl LinearDimension {
     }
 }
 
-/// An arrowhead with this tip; `into` is the direction from the tip to the base.
+/// Returns an arrowhead with this tip; `into` is the direction from the tip to the base.
 pub(super) fn arrowhead(tip: DVec2, into: DVec2, length: f64) -> [DVec2; 3] {
     let across = DVec2::new(-into.y, into.x) * (length / 6.0);
     let base = tip + into * length;
@@ -198,7 +198,7 @@ pub(super) fn arrowhead(tip: DVec2, into: DVec2, length: f64) -> [DVec2; 3] {
 mod tests {
     use super::*;
 
-    /// The annotations of an object of this half size at 1:1.
+    /// Returns the annotations of an object of this half size at 1:1.
     fn annotated(half: DVec2, side: OverallSide, reserved: f64) -> ViewAnnotations {
         let (scale, format) = (DrawingScale::STANDARD[5], LengthFormat::default());
         let settings =

@@ -93,7 +93,7 @@ impl DimensionBoard {
         board
     }
 
-    /// The margin around texts in millimeters.
+    /// Returns the margin around texts in millimeters.
     fn text_margin(&self) -> f64 {
         TEXT_MARGIN * self.settings.letters
     }
@@ -181,7 +181,8 @@ impl DimensionBoard {
         }
     }
 
-    /// The free positions of the parts of a dimension: one, or one for each baseline length.
+    /// Returns the free positions of the parts of a dimension: one, or one for each baseline
+    /// length.
     fn candidates(&self, dimension: &ViewDimension) -> Vec<Option<Candidate>> {
         match &dimension.measure {
             ViewMeasure::Lengths { .. } => self.length_candidates(dimension),
@@ -196,7 +197,7 @@ impl DimensionBoard {
     }
 }
 
-/// The order in which dimensions are placed.
+/// Returns the order in which dimensions are placed.
 fn rank(dimension: &ViewDimension) -> (u8, f64) {
     match &dimension.measure {
         ViewMeasure::Lengths { feet, along, .. } => {

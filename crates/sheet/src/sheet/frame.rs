@@ -24,8 +24,8 @@ const CENTERING_MARK: [f64; 2] = [5.0, 5.0];
 /// The minimum distance from the inner part of a centering mark to anything else, in millimeters.
 const MARK_CLEARANCE: f64 = 1.0;
 
-/// The drawing area inside the frame. On paper too small for the margins, they are a tenth of its
-/// side.
+/// Returns the drawing area inside the frame. On paper too small for the margins, they are a tenth
+/// of its side.
 pub(super) fn area_within_frame(paper: Paper) -> Rectangle {
     let margin = |margin: f64, side: f64| margin.min(side * 0.1);
     let (left, right) = (margin(FILING_MARGIN, paper.width()), margin(MARGIN, paper.width()));
@@ -33,7 +33,7 @@ pub(super) fn area_within_frame(paper: Paper) -> Rectangle {
     rectangle_from_size(left, edge, paper.width() - left - right, paper.height() - 2.0 * edge)
 }
 
-/// The frame and its centering marks, which stop at the frame if something is in their way.
+/// Returns the frame and its centering marks, which stop at the frame if something is in their way.
 pub(super) fn frame_layer(paper: Paper, style: SheetFrame, contents: &[Extent], ink: Ink) -> Layer {
     let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(FRAME_LINE_WIDTH, ink) };
     let mut layer = Layer::new("frame", "frame", pen);
@@ -43,7 +43,7 @@ pub(super) fn frame_layer(paper: Paper, style: SheetFrame, contents: &[Extent], 
     layer
 }
 
-/// The border of a rectangle.
+/// Returns the border of a rectangle.
 pub(super) fn rectangle_outline(area: Rectangle) -> Polyline {
     let (x, y) = (area.x(), area.y());
     let (right, bottom) = (x + area.width(), y + area.height());

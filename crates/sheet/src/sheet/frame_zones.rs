@@ -47,8 +47,8 @@ const SMALL_PAPER: f64 = 300.0;
 /// The row letters: without I and O, which look like digits.
 const ROW_LETTERS: &[u8] = b"ABCDEFGHJKLMNPQRSTUVWXYZ";
 
-/// The borders of the zones along a side: the frame, and multiples of 50 mm from the middle of the
-/// paper.
+/// Returns the borders of the zones along a side: the frame, and multiples of 50 mm from the middle
+/// of the paper.
 fn zone_borders(side: f64, [from, to]: [f64; 2]) -> Vec<f64> {
     let count = libm::round(0.5 * side / ZONE_LENGTH).max(1.0) as u32;
     let inner =
@@ -57,13 +57,13 @@ fn zone_borders(side: f64, [from, to]: [f64; 2]) -> Vec<f64> {
     core::iter::once(from).chain(inner).chain(core::iter::once(to)).collect()
 }
 
-/// The name of a zone's row: A to Z without I and O, then AA and so on.
+/// Returns the name of a zone's row: A to Z without I and O, then AA and so on.
 fn row_letter(index: usize) -> String {
     let letter = char::from(ROW_LETTERS[index % ROW_LETTERS.len()]);
     letter.to_string().repeat(1 + index / ROW_LETTERS.len())
 }
 
-/// The zone border with its lines and names, and the trimming marks.
+/// Returns the zone border with its lines and names, and the trimming marks.
 pub(super) fn zone_layers(paper: Paper, ink: Ink) -> Vec<Layer> {
     let frame = area_within_frame(paper);
     let butt = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(LINE_WIDTH, ink) };
@@ -109,7 +109,7 @@ pub(super) fn zone_layers(paper: Paper, ink: Ink) -> Vec<Layer> {
     vec![lines, names, trimming_marks(paper, butt)]
 }
 
-/// The corners of the frame, and the side of the paper along an axis.
+/// Returns the corners of the frame, and the side of the paper along an axis.
 fn side_of(frame: Rectangle, paper: Paper, axis: usize) -> (DVec2, DVec2, f64) {
     let low = DVec2::new(frame.x(), frame.y());
     let high = low + DVec2::new(frame.width(), frame.height());

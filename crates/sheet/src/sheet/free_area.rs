@@ -41,7 +41,8 @@ pub(super) fn free_rectangles(area: Extent, obstacles: &[Extent]) -> Vec<Extent>
 /// Beyond this multiple of what a view needs, more space is not better.
 const AMPLE: f64 = 1.3;
 
-/// The best rectangle for a view of this size: preferably ample, then around `wanted`, then large.
+/// Returns the best rectangle for a view of this size: preferably ample, then around `wanted`, then
+/// large.
 pub(super) fn best_rectangle(free: &[Extent], size: DVec2, wanted: DVec2) -> Option<Extent> {
     let holds = |[low, high]: &&Extent| (*high - *low).cmpge(size).all();
     let score = |[low, high]: &Extent| {

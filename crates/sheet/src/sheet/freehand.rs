@@ -15,12 +15,13 @@ const POINTS: u32 = 96;
 const WAVES: [(f64, f64, f64); 4] =
     [(3.0, 0.5, 0.11), (5.0, 0.3, 0.63), (8.0, 0.14, 0.37), (13.0, 0.06, 0.81)];
 
-/// The deviation of a freehand line at a fraction of its length, from −1 to 1; periodic.
+/// Returns the deviation of a freehand line at a fraction of its length, from −1 to 1; periodic.
 fn waver(t: f64) -> f64 {
     WAVES.iter().map(|(count, part, phase)| part * libm::sin(TAU * (count * t + phase))).sum()
 }
 
-/// A closed freehand line around a center: a circle that wavers by a fraction of its radius.
+/// Returns a closed freehand line around a center: a circle that wavers by a fraction of its
+/// radius.
 pub(super) fn freehand_circle(center: DVec2, radius: f64, part: f64) -> Vec<DVec2> {
     let circle = circle_points(DVec2::ZERO, radius, POINTS).into_iter().zip(0..POINTS);
     let at = |(point, k): (DVec2, u32)| {
@@ -29,7 +30,7 @@ pub(super) fn freehand_circle(center: DVec2, radius: f64, part: f64) -> Vec<DVec
     circle.map(at).collect()
 }
 
-/// A freehand line between two points, with deviations up to `amplitude`.
+/// Returns a freehand line between two points, with deviations up to `amplitude`.
 pub(super) fn freehand_line([from, to]: [DVec2; 2], amplitude: f64) -> Vec<DVec2> {
     let aside = (to - from).normalize_or_zero().perp() * amplitude;
     let at = |k: u32| {

@@ -57,7 +57,7 @@ struct LengthRow<'a> {
 }
 
 impl DimensionBoard {
-    /// The free positions of lengths: one for a chain, one for each length from a baseline.
+    /// Returns the free positions of lengths: one for a chain, one for each length from a baseline.
     pub(super) fn length_candidates(&self, dimension: &ViewDimension) -> Vec<Option<Candidate>> {
         let ViewMeasure::Lengths { feet, along, is_baseline, .. } = &dimension.measure else {
             return Vec::new();
@@ -87,8 +87,8 @@ impl DimensionBoard {
         }
     }
 
-    /// The free positions of the lengths from a baseline on one side, the shortest next to the
-    /// part.
+    /// Returns the free positions of the lengths from a baseline on one side, the shortest next to
+    /// the part.
     fn baseline_rows(
         &self,
         dimension: &ViewDimension,
@@ -113,8 +113,8 @@ impl DimensionBoard {
         rows
     }
 
-    /// The possible sides of a dimension line: the requested one, or both, first the one with the
-    /// shorter extension lines.
+    /// Returns the possible sides of a dimension line: the requested one, or both, first the one
+    /// with the shorter extension lines.
     fn sides(&self, dimension: &ViewDimension, feet: &[DVec2], along: DVec2) -> Vec<DVec2> {
         let above = DVec2::new(along.y, -along.x);
         let wanted = dimension.side.map(|side| side.outward().dot(above));
@@ -134,7 +134,7 @@ impl DimensionBoard {
         }
     }
 
-    /// The extent of the part beside a length.
+    /// Returns the extent of the part beside a length.
     fn level_beside(&self, feet: &[DVec2], along: DVec2, outward: DVec2) -> f64 {
         let is_upright = along.x.abs() < 1e-9 || along.y.abs() < 1e-9;
         let places = feet.iter().map(|foot| foot.dot(along));
@@ -148,7 +148,7 @@ impl DimensionBoard {
         of_feet.fold(hull.unwrap_or(f64::NEG_INFINITY), f64::max)
     }
 
-    /// The free position of lengths on one line nearest to the part.
+    /// Returns the free position of lengths on one line nearest to the part.
     fn row_candidate(
         &self,
         dimension: &ViewDimension,
@@ -189,23 +189,23 @@ impl DimensionBoard {
 }
 
 impl LengthRow<'_> {
-    /// A point on the dimension line.
+    /// Returns a point on the dimension line.
     fn line_point(&self, at: usize) -> DVec2 {
         let foot = self.feet[at];
         foot + self.outward * (self.level - foot.dot(self.outward))
     }
 
-    /// The length of arrowheads.
+    /// Returns the length of arrowheads.
     fn arrow(&self) -> f64 {
         ARROW_LENGTH * self.letters
     }
 
-    /// The unit vector that is upward when reading the numbers.
+    /// Returns the unit vector that is upward when reading the numbers.
     fn above(&self) -> DVec2 {
         DVec2::new(self.along.y, -self.along.x)
     }
 
-    /// The length of the line between a point and the next.
+    /// Returns the length of the line between a point and the next.
     fn interval(&self, at: usize) -> f64 {
         (self.feet[at + 1] - self.feet[at]).dot(self.along)
     }
@@ -301,7 +301,7 @@ impl LengthRow<'_> {
         candidate.push(AnnotationLayer::DimensionTexts, AnnotationShape::Text(text));
     }
 
-    /// A number with its anchor on the baseline.
+    /// Returns a number with its anchor on the baseline.
     fn text(&self, text: &str, anchor: DVec2, align: TextAlign) -> AnnotationText {
         let (height, direction) = (self.letters, self.along);
         AnnotationText { text: text.to_owned(), anchor, height, direction, align }

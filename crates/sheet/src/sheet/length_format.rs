@@ -96,8 +96,8 @@ impl LengthFormat {
         Self { numbers: NumberFormat { decimals: Some(most), ..self.numbers }, ..self }
     }
 
-    /// A length, given in millimeters, for a dimension line: without a unit, except for feet and
-    /// inches.
+    /// Returns a length, given in millimeters, for a dimension line: without a unit, except for
+    /// feet and inches.
     pub(super) fn text(self, millimeters: f64) -> String {
         let length = millimeters / self.unit.in_millimeters();
         let own = self.numbers.decimals.map(|most| most.min(NumberFormat::MAX_DECIMALS).into());
@@ -114,7 +114,7 @@ impl LengthFormat {
         }
     }
 
-    /// A length with its unit, for the scale bar: long ones in meters or kilometers.
+    /// Returns a length with its unit, for the scale bar: long ones in meters or kilometers.
     pub(super) fn text_with_unit(self, length: f64) -> String {
         let number = |length: f64| {
             let text = length.to_string();

@@ -101,7 +101,7 @@ pub(super) struct ViewDimension {
 }
 
 impl DimensionSide {
-    /// The unit vector from the part to the side, on paper.
+    /// Returns the unit vector from the part to the side, on paper.
     pub(super) const fn outward(self) -> DVec2 {
         match self {
             Self::Above => DVec2::NEG_Y,
@@ -113,13 +113,13 @@ impl DimensionSide {
 }
 
 impl SheetView {
-    /// The image of a point, in object millimeters from the center of the view, y down.
+    /// Returns the image of a point, in object millimeters from the center of the view, y down.
     pub(super) fn image_of(&self, point: Point<World>) -> DVec2 {
         let seen = self.camera.world_to_view().transform_point(point).raw();
         DVec2::new(seen.x, -seen.y) * self.millimeters_per_unit
     }
 
-    /// The name, if it is a named view.
+    /// Returns the name, if it is a named view.
     pub(super) fn named_view(&self) -> Option<NamedView> {
         match self.name {
             ViewName::Named(name) => Some(name),
@@ -127,7 +127,7 @@ impl SheetView {
         }
     }
 
-    /// The unit vector into the depth of the view.
+    /// Returns the unit vector into the depth of the view.
     fn gaze_vector(&self) -> DVec3 {
         self.camera.gaze().raw()
     }
@@ -150,7 +150,7 @@ impl SheetView {
 }
 
 impl Measure {
-    /// The measured points.
+    /// Returns the measured points.
     fn points(&self) -> Vec<Point<World>> {
         match self {
             Self::Chain(points, _) | Self::Baseline(points, _) => points.clone(),
@@ -159,7 +159,7 @@ impl Measure {
         }
     }
 
-    /// The image in a view, if it is true, with its rank: a lower rank is better.
+    /// Returns the image in a view, if it is true, with its rank: a lower rank is better.
     pub(super) fn image_in(&self, view: &SheetView) -> Result<(ViewMeasure, u8), DimensionFault> {
         if !self.points().iter().all(|&point| view.retains(point)) {
             return Err(DimensionFault::CutAway);
@@ -174,7 +174,7 @@ impl Measure {
     }
 }
 
-/// The image of lengths between points.
+/// Returns the image of lengths between points.
 ///
 /// Along the paper every length is true in itself, but the view where it equals the distance of the
 /// points comes first.
@@ -208,7 +208,7 @@ fn lengths_in(
     Ok((ViewMeasure::Lengths { feet, along, is_baseline, prefix: "" }, rank))
 }
 
-/// The image of a circle: the circle itself, or its diameter if seen from the side.
+/// Returns the image of a circle: the circle itself, or its diameter if seen from the side.
 fn circle_in(
     view: &SheetView,
     circle: &WorldCircle,
@@ -230,7 +230,7 @@ fn circle_in(
     Ok((ViewMeasure::Lengths { feet, along, is_baseline: false, prefix }, 1))
 }
 
-/// The image of an angle.
+/// Returns the image of an angle.
 fn angle_in(
     view: &SheetView,
     points: &[Point<World>; 3],
@@ -247,7 +247,7 @@ fn angle_in(
     Ok((ViewMeasure::Angle { vertex, ends: [from, to] }, 0))
 }
 
-/// The unit vector of a line that reads to the right or upward.
+/// Returns the unit vector of a line that reads to the right or upward.
 fn reading_direction(line: DVec2) -> DVec2 {
     let unit = line.normalize_or(DVec2::X);
     let is_upright = unit.x.abs() < 1e-9;

@@ -85,7 +85,7 @@ impl ViewPlan {
     }
 }
 
-/// The warning about an overlay that sheets do not show, or not completely.
+/// Returns the warning about an overlay that sheets do not show, or not completely.
 fn overlay_warning(overlay: &Overlay) -> Option<SheetWarning> {
     let overlay = match overlay {
         Overlay::Grid(_) => "grid",
@@ -102,7 +102,7 @@ fn overlay_warning(overlay: &Overlay) -> Option<SheetWarning> {
 }
 
 impl ViewOverlays {
-    /// The labels and axes of a view, for models with this diagonal.
+    /// Returns the labels and axes of a view, for models with this diagonal.
     fn in_view(view: &SheetView, overlays: &[Overlay], diagonal: f64) -> Self {
         let mut own = Self::default();
         for overlay in overlays {
@@ -257,7 +257,7 @@ impl LabelBoard {
         })
     }
 
-    /// The outline of a dot at a point: about as wide as a line.
+    /// Returns the outline of a dot at a point: about as wide as a line.
     fn dot(&self, point: DVec2) -> Vec<DVec2> {
         circle_points(point, DOT_RADIUS * self.letters, DOT_CORNERS)
     }

@@ -134,7 +134,7 @@ impl Sheet {
         Ok(pages)
     }
 
-    /// The sheet as page `number` of `total`.
+    /// Returns the sheet as page `number` of `total`.
     fn numbered(&self, number: usize, total: usize) -> Self {
         let mut sheet = self.clone();
         let numbers = [number, total].map(|count| u32::try_from(count).unwrap_or(u32::MAX));
@@ -183,7 +183,7 @@ impl<'a> DrawnAssembly<'a> {
         Self { sheet, models, parts, list, moves, warnings, ink, title }
     }
 
-    /// An empty page.
+    /// Returns an empty page.
     fn empty_page(&self) -> SheetPage {
         let (paper, color) = (self.sheet.paper, self.sheet.style.paper.unwrap_or(WHITE));
         SheetPage::new(DVec2::new(paper.width(), paper.height()), self.title.clone(), Some(color))
@@ -246,7 +246,7 @@ impl<'a> DrawnAssembly<'a> {
         Ok(DrawnView { images, layers, balloons, scale: layout.scale, warnings })
     }
 
-    /// The layers of part paths: narrow chain lines.
+    /// Returns the layers of part paths: narrow chain lines.
     fn path_layers(&self, paths: &Drawing, style: &LineStyle, placement: Placement) -> Vec<Layer> {
         let mut layers = paths.to_layers(style, placement, "path-", self.ink);
         let width = self.sheet.line_width_group().narrow_width();
@@ -257,8 +257,8 @@ impl<'a> DrawnAssembly<'a> {
         layers
     }
 
-    /// The items with a spot for each leader, the best among the item's parts. Warns about items
-    /// that are not visible.
+    /// Returns the items with a spot for each leader, the best among the item's parts. Warns about
+    /// items that are not visible.
     fn balloon_targets(
         &self,
         spots: &[Option<VisibleSpot>],
@@ -323,7 +323,7 @@ impl<'a> DrawnAssembly<'a> {
         pages
     }
 
-    /// An assembly page: its view, its balloons, and the list if it is on this page.
+    /// Returns an assembly page: its view, its balloons, and the list if it is on this page.
     fn view_page(
         &self,
         sheet: &Sheet,
@@ -371,7 +371,7 @@ impl<'a> DrawnAssembly<'a> {
 }
 
 impl Sheet {
-    /// The error for an assembly that fits at no standard scale.
+    /// Returns the error for an assembly that fits at no standard scale.
     fn assembly_too_large(&self, view: &SheetView) -> SheetError {
         let scale = DrawingScale::STANDARD[DrawingScale::STANDARD.len() - 1];
         let area = self.drawing_area();
@@ -385,8 +385,8 @@ impl Sheet {
     }
 }
 
-/// The spot where the leader of equal parts ends. Among the spots about as clear as the clearest, it
-/// is the one nearest to the border of the view.
+/// Returns the spot where the leader of equal parts ends. Among the spots about as clear as the
+/// clearest, it is the one nearest to the border of the view.
 fn outermost_clear_spot(spots: &[VisibleSpot], view: &SheetView) -> Option<VisibleSpot> {
     let clearest = spots.iter().map(|spot| spot.clearance).fold(0.0, f64::max);
     let clear = spots.iter().filter(|spot| spot.clearance >= 0.6 * clearest).copied();
@@ -412,7 +412,8 @@ fn take_paths(drawing: &mut Drawing, is_exploded: bool) -> Drawing {
     }
 }
 
-/// The warning about list names with characters that the font lacks; `None` if it has all of them.
+/// Returns the warning about list names with characters that the font lacks; `None` if it has all
+/// of them.
 fn unreadable_names(list: &PartsList) -> Option<SheetWarning> {
     let is_unreadable = |text: &str| !missing_glyphs(text).is_empty();
     let mut names = list

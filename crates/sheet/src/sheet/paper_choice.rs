@@ -78,7 +78,7 @@ impl Sheet {
     }
 }
 
-/// The scales to try on sheets, largest first.
+/// Returns the scales to try on sheets, largest first.
 pub(super) fn scales_of(sheet: &Sheet) -> Vec<DrawingScale> {
     sheet.scale.map_or(DrawingScale::STANDARD.to_vec(), |scale| vec![scale])
 }

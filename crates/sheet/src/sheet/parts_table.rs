@@ -63,12 +63,12 @@ impl<'a> PartsTable<'a> {
         self.letters * ROW_HEIGHT
     }
 
-    /// The height of this many rows and the heading, in millimeters.
+    /// Returns the height of this many rows and the heading, in millimeters.
     fn height(&self, rows: usize) -> f64 {
         self.row_height() * (rows + 1) as f64
     }
 
-    /// The whole list above the title block, if it takes at most `most` millimeters.
+    /// Returns the whole list above the title block, if it takes at most `most` millimeters.
     pub(super) fn above_title_block(&self, most: f64) -> Option<TableColumn> {
         let (block, rows) = (self.sheet.title_block_area(), self.list.items.len());
         let corner = DVec2::new(block.x(), block.y() - self.height(rows));
@@ -83,7 +83,7 @@ impl<'a> PartsTable<'a> {
         })
     }
 
-    /// The columns of each page that the list takes by itself; at least one page.
+    /// Returns the columns of each page that the list takes by itself; at least one page.
     ///
     /// Wide paper has more columns beside the one above the title block.
     pub(super) fn pages(&self) -> Vec<Vec<TableColumn>> {
@@ -115,13 +115,13 @@ impl<'a> PartsTable<'a> {
         pages
     }
 
-    /// The area of a column, with its heading.
+    /// Returns the area of a column, with its heading.
     pub(super) fn area(&self, column: &TableColumn) -> Rectangle {
         let [x, y] = column.corner.to_array();
         rectangle_from_size(x, y, column.width, self.height(column.rows.len()))
     }
 
-    /// The cell borders, and the texts in the cells.
+    /// Returns the cell borders, and the texts in the cells.
     pub(super) fn layers(&self, columns: &[TableColumn], ink: Ink) -> [Layer; 2] {
         let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(0.18, ink) };
         let mut borders = Layer::new("parts-list", "parts list", pen);
@@ -139,7 +139,7 @@ impl<'a> PartsTable<'a> {
         [borders, texts]
     }
 
-    /// The lines around the rows and between the cells.
+    /// Returns the lines around the rows and between the cells.
     fn border_group(&self, column: &TableColumn) -> Group {
         let area = self.area(column);
         let (left, top) = (area.x(), area.y());
@@ -157,7 +157,7 @@ impl<'a> PartsTable<'a> {
         Group { strokes, ..Group::default() }
     }
 
-    /// The start and the width of each cell of a row of this width, in millimeters.
+    /// Returns the start and the width of each cell of a row of this width, in millimeters.
     fn cells(&self, width: f64) -> Vec<(f64, f64)> {
         let parts: &[f64] = if self.list.has_masses {
             &[0.08, 0.09, 0.42, 0.27, 0.14]
@@ -173,7 +173,7 @@ impl<'a> PartsTable<'a> {
         parts.iter().map(cell).collect()
     }
 
-    /// The cell names.
+    /// Returns the cell names.
     fn headings(&self) -> Vec<String> {
         let mut names = ["Item", "Qty", "Name", "Material"].map(str::to_owned).to_vec();
         if self.list.has_masses {
@@ -182,13 +182,13 @@ impl<'a> PartsTable<'a> {
         names
     }
 
-    /// The mass unit and its value in grams: kilograms if a part has one kilogram or more.
+    /// Returns the mass unit and its value in grams: kilograms if a part has one kilogram or more.
     fn mass_unit(&self) -> (&'static str, f64) {
         let masses = self.list.items.iter().filter_map(|item| item.mass);
         if masses.fold(0.0, f64::max) >= 1000.0 { ("kg", 1000.0) } else { ("g", 1.0) }
     }
 
-    /// The texts of an item; an unknown mass is left blank.
+    /// Returns the texts of an item; an unknown mass is left blank.
     fn texts_of_item(&self, item: &PartsListItem) -> Vec<String> {
         let mut texts = vec![
             item.number.to_string(),
@@ -249,7 +249,7 @@ fn cut_to_width(text: &str, height: f64, room: f64) -> String {
     cut(low)
 }
 
-/// A mass with four significant digits, or as an integer, without trailing zeros.
+/// Returns a mass with four significant digits, or as an integer, without trailing zeros.
 fn format_mass(mass: f64) -> String {
     let decimals = match mass {
         mass if mass >= 999.95 => 0,

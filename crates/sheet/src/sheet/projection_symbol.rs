@@ -14,8 +14,8 @@ use projection::SheetAngle;
 /// The number of sides of the polygon that approximates a circle.
 const CIRCLE_SIDES: u32 = 48;
 
-/// The symbol of a projection angle around a center. The cone is as long as it is high, and half as
-/// high at its narrow end.
+/// Returns the symbol of a projection angle around a center. The cone is as long as it is high, and
+/// half as high at its narrow end.
 ///
 /// The second view shows the narrow end as two circles: in first angle it is to the right of the
 /// cone, in third angle to the left.
@@ -51,7 +51,7 @@ pub(super) fn projection_symbol(angle: SheetAngle, middle: DVec2, height: f64) -
     lines.into_iter().flatten().collect()
 }
 
-/// A circle as a closed polyline.
+/// Returns a circle as a closed polyline.
 fn circle_polygon(center: DVec2, radius: f64) -> Option<Polyline> {
     let point = |k: u32| {
         let angle = core::f64::consts::TAU * f64::from(k) / f64::from(CIRCLE_SIDES);

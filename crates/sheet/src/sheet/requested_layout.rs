@@ -34,7 +34,7 @@ struct RequestedGrid<'a> {
     spans: [Vec<[f64; 2]>; 2],
 }
 
-/// The cell of a view at a scale, which is written below it if it differs from the sheet's.
+/// Returns the cell of a view at a scale, which is written below it if it differs from the sheet's.
 fn cell_at<'a>(
     planned: &'a PlannedView,
     sheet: &Sheet,
@@ -80,13 +80,13 @@ impl<'a> RequestedGrid<'a> {
         Self { cells, spans }
     }
 
-    /// The size of all columns and rows with their annotations, in millimeters.
+    /// Returns the size of all columns and rows with their annotations, in millimeters.
     fn total_size(&self) -> DVec2 {
         let sum = |spans: &Vec<[f64; 2]>| spans.as_flattened().iter().sum::<f64>();
         DVec2::new(sum(&self.spans[0]), sum(&self.spans[1]))
     }
 
-    /// The centers of the views in an area; `None` if the grid is larger.
+    /// Returns the centers of the views in an area; `None` if the grid is larger.
     fn place_views(&self, [low, high]: Extent, spacing: [GridSpacing; 2]) -> Option<Vec<DVec2>> {
         let rest = high - low - self.total_size();
         if rest.min_element() < 0.0 {
@@ -111,8 +111,8 @@ impl<'a> RequestedGrid<'a> {
     }
 }
 
-/// The reason why requested views cannot be arranged at the sheet's scale, or at the smallest
-/// standard scale.
+/// Returns the reason why requested views cannot be arranged at the sheet's scale, or at the
+/// smallest standard scale.
 pub(super) fn requested_fault(sheet: &Sheet, plan: &ViewPlan) -> SheetError {
     let mut scales = scales_of_sheet(sheet).into_iter().rev();
     let fault = scales.find_map(|scale| arrange_requested(sheet, plan, scale).err());
@@ -137,7 +137,7 @@ fn find_overlaps(views: &[PlacedView<'_>], blocks: [(&str, Extent); 2]) -> Vec<S
     warnings
 }
 
-/// The best arrangement of requested views at one scale.
+/// Returns the best arrangement of requested views at one scale.
 ///
 /// # Errors
 /// [`SheetError::TooLarge`] if they do not fit, [`SheetError::Outside`] if a view extends beyond
@@ -241,7 +241,7 @@ fn place_others<'a>(
     }
 }
 
-/// The scales at which a view may be drawn, best first.
+/// Returns the scales at which a view may be drawn, best first.
 fn scales_of(planned: &PlannedView, sheet_scale: DrawingScale) -> Vec<DrawingScale> {
     if let Some(own) = planned.place.scale {
         return vec![own];
@@ -260,7 +260,7 @@ fn scales_of(planned: &PlannedView, sheet_scale: DrawingScale) -> Vec<DrawingSca
     core::iter::once(sheet_scale).chain(smaller).collect()
 }
 
-/// The error with the needed and available sizes.
+/// Returns the error with the needed and available sizes.
 fn too_large(sheet: &Sheet, grid: &RequestedGrid<'_>, scale: DrawingScale) -> SheetError {
     let need = grid.total_size().to_array();
     let [low, high] = extent_of_rectangle(sheet.drawing_area());

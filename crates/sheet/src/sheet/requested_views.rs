@@ -34,7 +34,8 @@ struct RequestPlanner<'a> {
     letters: std::ops::RangeInclusive<char>,
 }
 
-/// The column and row of a view along an axis, with the front view at (0, 0); `None` for others.
+/// Returns the column and row of a view along an axis, with the front view at (0, 0); `None` for
+/// others.
 fn grid_place(name: NamedView, angle: SheetAngle) -> Option<[i32; 2]> {
     // In first-angle projection a view is placed opposite the side from which it is seen.
     let across = if angle == SheetAngle::First { 1 } else { -1 };
@@ -135,7 +136,7 @@ impl RequestPlanner<'_> {
         })
     }
 
-    /// A letter not used by another view.
+    /// Returns a letter not used by another view.
     fn next_letter(&mut self) -> Result<char, Fault> {
         self.letters.next().ok_or_else(|| fault("the views need more than 26 letters"))
     }
@@ -146,7 +147,7 @@ impl RequestPlanner<'_> {
         if alike.count() > 1 { Err(fault("the sheet has this view twice")) } else { Ok(()) }
     }
 
-    /// The index of a view, by name.
+    /// Returns the index of a view, by name.
     fn index_of(&self, name: NamedView) -> Result<usize, Fault> {
         let is_it = |one: &PlannedView| one.view.name == ViewName::Named(name);
         self.views.iter().position(is_it).ok_or_else(|| {
@@ -159,7 +160,7 @@ impl RequestPlanner<'_> {
         })
     }
 
-    /// The index of a view along an axis that is not yet composed of parts.
+    /// Returns the index of a view along an axis that is not yet composed of parts.
     fn index_of_whole(&self, name: NamedView) -> Result<usize, Fault> {
         let index = self.index_of(name)?;
         let one = &self.views[index];
@@ -259,8 +260,8 @@ impl RequestPlanner<'_> {
         Ok(())
     }
 
-    /// The plane through a point that faces a view, if it cuts the models and the view is not yet
-    /// cut.
+    /// Returns the plane through a point that faces a view, if it cuts the models and the view is
+    /// not yet cut.
     fn cutting_plane(&self, index: usize, point: Point<World>) -> Result<Plane<World>, Fault> {
         let one = &self.views[index];
         if !one.view.sections.is_empty() {
@@ -372,7 +373,7 @@ fn check_radius(radius: f64) -> Result<(), Fault> {
     if is_length { Ok(()) } else { Err(fault("its radius must be greater than 0")) }
 }
 
-/// The unit vector of a direction; `None` without one.
+/// Returns the unit vector of a direction; `None` without one.
 pub(super) fn unit_vector(direction: Vector<World>) -> Option<Vector<World>> {
     // Scaled first, so that squares do not overflow or underflow.
     let raw = direction.raw();
@@ -392,7 +393,7 @@ impl From<SheetError> for Fault {
     }
 }
 
-/// A fault in the request itself.
+/// Returns a fault in the request itself.
 pub(super) fn fault(reason: impl Into<String>) -> Fault {
     Fault::Request(reason.into())
 }

@@ -27,8 +27,8 @@ const LABEL_HEIGHT_FACTOR: f64 = 0.7;
 /// The number of segments; every other one is filled.
 const BAR_SEGMENTS: u32 = 4;
 
-/// The possible areas for the bar and its labels: the lower left corner of the frame, or above a
-/// title block as wide as the frame; and above the title block at the right.
+/// Returns the possible areas for the bar and its labels: the lower left corner of the frame, or
+/// above a title block as wide as the frame; and above the title block at the right.
 pub(super) fn scale_bar_areas(sheet: &Sheet) -> [Rectangle; 2] {
     let (frame, block) = (sheet.drawing_area(), sheet.title_block_area());
     let letters = sheet.lettering_height() * LABEL_HEIGHT_FACTOR;
@@ -43,7 +43,7 @@ pub(super) fn scale_bar_areas(sheet: &Sheet) -> [Rectangle; 2] {
     ]
 }
 
-/// The bar in its area, at a scale, with lengths below it.
+/// Returns the bar in its area, at a scale, with lengths below it.
 pub(super) fn scale_bar_layers(
     sheet: &Sheet,
     area: Rectangle,
@@ -75,7 +75,7 @@ pub(super) fn scale_bar_layers(
     [layer, texts]
 }
 
-/// A segment of the bar as a rectangle.
+/// Returns a segment of the bar as a rectangle.
 fn bar_segment(corner: DVec2, from: f64, length: f64) -> Polyline {
     let low = corner + DVec2::new(from, 0.0);
     let corners = [
@@ -88,7 +88,7 @@ fn bar_segment(corner: DVec2, from: f64, length: f64) -> Polyline {
         .unwrap_or(Polyline { points: vec![[0, 0], [1, 0]], closed: false })
 }
 
-/// The largest length of the form 1, 2 or 5 · 10ⁿ that is at most `most`.
+/// Returns the largest length of the form 1, 2 or 5 · 10ⁿ that is at most `most`.
 ///
 /// Lengths below 1 mm are rounded to the quotient of 1 and an integer, so that their shortest
 /// decimal is the label.

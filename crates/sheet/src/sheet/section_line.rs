@@ -35,7 +35,7 @@ pub(super) const ARROW_LENGTH: f64 = 6.0;
 /// The number of positions farther out to try for a letter or a name.
 const TEXT_STEPS: u32 = 40;
 
-/// The space beside a view for a section line and a letter beyond its end, in millimeters.
+/// Returns the space beside a view for a section line and a letter beyond its end, in millimeters.
 pub(super) fn section_line_reserve(letters: f64) -> f64 {
     OVERHANG + 1.8 * letters
 }
@@ -67,8 +67,8 @@ impl SheetView {
         plane.normal().dot(self.camera.gaze()).abs() <= PARALLEL_TOLERANCE
     }
 
-    /// The trace of a plane seen edge-on: a point in millimeters from the center of the view, and
-    /// the unit vector toward the retained side.
+    /// Returns the trace of a plane seen edge-on: a point in millimeters from the center of the
+    /// view, and the unit vector toward the retained side.
     fn section_trace(&self, plane: Plane<World>, scale: DrawingScale) -> Option<(DVec2, DVec2)> {
         let normal = Vector::from_raw(plane.normal().raw());
         let direction = self.camera.rotation().transform_vector(normal).raw();
@@ -83,7 +83,8 @@ impl SheetView {
 }
 
 impl SectionLine {
-    /// The line of a plane in a view; `None` if the plane is not edge-on, or misses the object.
+    /// Returns the line of a plane in a view; `None` if the plane is not edge-on, or misses the
+    /// object.
     ///
     /// A slab test over the area of the object gives the interval of the line, which is extended by
     /// [`OVERHANG`] at both ends.
@@ -126,7 +127,7 @@ impl SectionLine {
         }
     }
 
-    /// The line in a view with an omitted part; `None` if the line is in that part.
+    /// Returns the line in a view with an omitted part; `None` if the line is in that part.
     pub(super) fn shortened(mut self, part: &Break, scale: DrawingScale) -> Option<Self> {
         let middle = (self.ends[0] + self.ends[1]) * 0.5;
         if self.retained_direction[part.axis].abs() < 1.0 - PARALLEL_TOLERANCE {

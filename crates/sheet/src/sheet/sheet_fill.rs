@@ -101,7 +101,7 @@ impl Sheet {
         Ok(SheetFill { scale: layout.scale, fraction, limit, between })
     }
 
-    /// The largest scale up to 2.5 times this one at which all views fit.
+    /// Returns the largest scale up to 2.5 times this one at which all views fit.
     fn largest_between(&self, plan: &ViewPlan, scale: DrawingScale) -> Option<DrawingScale> {
         let reach = scale.ratio() * (1.0 + 1e-9)..scale.ratio() * 2.5 * (1.0 - 1e-9);
         let mut between: Vec<DrawingScale> = INTERMEDIATE
@@ -118,7 +118,7 @@ impl Sheet {
         between.into_iter().find(holds_all)
     }
 
-    /// The reason why the views are not at the next larger scale.
+    /// Returns the reason why the views are not at the next larger scale.
     fn scale_limit(&self, plan: &ViewPlan, scale: DrawingScale) -> ScaleLimit {
         if self.scale.is_some() {
             return ScaleLimit::Given;

@@ -115,7 +115,7 @@ impl SheetView {
         Self::frame_from(points, name, basis, unit)
     }
 
-    /// A part of the view: everything within a radius of a point, in scene units.
+    /// Returns a part of the view: everything within a radius of a point, in scene units.
     ///
     /// # Errors
     /// [`SheetError::View`] if the camera cannot be moved there.
@@ -136,13 +136,13 @@ impl SheetView {
         Ok(Self { name, camera, size, ..self.clone() })
     }
 
-    /// A world direction as the view shows it: right and down, foreshortened.
+    /// Returns a world direction as the view shows it: right and down, foreshortened.
     pub(super) fn direction_of(&self, direction: Vector<World>) -> DVec2 {
         let seen = self.camera.rotation().transform_vector(direction).raw();
         DVec2::new(seen.x, -seen.y)
     }
 
-    /// The size of the drawing in pixels.
+    /// Returns the size of the drawing in pixels.
     fn pixel_size(&self) -> DVec2 {
         let window = self.window_size();
         (window * (LONG_SIDE_PIXELS / window.max_element())).ceil().max(DVec2::ONE)
@@ -153,23 +153,23 @@ impl SheetView {
         LONG_SIDE_PIXELS / self.window_size().max_element()
     }
 
-    /// The position of a world point in the drawing, in pixels.
+    /// Returns the position of a world point in the drawing, in pixels.
     pub(super) fn pixel_of(&self, point: Point<World>) -> DVec2 {
         let (window, pixels) = (self.window_size(), self.pixel_size());
         (self.image_of(point) / self.millimeters_per_unit / window + 0.5) * pixels
     }
 
-    /// The view with the object cut by these planes.
+    /// Returns the view with the object cut by these planes.
     pub(super) fn cut_by(self, sections: Vec<Plane<World>>) -> Self {
         Self { sections, ..self }
     }
 
-    /// The view with another size, in object millimeters.
+    /// Returns the view with another size, in object millimeters.
     pub(super) fn with_size(&self, size: DVec2) -> Self {
         Self { size, ..self.clone() }
     }
 
-    /// The view of these points with a camera of this orientation.
+    /// Returns the view of these points with a camera of this orientation.
     fn frame_from(
         points: &[Point<World>],
         name: ViewName,
@@ -191,14 +191,15 @@ impl SheetView {
         Ok(Self { name, camera, sections, depths, size, millimeters_per_unit: unit })
     }
 
-    /// The width and height of the window in scene units; never zero, however flat the object.
+    /// Returns the width and height of the window in scene units; never zero, however flat the
+    /// object.
     fn window_size(&self) -> DVec2 {
         let size = self.size / self.millimeters_per_unit;
         let least = size.max_element().max(self.depths[1] - self.depths[0]).max(1e-9) * 0.02;
         (size * WINDOW_MARGIN).max(DVec2::splat(least))
     }
 
-    /// The line drawing of the view.
+    /// Returns the line drawing of the view.
     pub(super) fn draw(
         &self,
         surface: &WeldedSurface,
@@ -221,8 +222,8 @@ impl SheetView {
         Ok(draw_surface(surface, &view_projection, size, &options, &fill, threads)?)
     }
 
-    /// The camera with its view volume, and the size of the drawing in pixels. Depths get a margin
-    /// of 2 % of the extent.
+    /// Returns the camera with its view volume, and the size of the drawing in pixels. Depths get a
+    /// margin of 2 % of the extent.
     ///
     /// # Errors
     /// [`SheetError::View`] if there is no such volume.
@@ -241,7 +242,8 @@ impl SheetView {
         Ok((ViewProjection { camera: self.camera, view_to_clip }, size))
     }
 
-    /// The placement of the view's drawing on the sheet, at this scale and centered at `center`.
+    /// Returns the placement of the view's drawing on the sheet, at this scale and centered at
+    /// `center`.
     pub(super) fn placement(
         &self,
         drawing: &Drawing,

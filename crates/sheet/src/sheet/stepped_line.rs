@@ -63,7 +63,7 @@ fn end_at_border(from: DVec2, end: DVec2, half: DVec2) -> DVec2 {
     if length > 0.0 && length.is_finite() { from + direction * length } else { end }
 }
 
-/// The direction of the pieces of a stepped section, if its corners are valid.
+/// Returns the direction of the pieces of a stepped section, if its corners are valid.
 pub(super) fn check_steps(
     removed: Vector<World>,
     corners: &[Point<World>],

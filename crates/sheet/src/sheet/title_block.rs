@@ -44,24 +44,24 @@ const TITLE_HEIGHT: f64 = 5.0;
 const FIELD_INSET: f64 = 1.5;
 
 impl TitleBlockField {
-    /// The width and height of the field in a block, in millimeters.
+    /// Returns the width and height of the field in a block, in millimeters.
     fn size(&self, block: Rectangle) -> DVec2 {
         self.corner(block, 1) - self.corner(block, 0)
     }
 
-    /// The upper left (0) or lower right (1) corner of the field in a block.
+    /// Returns the upper left (0) or lower right (1) corner of the field in a block.
     fn corner(&self, block: Rectangle, end: usize) -> DVec2 {
         let (x, y) = (self.x[end], self.y[end]);
         DVec2::new(block.x() + x * block.width(), block.y() + y * block.height())
     }
 
-    /// The rectangle of the field in a block.
+    /// Returns the rectangle of the field in a block.
     fn cell(&self, block: Rectangle) -> Rectangle {
         let (corner, size) = (self.corner(block, 0), self.size(block));
         rectangle_from_size(corner.x, corner.y, size.x, size.y)
     }
 
-    /// The heights of its first and second values, in a field of a given height.
+    /// Returns the heights of its first and second values, in a field of a given height.
     fn value_heights(&self, height: f64) -> [f64; 2] {
         let usual = if self.field == FieldName::Title { TITLE_HEIGHT } else { VALUE_HEIGHT };
         let share = if self.second_value.is_empty() { 0.42 } else { 0.3 };
@@ -69,7 +69,7 @@ impl TitleBlockField {
     }
 }
 
-/// The area of the block within the frame.
+/// Returns the area of the block within the frame.
 pub(super) fn title_block_area(sheet: &Sheet, frame: Rectangle) -> Rectangle {
     if let Some(template) = &sheet.title_block_template {
         return template.area(frame);
@@ -81,7 +81,7 @@ pub(super) fn title_block_area(sheet: &Sheet, frame: Rectangle) -> Rectangle {
     rectangle_from_size(right - width, bottom - height, width, height)
 }
 
-/// The borders, the lettering in its three widths, and the projection symbol.
+/// Returns the borders, the lettering in its three widths, and the projection symbol.
 ///
 /// Text that is too wide for its field is reduced in height. On small paper the block shrinks, and
 /// so do its characters.
@@ -141,7 +141,7 @@ pub(super) fn title_block_layers(
 /// The distance from the name of its field to the projection symbol, in millimeters.
 const SYMBOL_DISTANCE: f64 = 1.4;
 
-/// The projection symbol in its field, to the right of the field's name.
+/// Returns the projection symbol in its field, to the right of the field's name.
 fn symbol_group(sheet: &Sheet, name: &Label<'_>, cell: Rectangle) -> Group {
     // The symbol is three times as wide as it is high.
     let room = cell.width() - 2.0 * FIELD_INSET - name.width() - SYMBOL_DISTANCE;

@@ -72,7 +72,7 @@ impl TitleBlockText {
         ]
     }
 
-    /// The sheet number and the sheet count, such as `2/5`; empty without them.
+    /// Returns the sheet number and the sheet count, such as `2/5`; empty without them.
     pub(super) fn sheet_number(&self) -> String {
         self.sheet.map_or_else(String::new, |[number, count]| format!("{number}/{count}"))
     }
@@ -93,7 +93,7 @@ pub(super) struct TitleBlockField {
 const THREE_ROWS: [f64; 3] = [0.31, 0.69, 1.0];
 const FOUR_ROWS: [f64; 4] = [10.0 / 48.0, 20.0 / 48.0, 38.0 / 48.0, 1.0];
 
-/// The fields in reading order.
+/// Returns the fields in reading order.
 ///
 /// Columns and rows are fractions of the block, so that it scales with narrow paper.
 pub(super) fn title_block_fields(

@@ -46,7 +46,7 @@ impl TitleBlockLanguage {
         }
     }
 
-    /// The name of a field.
+    /// Returns the name of a field.
     pub(super) const fn field_name(self, field: FieldName) -> &'static str {
         let [english, german, chinese] = match field {
             FieldName::Author => ["Author", "Ersteller", "设计"],

@@ -283,7 +283,7 @@ impl TitleBlockTemplate {
 const CAPITALS: f64 = 0.7;
 
 impl TemplateText {
-    /// The text with the values of its fields.
+    /// Returns the text with the values of its fields.
     pub(super) fn content(&self, values: &FieldValues<'_>) -> String {
         let part = |part: &TextPart| match part {
             TextPart::Fixed(text) => text.clone(),
@@ -299,7 +299,7 @@ impl TemplateText {
 }
 
 impl Sheet {
-    /// The values of the fields of its template.
+    /// Returns the values of the fields of its template.
     pub(super) fn field_values<'a>(&'a self, title: &'a str, scale: &'a str) -> FieldValues<'a> {
         let (texts, paper) = (&self.title_block, self.paper_name.as_str());
         FieldValues { texts, title, scale, paper, unit: self.dimension_unit.symbol() }
@@ -307,7 +307,7 @@ impl Sheet {
 }
 
 impl FieldValues<'_> {
-    /// The text of a field.
+    /// Returns the text of a field.
     fn text(&self, field: TemplateField) -> String {
         let texts = self.texts;
         let part = |at: usize| texts.sheet.map_or_else(|| "1".to_owned(), |of| of[at].to_string());
@@ -332,7 +332,7 @@ impl FieldValues<'_> {
     }
 }
 
-/// The parts of a text: `{name}` is a field, `{{` a brace.
+/// Returns the parts of a text: `{name}` is a field, `{{` a brace.
 fn text_parts(content: &str) -> Result<Vec<TextPart>, String> {
     let (mut parts, mut rest) = (Vec::new(), content);
     while let Some((before, after)) = rest.split_once('{') {
@@ -364,7 +364,7 @@ fn text_parts(content: &str) -> Result<Vec<TextPart>, String> {
     Ok(parts)
 }
 
-/// The size in millimeters, from the view box, whose corner is at 0, 0.
+/// Returns the size in millimeters, from the view box, whose corner is at 0, 0.
 fn view_box_size(svg: &str, root: &Element<'_>) -> Result<DVec2, TemplateError> {
     let fault = |message: &str| TemplateError::at(svg, root.at, message);
     let numbers = parse_numbers(svg, root.attribute("viewBox"))?;

@@ -66,12 +66,12 @@ impl<'a> ViewGrid<'a> {
         Self { cells, places, spans }
     }
 
-    /// The size of all columns and rows with their annotations, in millimeters.
+    /// Returns the size of all columns and rows with their annotations, in millimeters.
     pub(super) fn total_size(&self) -> DVec2 {
         DVec2::from(self.spans.map(|spans| spans.as_flattened().iter().sum()))
     }
 
-    /// The centers of the three views in an area; `None` if the grid is larger.
+    /// Returns the centers of the three views in an area; `None` if the grid is larger.
     pub(super) fn place_views(
         &self,
         [low, high]: Extent,

@@ -65,7 +65,7 @@ impl PlacedView<'_> {
         self.planned.view.size * self.scale.ratio()
     }
 
-    /// The rectangle around the view and its annotations on the sheet.
+    /// Returns the rectangle around the view and its annotations on the sheet.
     pub(super) fn extent(&self) -> Extent {
         let half = self.object_size() * 0.5;
         self.annotations.extent_with([-half, half]).map(|corner| self.center + corner)
@@ -117,12 +117,12 @@ impl<'a> ViewCell<'a> {
         Self { planned, scale, annotations, extent }
     }
 
-    /// The space that the view takes around a center.
+    /// Returns the space that the view takes around a center.
     pub(super) fn extent_at(&self, center: DVec2) -> Extent {
         self.extent.map(|corner| center + corner)
     }
 
-    /// The view at a center.
+    /// Returns the view at a center.
     pub(super) fn place(self, center: DVec2) -> PlacedView<'a> {
         let Self { planned, scale, annotations, .. } = self;
         PlacedView { planned, center, scale, annotations }
@@ -168,7 +168,8 @@ impl<'a> ViewLayout<'a> {
         Some(best)
     }
 
-    /// The best arrangement at one scale; `None` if the front, top and side views do not fit.
+    /// Returns the best arrangement at one scale; `None` if the front, top and side views do not
+    /// fit.
     pub(super) fn arrange_at_scale(
         sheet: &Sheet,
         plan: &'a ViewPlan,
@@ -228,19 +229,19 @@ impl<'a> ViewLayout<'a> {
         self.cramped_views().next().is_none() && self.overlaps.is_empty()
     }
 
-    /// The views without a position, or with a scale much smaller than the sheet's.
+    /// Returns the views without a position, or with a scale much smaller than the sheet's.
     pub(super) fn cramped_views(&self) -> impl Iterator<Item = &'a PlannedView> {
         let least = LEAST_FREE_SCALE * self.scale.ratio() * (1.0 - 1e-9);
         let small = self.views.iter().filter(move |view| view.scale.ratio() < least);
         self.left_out.iter().copied().chain(small.map(|view| view.planned))
     }
 
-    /// The width and height that front, top and side views need at a scale, in millimeters.
+    /// Returns the width and height that front, top and side views need at a scale, in millimeters.
     pub(super) fn least_size(sheet: &Sheet, plan: &ViewPlan, scale: DrawingScale) -> DVec2 {
         ViewGrid::new(sheet, &plan.principal, scale).total_size()
     }
 
-    /// The width and height always available to views, in millimeters.
+    /// Returns the width and height always available to views, in millimeters.
     pub(super) fn room_above_blocks(sheet: &Sheet) -> DVec2 {
         let [low, high] = area_above_blocks(sheet, TIGHT_GAP);
         (high - low).max(DVec2::ZERO)
@@ -258,13 +259,13 @@ impl<'a> ViewLayout<'a> {
         own.into_iter().zip(others).find(differs).is_some_and(|(a, b)| a > b)
     }
 
-    /// The contents of the frame: views with their annotations, title block and scale bar.
+    /// Returns the contents of the frame: views with their annotations, title block and scale bar.
     pub(super) fn contents(&self, title_block: Rectangle) -> Vec<Extent> {
         let blocks = [title_block, self.scale_bar].map(extent_of_rectangle);
         self.views.iter().map(PlacedView::extent).chain(blocks).collect()
     }
 
-    /// The error with the needed and available sizes, and a remedy.
+    /// Returns the error with the needed and available sizes, and a remedy.
     fn too_large(sheet: &Sheet, plan: &ViewPlan) -> SheetError {
         let fits =
             |scale: &&DrawingScale| ViewLayout::arrange_at_scale(sheet, plan, **scale).is_some();
@@ -281,8 +282,8 @@ impl<'a> ViewLayout<'a> {
     }
 }
 
-/// The cell of a view at the largest scale at which it fits a free rectangle, up to the sheet's
-/// scale, and its center.
+/// Returns the cell of a view at the largest scale at which it fits a free rectangle, up to the
+/// sheet's scale, and its center.
 fn fit_into<'a>(
     sheet: &Sheet,
     planned: &'a PlannedView,
@@ -320,7 +321,7 @@ pub(super) struct Arrangement {
     pub(super) scale_bar: Rectangle,
 }
 
-/// The arrangements to try, most even first.
+/// Returns the arrangements to try, most even first.
 ///
 /// The last ones leave less space between views and frame, or move the scale bar out of the way.
 pub(super) fn arrangements(sheet: &Sheet) -> Vec<Arrangement> {
@@ -343,7 +344,7 @@ pub(super) fn arrangements(sheet: &Sheet) -> Vec<Arrangement> {
     ways.map(|(area, spacing, scale_bar)| Arrangement { area, spacing, scale_bar }).into()
 }
 
-/// The area above the title block and scale bar, at a distance from the frame.
+/// Returns the area above the title block and scale bar, at a distance from the frame.
 fn area_above_blocks(sheet: &Sheet, gap: f64) -> Extent {
     let [low, high] = extent_of_rectangle(sheet.drawing_area());
     let blocks = sheet.title_block_area().y().min(sheet.scale_bar_area().y());
@@ -356,7 +357,7 @@ pub(super) fn extent_of_rectangle(area: Rectangle) -> Extent {
     [low, low + DVec2::new(area.width(), area.height())]
 }
 
-/// The nearest point on the micrometer grid, in millimeters.
+/// Returns the nearest point on the micrometer grid, in millimeters.
 pub(super) fn snap_to_grid(point: DVec2) -> DVec2 {
     page::to_millimeters(page::to_micrometers(point))
 }

@@ -55,7 +55,7 @@ pub(super) struct MarkSettings {
 }
 
 impl ViewMark {
-    /// A center line, as a point on it and the index of the paper axis along which it runs.
+    /// Returns a center line, as a point on it and the index of the paper axis along which it runs.
     pub(super) const fn as_center_line(&self) -> Option<(DVec2, usize)> {
         match self {
             Self::CenterLine { through, axis } => Some((*through, *axis)),
@@ -63,7 +63,7 @@ impl ViewMark {
         }
     }
 
-    /// The space that the mark takes beside the object, in millimeters of the paper.
+    /// Returns the space that the mark takes beside the object, in millimeters of the paper.
     pub(super) fn reserve(&self, settings: &MarkSettings) -> f64 {
         let MarkSettings { ratio, object, letters } = *settings;
         match self {
@@ -132,7 +132,7 @@ impl ViewMark {
     }
 }
 
-/// The corners on the paper, with both ends extended.
+/// Returns the corners on the paper, with both ends extended.
 fn stepped_line(corners: &[DVec2], ratio: f64) -> Vec<DVec2> {
     let mut corners: Vec<DVec2> = corners.iter().map(|corner| *corner * ratio).collect();
     let count = corners.len();
@@ -231,7 +231,8 @@ fn is_beside(point: DVec2, object: Extent, letters: f64) -> bool {
     (point + letters).cmplt(object[0]).any() || (point - letters).cmpgt(object[1]).any()
 }
 
-/// The distance from a point to the exit of a ray from a rectangle; 0 if the point is outside.
+/// Returns the distance from a point to the exit of a ray from a rectangle; 0 if the point is
+/// outside.
 fn exit_distance(from: DVec2, direction: DVec2, [low, high]: Extent) -> f64 {
     let mut exit = f64::INFINITY;
     for axis in 0..2 {

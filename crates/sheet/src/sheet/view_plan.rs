@@ -144,17 +144,17 @@ impl<'a> PlanSubject<'a> {
         self.sheet.millimeters_per_unit
     }
 
-    /// The planes of the sections that cut something.
+    /// Returns the planes of the sections that cut something.
     fn planes(&self) -> Vec<Plane<World>> {
         self.cutting.iter().map(|(plane, _)| *plane).collect()
     }
 
-    /// The uncut view along an axis.
+    /// Returns the uncut view along an axis.
     fn named_view(&self, name: NamedView) -> Result<SheetView, SheetError> {
         SheetView::frame_points(&self.extreme, name, self.unit())
     }
 
-    /// The axonometric view of the parts that all sections retain.
+    /// Returns the axonometric view of the parts that all sections retain.
     fn cut_view(&self, name: NamedView) -> Result<SheetView, SheetError> {
         let planes = self.planes();
         let retained =
@@ -163,7 +163,7 @@ impl<'a> PlanSubject<'a> {
         Ok(SheetView::frame_points(points, name, self.unit())?.cut_by(planes))
     }
 
-    /// An uncut view in any direction.
+    /// Returns an uncut view in any direction.
     pub(super) fn auxiliary_view(
         &self,
         gaze: Vector<World>,
@@ -174,7 +174,7 @@ impl<'a> PlanSubject<'a> {
         Ok(PlannedView::plain(view))
     }
 
-    /// The views with these names, with sections and overall dimensions, and section views.
+    /// Returns the views with these names, with sections and overall dimensions, and section views.
     pub(super) fn named_views(
         &self,
         names: &[(NamedView, &ViewPlace)],
@@ -237,8 +237,8 @@ impl<'a> PlanSubject<'a> {
         Ok((free, warnings))
     }
 
-    /// The view onto a section plane oblique to all views, and an auxiliary view that sees it
-    /// edge-on, with its line; `None` if no view can show the direction.
+    /// Returns the view onto a section plane oblique to all views, and an auxiliary view that sees
+    /// it edge-on, with its line; `None` if no view can show the direction.
     fn oblique_section(
         &self,
         views: &mut [PlannedView],
@@ -285,8 +285,8 @@ fn add_dimensions(views: &mut [PlannedView], angle: SheetAngle) {
     }
 }
 
-/// The view beside the front view: the requested one, or the default of the projection angle, or
-/// its opposite if only that faces a section.
+/// Returns the view beside the front view: the requested one, or the default of the projection
+/// angle, or its opposite if only that faces a section.
 fn side_view(
     sheet: &Sheet,
     planes: &[Plane<World>],
@@ -363,7 +363,7 @@ impl PlannedView {
         !is_axonometric && !is_broken && self.detail_radius.is_none()
     }
 
-    /// The name for messages, such as `isometric view` or `section A-A`.
+    /// Returns the name for messages, such as `isometric view` or `section A-A`.
     pub(super) fn title(&self) -> String {
         match self.view.name {
             ViewName::Named(name) => format!("{name} view"),
@@ -373,12 +373,12 @@ impl PlannedView {
         }
     }
 
-    /// The view before a part of it was omitted.
+    /// Returns the view before a part of it was omitted.
     pub(super) fn drawn_view(&self) -> SheetView {
         self.view.with_size(self.view.size + self.left_out())
     }
 
-    /// The lengths across and up omitted from the view, in object millimeters.
+    /// Returns the lengths across and up omitted from the view, in object millimeters.
     fn left_out(&self) -> DVec2 {
         match &self.composition {
             Composition::Broken(part) => part.length(),
@@ -386,7 +386,7 @@ impl PlannedView {
         }
     }
 
-    /// The annotations beside the view, at a scale.
+    /// Returns the annotations beside the view, at a scale.
     pub(super) fn annotate(&self, sheet: &Sheet, scale: DrawingScale) -> ViewAnnotations {
         let letters = sheet.lettering_height();
         let half = self.view.size * scale.ratio() * 0.5;
@@ -421,7 +421,7 @@ impl PlannedView {
         annotations
     }
 
-    /// The lines of the sections that the view sees edge-on.
+    /// Returns the lines of the sections that the view sees edge-on.
     fn lines_of_sections(&self, scale: DrawingScale) -> Vec<SectionLine> {
         let view = self.drawn_view();
         let in_view = |section: &LetteredPlane| SectionLine::in_view(&view, scale, *section);
@@ -433,7 +433,7 @@ impl PlannedView {
         lines.filter_map(shortened).collect()
     }
 
-    /// The texts below the view.
+    /// Returns the texts below the view.
     fn captions(&self, scale: DrawingScale) -> Vec<(AnnotationLayer, String)> {
         let mut captions = Vec::new();
         if let Some(letter) = self.letter {

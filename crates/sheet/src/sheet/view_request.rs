@@ -106,7 +106,7 @@ pub enum ViewRequest {
 }
 
 impl ViewRequest {
-    /// The place; `None` for requests that change another view.
+    /// Returns the place; `None` for requests that change another view.
     pub(super) const fn place(&self) -> Option<&ViewPlace> {
         match self {
             Self::Named { place, .. }
@@ -117,7 +117,7 @@ impl ViewRequest {
         }
     }
 
-    /// The name for messages, such as `detail of the front view`.
+    /// Returns the name for messages, such as `detail of the front view`.
     pub(super) fn title(&self) -> String {
         match self {
             Self::Named { view, .. } => format!("{view} view"),

@@ -128,7 +128,7 @@ impl PartImage {
         image
     }
 
-    /// The pixel coordinates of the center of the view.
+    /// Returns the pixel coordinates of the center of the view.
     fn middle(&self) -> DVec2 {
         DVec2::new(self.width as f64, self.height as f64) * 0.5
     }
@@ -203,7 +203,7 @@ mod tests {
     use model::{Mesh, Model, Node, Primitive, world_points};
     use std::sync::Arc;
 
-    /// A model of triangles, each a separate part.
+    /// Returns a model of triangles, each a separate part.
     fn triangles(corners: &[[[f32; 3]; 3]]) -> ModelInstance {
         let mut model = Model::default();
         for (index, positions) in corners.iter().enumerate() {

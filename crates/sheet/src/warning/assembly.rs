@@ -1,9 +1,9 @@
-//! Assembly warnings: missing parts of their pages.
+//! Warnings about what is missing from assembly pages.
 
 use core::fmt;
 use files::{counted, visible_excerpt};
 
-/// A part that the pages of an assembly lack, with the reason in its `Display` text.
+/// An element that is missing from the assembly pages. Its `Display` text gives the reason.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 #[non_exhaustive]
 pub enum AssemblyWarning {
@@ -14,7 +14,7 @@ pub enum AssemblyWarning {
         /// The name of the part.
         part: String,
     },
-    /// Part names contain characters that the stroke font lacks.
+    /// Part names contain characters that are missing from the stroke font.
     NamesUnreadable {
         /// The first such name.
         name: String,
@@ -23,7 +23,7 @@ pub enum AssemblyWarning {
     },
     /// Parts are hidden in the assembly view and have no balloons.
     NotVisible {
-        /// The number of the first one in the list.
+        /// The number of the first such item in the list.
         number: usize,
         /// Its name.
         part: String,
@@ -32,7 +32,7 @@ pub enum AssemblyWarning {
     },
     /// Balloons do not fit around the assembly view.
     BalloonsLeftOut {
-        /// The number of the first one.
+        /// The number of the first such balloon.
         number: usize,
         /// The number of such balloons.
         count: usize,
@@ -42,7 +42,7 @@ pub enum AssemblyWarning {
         /// The maximum number of parts.
         most: usize,
     },
-    /// There are too many parts to draw a sheet for each.
+    /// There are too many parts to draw a sheet for each of them.
     PartSheetsLeftOut {
         /// The number of parts without a sheet.
         count: usize,
@@ -83,8 +83,8 @@ impl fmt::Display for AssemblyWarning {
             ),
             Self::TooManyPartsToExplode { most } => write!(
                 f,
-                "the assembly has more than {most} parts, so it is not exploded: draw a part of \
-                 the model"
+                "the assembly has more than {most} parts, so it is not exploded: draw only part \
+                 of the model"
             ),
             Self::PartSheetsLeftOut { count } => write!(
                 f,

@@ -7,7 +7,7 @@ use core::fmt;
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 #[non_exhaustive]
 pub enum DimensionFault {
-    /// The sheet does not have the view.
+    /// The requested view is not on the sheet.
     NoSuchView(NamedView),
     /// The requested view foreshortens it; another view of the sheet may show it at true size.
     Foreshortened {
@@ -22,7 +22,7 @@ pub enum DimensionFault {
     CutAway,
     /// The points coincide in the direction of measurement, or the angle is 0 or 180 degrees.
     NoExtent,
-    /// There is no free space for its number.
+    /// There is no room for its number.
     NoRoom,
 }
 
@@ -38,7 +38,7 @@ impl fmt::Display for DimensionFault {
                 }
             }
             Self::NowhereTrue => f.write_str("no view of the sheet shows its true size"),
-            Self::CutAway => f.write_str("a section removes what it measures"),
+            Self::CutAway => f.write_str("a section removes the points it measures"),
             Self::NoExtent => f.write_str("there is nothing to measure between its points"),
             Self::NoRoom => f.write_str("there is no room for its number"),
         }

@@ -5,33 +5,33 @@ use glam::DVec2;
 use page::{GroupContent, Layer, Polyline, to_millimeters};
 use sheet::SheetPage;
 
-/// The circle through the corners of a polygon: its center and radius.
+/// Returns the circle through the corners of a polygon: its center and radius.
 fn circle_of(line: &Polyline) -> (DVec2, f64) {
     let corners = || line.points.iter().copied().map(to_millimeters);
     let center = corners().sum::<DVec2>() / line.points.len() as f64;
     (center, corners().map(|corner| (corner - center).length()).fold(0.0, f64::max))
 }
 
-/// The distance of a point from a segment.
+/// Returns the distance of a point from a segment.
 fn distance(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
     let along = b - a;
     let t = ((point - a).dot(along) / along.length_squared().max(1e-12)).clamp(0.0, 1.0);
     (point - a - along * t).length()
 }
 
-/// The straight pieces of a line.
+/// Returns the straight pieces of a line.
 fn pieces(line: &Polyline) -> impl Iterator<Item = [DVec2; 2]> {
     let count = line.points.len();
     let pieces = if line.closed { count } else { count - 1 };
     (0..pieces).map(move |k| [k, (k + 1) % count].map(|at| to_millimeters(line.points[at])))
 }
 
-/// The layer with an id, if the page has it.
+/// Returns the layer with an id, if the page has it.
 pub fn layer<'a>(page: &'a SheetPage, id: &str) -> Option<&'a Layer> {
     page.layers.iter().find(|layer| layer.id == id)
 }
 
-/// The texts of a layer.
+/// Returns the texts of a layer.
 pub fn texts(page: &SheetPage, id: &str) -> Vec<String> {
     let groups = layer(page, id).into_iter().flat_map(|layer| &layer.groups);
     let text = |content: &GroupContent| match content {
@@ -105,7 +105,7 @@ pub fn crossing_leaders(page: &SheetPage) -> Vec<String> {
     faults
 }
 
-/// The extent of the assembly view.
+/// Returns the extent of the assembly view.
 pub fn view_extent(page: &SheetPage) -> Option<Extent> {
     layer_extent(page, |id| id.starts_with("assembly-") || id.starts_with("exploded-"))
 }

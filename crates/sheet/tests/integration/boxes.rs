@@ -25,7 +25,7 @@ pub const PAPERS: [(Paper, &str); 8] = [
 pub struct Random(pub u64);
 
 impl Random {
-    /// A number from 0 to 1.
+    /// Returns a number from 0 to 1.
     pub fn fraction(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut bits = self.0;
@@ -34,13 +34,13 @@ impl Random {
         ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// A number from `low` to `high`, uniform in its logarithm.
+    /// Returns a number from `low` to `high`, uniform in its logarithm.
     pub fn by_magnitude(&mut self, low: f64, high: f64) -> f64 {
         low * libm::exp(self.fraction() * libm::log(high / low))
     }
 }
 
-/// A box with these sides around the origin.
+/// Returns a box with these sides around the origin.
 pub fn box_model(size: DVec3) -> ModelInstance {
     let corner = |n: usize| {
         [0, 1, 2].map(|axis| (size[axis] * if n >> axis & 1 == 0 { -0.5 } else { 0.5 }) as f32)
@@ -52,7 +52,7 @@ pub fn box_model(size: DVec3) -> ModelInstance {
     instance_of(Primitive { positions, indices, ..Primitive::default() })
 }
 
-/// A model of one primitive.
+/// Returns a model of one primitive.
 pub fn instance_of(primitive: Primitive) -> ModelInstance {
     let model = Model {
         nodes: vec![Node { mesh: Some(0), ..Node::default() }],
@@ -63,14 +63,14 @@ pub fn instance_of(primitive: Primitive) -> ModelInstance {
     ModelInstance { model: Arc::new(model), model_to_world: Affine::scale(1.0, 1.0, 1.0) }
 }
 
-/// The plane through a point that retains the side in a direction.
+/// Returns the plane through a point that retains the side in a direction.
 pub fn plane(point: DVec3, retained: DVec3) -> Plane<World> {
     let [x, y, z] = retained.to_array();
     let normal = Normal::new(x, y, z).normalized().expect("a direction");
     Plane::through(Point::from_raw(point), normal)
 }
 
-/// A sheet in millimeters.
+/// Returns a sheet in millimeters.
 pub fn sheet((paper, name): (Paper, &str), angle: SheetAngle) -> Sheet {
     let mut sheet = Sheet::for_paper(paper, name);
     sheet.projection_angle = angle;

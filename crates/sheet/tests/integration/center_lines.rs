@@ -14,7 +14,7 @@ use std::path::Path;
 use std::sync::Arc;
 use viewport::Paper;
 
-/// A cylinder around an axis through a point, between two heights, with flat ends.
+/// Returns a cylinder around an axis through a point, between two heights, with flat ends.
 pub fn cylinder(
     base: DVec3,
     axis: DVec3,
@@ -42,7 +42,7 @@ pub fn cylinder(
     instance_of(Primitive { positions, indices, ..Primitive::default() })
 }
 
-/// The bearing from the scenes.
+/// Returns the bearing from the scenes.
 fn bearing() -> ModelInstance {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/models/bearing.glb");
     let model = Arc::new(load(&path, &ImportOptions::default()).unwrap());

@@ -10,12 +10,12 @@ use homog::{Point, Vector, World};
 use projection::SheetAngle;
 use sheet::{Dimension, LengthDirection, Measure, Sheet, SheetWarning};
 
-/// A random point in a box.
+/// Returns a random point in a box.
 fn within(random: &mut Random, size: DVec3) -> Point<World> {
     Point::from_raw(size * DVec3::from([(); 3].map(|()| random.fraction() - 0.5)))
 }
 
-/// A random measure in a box.
+/// Returns a random measure in a box.
 fn measure(random: &mut Random, number: usize, size: DVec3) -> Measure {
     let direction = [
         LengthDirection::Horizontal,

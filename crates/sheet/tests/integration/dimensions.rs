@@ -26,7 +26,7 @@ fn point(x: f64, y: f64, z: f64) -> Point<World> {
     Point::new(x, y, z)
 }
 
-/// A dimension with default settings.
+/// Returns a dimension with default settings.
 pub fn dimension(measure: Measure) -> Dimension {
     let (view, side, decimals) = (None, None, None);
     Dimension { measure, view, side, decimals, name: "dimension 1".to_owned() }
@@ -53,7 +53,7 @@ fn pairs() -> Vec<([Point<World>; 2], LengthDirection, NamedView)> {
         .collect()
 }
 
-/// The image of a point in a view, to the right and down.
+/// Returns the image of a point in a view, to the right and down.
 fn image(view: NamedView, point: Point<World>) -> DVec2 {
     let p = point.raw();
     match view {
@@ -64,7 +64,7 @@ fn image(view: NamedView, point: Point<World>) -> DVec2 {
     }
 }
 
-/// A sheet at a scale with one dimension, and no other lines in the layer.
+/// Returns a sheet at a scale with one dimension, and no other lines in the layer.
 fn page_of(dimension: Dimension, (scale, unit): (f64, DimensionUnit)) -> SheetPage {
     let mut sheet = sheet((Paper::A1.rotated(), "A1"), SheetAngle::First);
     sheet.dimensions = false;

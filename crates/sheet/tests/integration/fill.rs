@@ -20,19 +20,19 @@ use viewport::{DrawingScale, Paper};
 /// The minimum fraction of the drawing area that views should fill.
 const LEAST_FILL: f64 = 0.45;
 
-/// A box of random proportions.
+/// Returns a box of random proportions.
 fn random_box(random: &mut Random, least: f64) -> (DVec3, [ModelInstance; 1]) {
     let magnitude = random.by_magnitude(10.0, 5_000.0);
     let size = DVec3::from([(); 3].map(|()| magnitude * random.by_magnitude(least, 1.0)));
     (size, [box_model(size)])
 }
 
-/// The next larger standard scale.
+/// Returns the next larger standard scale.
 fn next_scale(scale: DrawingScale) -> Option<DrawingScale> {
     DrawingScale::STANDARD.into_iter().rev().find(|s| s.ratio() > scale.ratio())
 }
 
-/// The sheet in both orientations at a given scale.
+/// Returns the sheet in both orientations at a given scale.
 fn both_at(sheet: &Sheet, scale: DrawingScale) -> [Sheet; 2] {
     [sheet.paper, sheet.paper.rotated()].map(|paper| Sheet {
         paper,
@@ -121,7 +121,7 @@ fn no_orientation_gives_a_larger_scale_than_the_one_that_is_chosen() {
     }
 }
 
-/// A series of papers, and the sheets on them.
+/// Returns a series of papers, and the sheets on them.
 fn series(angle: SheetAngle) -> Vec<Sheet> {
     let papers = [4, 3, 2, 1, 0].map(|at| PAPERS[at]);
     papers.map(|paper| sheet(paper, angle)).into()

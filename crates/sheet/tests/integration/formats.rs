@@ -38,7 +38,7 @@ pub fn read_svg(page: &SheetPage, layer: &str) -> ReadLayer {
     read
 }
 
-/// The polylines of path data with M, m, l, h, v and z.
+/// Returns the polylines of path data with M, m, l, h, v and z.
 fn path_lines(data: &str) -> Vec<Vec<DVec2>> {
     let mut lines: Vec<Vec<DVec2>> = Vec::new();
     let mut at = DVec2::ZERO;
@@ -101,7 +101,7 @@ pub fn read_pdf(page: &SheetPage, layer: &str) -> Vec<Vec<DVec2>> {
     lines
 }
 
-/// The texts of the compressed streams of a PDF file.
+/// Returns the texts of the compressed streams of a PDF file.
 fn pdf_streams(bytes: &[u8]) -> Vec<String> {
     let find = |from: usize, word: &[u8]| {
         bytes[from..].windows(word.len()).position(|part| part == word).map(|at| from + at)
@@ -141,7 +141,7 @@ pub fn read_dxf(page: &SheetPage, layer: &str) -> ReadLayer {
     read
 }
 
-/// The kinds of the entities between tags with code 0; the first part has none.
+/// Returns the kinds of the entities between tags with code 0; the first part has none.
 fn kinds<'a>(tags: &[(&'a str, &'a str)]) -> Vec<&'a str> {
     let kinds = tags.iter().filter(|(code, _)| *code == "0").map(|(_, kind)| *kind);
     core::iter::once("").chain(kinds).collect()

@@ -7,7 +7,7 @@ use sheet::SheetPage;
 /// A rectangle, as its minimum and maximum corners.
 pub type Extent = [DVec2; 2];
 
-/// The layers whose groups are texts.
+/// Returns the layers whose groups are texts.
 fn is_text_layer(id: &str) -> bool {
     const TEXTS: [&str; 12] = [
         "frame-zone-names",
@@ -26,7 +26,7 @@ fn is_text_layer(id: &str) -> bool {
     TEXTS.contains(&id) || id.starts_with("title-block-text-")
 }
 
-/// The rectangle around lines; `None` without any.
+/// Returns the rectangle around lines; `None` without any.
 pub fn extent<'a>(lines: impl Iterator<Item = &'a Polyline>) -> Option<Extent> {
     let points = lines.flat_map(|line| &line.points).copied().map(to_millimeters);
     points.fold(None, |extent: Option<Extent>, p| {
@@ -34,13 +34,13 @@ pub fn extent<'a>(lines: impl Iterator<Item = &'a Polyline>) -> Option<Extent> {
     })
 }
 
-/// The extent of the layers that a test chooses.
+/// Returns the extent of the layers that a test chooses.
 pub fn layer_extent(page: &SheetPage, wanted: impl Fn(&str) -> bool) -> Option<Extent> {
     let layers = page.layers.iter().filter(|layer| wanted(&layer.id));
     extent(layers.flat_map(|layer| &layer.groups).flat_map(|g| g.strokes.iter().chain(&g.fills)))
 }
 
-/// The sides of a polyline.
+/// Returns the sides of a polyline.
 fn sides(line: &Polyline) -> impl Iterator<Item = [DVec2; 2]> {
     let count = line.points.len();
     let sides = if line.closed { count } else { count - 1 };
@@ -63,7 +63,7 @@ fn are_apart(a: &[DVec2], b: &[DVec2]) -> bool {
     })
 }
 
-/// The corners of a rectangle around a text, with a margin; slanted if the text is.
+/// Returns the corners of a rectangle around a text, with a margin; slanted if the text is.
 fn text_outline(group: &Group, margin: f64) -> Option<Vec<DVec2>> {
     let [low, high] = extent(group.strokes.iter())?;
     if let GroupContent::Text(line) = &group.content {

@@ -21,7 +21,7 @@ fn label(text: &str, at: DVec3) -> Overlay {
     })
 }
 
-/// The texts of labels and axis names, in the order of the views.
+/// Returns the texts of labels and axis names, in the order of the views.
 fn texts(page: &SheetPage) -> Vec<&str> {
     let layer = page.layers.iter().find(|layer| layer.id == "overlay-text").expect("labels");
     layer.groups.iter().filter_map(text_of).collect()

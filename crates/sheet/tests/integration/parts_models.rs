@@ -6,20 +6,20 @@ use homog::{Affine, Model as ModelSpace, Vector};
 use model::{Material, Mesh, Model, ModelInstance, Node, Primitive};
 use std::sync::Arc;
 
-/// The place of a part: a rotation around an axis, then a translation.
+/// Returns the place of a part: a rotation around an axis, then a translation.
 pub fn placed(at: DVec3, turn: f64) -> Affine<ModelSpace, ModelSpace> {
     let turn = DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), turn);
     let turn = Affine::<ModelSpace, ModelSpace>::from_quaternion(turn.to_array());
     turn.expect("a turn").then(Affine::translation(Vector::from_raw(at)))
 }
 
-/// The primitive of a box with these sides around the origin, with welded corners.
+/// Returns the primitive of a box with these sides around the origin, with welded corners.
 pub fn box_primitive(size: DVec3) -> Primitive {
     let model = box_model(size);
     model.model.meshes[0].primitives[0].clone()
 }
 
-/// A prism over a circle with `corners` corners, along y, around the origin.
+/// Returns a prism over a circle with `corners` corners, along y, around the origin.
 pub fn prism_primitive(radius: f64, height: f64, corners: u32) -> Primitive {
     let mut positions = Vec::new();
     for y in [-0.5, 0.5] {
@@ -40,7 +40,7 @@ pub fn prism_primitive(radius: f64, height: f64, corners: u32) -> Primitive {
     Primitive { positions, indices, ..Primitive::default() }
 }
 
-/// A model of nodes with these names, meshes and places.
+/// Returns a model of nodes with these names, meshes and places.
 pub fn assembly(
     primitives: Vec<(Primitive, &str)>,
     nodes: Vec<(String, usize, Affine<ModelSpace, ModelSpace>)>,
@@ -65,8 +65,8 @@ pub fn assembly(
     ModelInstance { model: Arc::new(model), model_to_world: Affine::IDENTITY }
 }
 
-/// An assembly of `kinds` different parts, each `copies` times, in stacked layers: each layer has a
-/// plate and pins through it.
+/// Returns an assembly of `kinds` different parts, each `copies` times, in stacked layers: each
+/// layer has a plate and pins through it.
 pub fn stacked_assembly(kinds: usize, copies: usize) -> ModelInstance {
     let mut random = Random(kinds as u64 * 1000 + copies as u64);
     let mut primitives = Vec::new();
@@ -109,7 +109,7 @@ pub fn scattered_parts(count: usize) -> ModelInstance {
     assembly(primitives, nodes)
 }
 
-/// A number as letters, so that kind names do not end in digits.
+/// Returns a number as letters, so that kind names do not end in digits.
 pub fn letters(number: usize) -> String {
     let letter = |digit: usize| char::from(b'a' + digit as u8);
     [number / 676 % 26, number / 26 % 26, number % 26].map(letter).iter().collect()

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use model::{ModelInstance, Topology};
 
-/// The world-space triangles of each object; none for objects made of lines.
+/// Returns the world-space triangles of each object; none for objects made of lines.
 pub fn part_triangles(models: &[ModelInstance]) -> Vec<Vec<[DVec3; 3]>> {
     let mut parts = Vec::new();
     for placed in models {
@@ -49,8 +49,8 @@ fn boxes_meet(a: &Corners, b: &Corners) -> bool {
     a[0].cmple(b[1]).all() && b[0].cmple(a[1]).all()
 }
 
-/// The pairs of parts with triangles that intersect; triangles are compared if the boxes of the
-/// parts meet.
+/// Returns the pairs of parts with triangles that intersect; triangles are compared if the boxes of
+/// the parts meet.
 pub fn intersecting_parts(parts: &[Vec<[DVec3; 3]>]) -> Vec<[usize; 2]> {
     let boxes: Vec<Corners> = parts.iter().map(|part| corners_of(part)).collect();
     let mut found = Vec::new();

@@ -11,13 +11,13 @@ use projection::SheetAngle;
 use sheet::Sheet;
 use viewport::{DrawingScale, Paper};
 
-/// A full-scale sheet with lines of symmetry.
+/// Returns a full-scale sheet with lines of symmetry.
 fn symmetric_sheet() -> Sheet {
     let sheet = sheet((Paper::A3.rotated(), "A3"), SheetAngle::First);
     Sheet { symmetry_lines: true, scale: DrawingScale::new(1, 1).ok(), ..sheet }
 }
 
-/// The lines of symmetry on a sheet where nothing overlaps.
+/// Returns the lines of symmetry on a sheet where nothing overlaps.
 fn symmetry_lines(sheet: &Sheet, models: &[ModelInstance]) -> Vec<[DVec2; 2]> {
     let page = sheet.draw(models, &[], 1).unwrap();
     assert_eq!(faults(&page), [""; 0]);
@@ -28,7 +28,7 @@ fn symmetry_lines(sheet: &Sheet, models: &[ModelInstance]) -> Vec<[DVec2; 2]> {
     lines.iter().map(|line| [line[0], line[1]]).collect()
 }
 
-/// The lengths of vertical and of horizontal lines.
+/// Returns the lengths of vertical and of horizontal lines.
 fn lengths(lines: &[[DVec2; 2]]) -> [Vec<f64>; 2] {
     [1, 0].map(|axis| {
         let spans = lines.iter().map(|[a, b]| (*b - *a).abs());
@@ -39,8 +39,8 @@ fn lengths(lines: &[[DVec2; 2]]) -> [Vec<f64>; 2] {
     })
 }
 
-/// A prism over a polygon in the xy plane, from z = 0 to a depth. Its end faces are fans from a
-/// corner, so their triangles are not symmetric.
+/// Returns a prism over a polygon in the xy plane, from z = 0 to a depth. Its end faces are fans
+/// from a corner, so their triangles are not symmetric.
 fn prism(outline: &[[f32; 2]], depth: f32) -> ModelInstance {
     let count = outline.len() as u32;
     let level = |z: f32| outline.iter().map(move |[x, y]| [*x, *y, z]);

@@ -22,7 +22,7 @@ fn texts(page: &SheetPage) -> Vec<&str> {
     texts.filter(|text| !text.is_empty()).collect()
 }
 
-/// The texts of all fields.
+/// Returns the texts of all fields.
 fn all_fields(language: TitleBlockLanguage) -> TitleBlockText {
     TitleBlockText {
         title: "Bearing, gyrated".to_owned(),

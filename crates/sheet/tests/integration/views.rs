@@ -21,28 +21,28 @@ fn a3(views: Vec<ViewRequest>) -> Sheet {
     Sheet { views, ..sheet((Paper::A3.rotated(), "A3"), SheetAngle::First) }
 }
 
-/// The scale `paper`:`object`.
+/// Returns the scale `paper`:`object`.
 fn scale(paper: u32, object: u32) -> Option<DrawingScale> {
     DrawingScale::new(paper, object).ok()
 }
 
-/// A world point.
+/// Returns a world point.
 fn point(x: f64, y: f64, z: f64) -> Point<World> {
     Point::new(x, y, z)
 }
 
-/// A box with these sides around a center.
+/// Returns a box with these sides around a center.
 fn box_at(size: DVec3, center: DVec3) -> ModelInstance {
     let model_to_world = Affine::translation(Vector::from_raw(center));
     ModelInstance { model_to_world, ..box_model(size) }
 }
 
-/// A named view in its default place.
+/// Returns a named view in its default place.
 fn named(view: NamedView) -> ViewRequest {
     ViewRequest::Named { view, place: ViewPlace::default() }
 }
 
-/// A detail of the front view in its default place.
+/// Returns a detail of the front view in its default place.
 fn detail(center: Point<World>, radius: f64) -> ViewRequest {
     ViewRequest::Detail { of: NamedView::Front, center, radius, place: ViewPlace::default() }
 }
@@ -58,19 +58,19 @@ fn texts(page: &SheetPage) -> Vec<&str> {
         .collect()
 }
 
-/// The lines of a layer.
+/// Returns the lines of a layer.
 fn strokes<'a>(page: &'a SheetPage, id: &str) -> Vec<&'a Polyline> {
     let layers = page.layers.iter().filter(|layer| layer.id == id);
     layers.flat_map(|layer| &layer.groups).flat_map(|group| &group.strokes).collect()
 }
 
-/// The extent of a view's lines, without hatching.
+/// Returns the extent of a view's lines, without hatching.
 fn view_extent(page: &SheetPage, name: &str) -> Extent {
     let prefix = format!("{name}-");
     layer_extent(page, |id| id.starts_with(&prefix)).expect("a view")
 }
 
-/// The front view at the top left of a sheet's views, at 1:1.
+/// Returns the front view at the top left of a sheet's views, at 1:1.
 fn at_one_to_one(views: Vec<ViewRequest>) -> Sheet {
     Sheet { scale: scale(1, 1), ..a3(views) }
 }
@@ -132,7 +132,7 @@ fn two_depths() -> [ModelInstance; 2] {
     ]
 }
 
-/// A stepped section through the middles of the two boxes.
+/// Returns a stepped section through the middles of the two boxes.
 fn stepped(place: ViewPlace) -> ViewRequest {
     let corners = [[-20.0, 0.0], [0.0, 0.0], [0.0, 20.0], [30.0, 20.0]];
     let corners = corners.map(|[x, z]| point(x, 0.0, z)).to_vec();
@@ -405,7 +405,7 @@ fn requests_that_make_no_sense_are_errors_that_name_them() {
     }
 }
 
-/// A random request for a box of this size.
+/// Returns a random request for a box of this size.
 fn random_request(random: &mut Random, size: DVec3) -> ViewRequest {
     let mut about = |size: f64| (random.fraction() - 0.5) * size;
     let center = point(about(size.x), about(size.y), about(size.z * 0.9));

@@ -76,13 +76,13 @@ const READ: [&str; 20] = [
 ];
 
 impl<'a> Element<'a> {
-    /// The value of an attribute and the byte where it begins.
+    /// Returns the value of an attribute and the byte where it begins.
     pub(super) fn attribute(&self, name: &str) -> Option<(&'a str, usize)> {
         let found = self.attributes.iter().find(|(own, ..)| *own == name);
         found.map(|(_, value, at)| (*value, *at))
     }
 
-    /// The number in an attribute: in units of the view box, optionally with `mm` or `px`.
+    /// Returns the number in an attribute: in units of the view box, optionally with `mm` or `px`.
     pub(super) fn number(
         &self,
         source: &str,
@@ -97,7 +97,7 @@ impl<'a> Element<'a> {
         })
     }
 
-    /// The number in an attribute that must be greater than 0.
+    /// Returns the number in an attribute that must be greater than 0.
     pub(super) fn size(
         &self,
         source: &str,
@@ -181,7 +181,7 @@ impl<'a> MarkupReader<'a> {
         }
     }
 
-    /// An error at the current position.
+    /// Returns an error at the current position.
     fn fault(&self, message: impl Into<String>) -> TemplateError {
         TemplateError::at(self.source, self.at, message)
     }
@@ -295,7 +295,7 @@ impl<'a> MarkupReader<'a> {
     }
 }
 
-/// The character of a reference.
+/// Returns the character of a reference.
 fn reference(name: &str) -> Option<char> {
     match name {
         "amp" => Some('&'),

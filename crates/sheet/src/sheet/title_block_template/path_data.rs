@@ -15,7 +15,7 @@ pub(super) fn parse_number(text: &str) -> Option<f64> {
     (number.abs() <= MAX_COORDINATE).then_some(number)
 }
 
-/// The words of a list: numbers and command letters, with the bytes where they begin.
+/// Returns the words of a list: numbers and command letters, with the bytes where they begin.
 ///
 /// Numbers may be separated by blanks, commas, a sign or a second decimal point, as drawing
 /// programs write them.

@@ -2,12 +2,12 @@
 
 use super::*;
 
-/// A template with this content.
+/// Returns a template with this content.
 fn parse(content: &str) -> Result<TitleBlockTemplate, TemplateError> {
     TitleBlockTemplate::parse(&format!("<svg viewBox=\"0 0 90 30\">\n{content}\n</svg>"))
 }
 
-/// The points of the only line.
+/// Returns the points of the only line.
 fn points(content: &str) -> Vec<[f64; 2]> {
     let template = parse(content).expect("a template");
     assert_eq!(template.lines.len(), 1, "{content}");
