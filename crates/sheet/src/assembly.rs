@@ -36,7 +36,7 @@ pub struct AssemblyPages {
     pub parts_list: bool,
     /// Whether a page shows the assembly with balloons that contain the item numbers.
     pub balloons: bool,
-    /// The settings for moving the parts apart on that page; `None` keeps them in place. An
+    /// The settings for moving the parts apart on that page, or `None` to keep them in place. An
     /// exploded view is drawn even without balloons.
     pub explosion: Option<ExplosionSettings>,
     /// Whether each item in the list has a page with its principal views.

@@ -15,9 +15,9 @@
 //!   └─────────────────┴────────────┘         └─────────────────┴────────────┘
 //! ```
 //!
-//! Views are aligned: views in one row have the same height, views in one column the same width
-//! (ISO 5456-2). The scale is a standard scale (ISO 5455). Frame and title block follow ISO 5457
-//! and ISO 7200, dimensions ISO 129-1.
+//! Views are aligned: views in one row have the same height, and views in one column have the same
+//! width (ISO 5456-2). The scale is a standard scale (ISO 5455). The frame and title block follow
+//! ISO 5457 and ISO 7200, and dimensions follow ISO 129-1.
 
 mod angle_dimension;
 mod annotation;
@@ -91,7 +91,7 @@ use view_plan::ViewPlan;
 pub use view_request::{ViewPlace, ViewRequest, ViewSide};
 use viewport::{DrawingScale, Paper, Rectangle};
 
-/// A drawing sheet: the views on it and their appearance.
+/// A drawing sheet: which views it shows, and how they look.
 ///
 /// ```
 /// use sheet::{Sheet, TitleBlockText};
@@ -112,55 +112,57 @@ pub struct Sheet {
     pub paper: Paper,
     /// The name of the paper, such as A3.
     pub paper_name: String,
-    /// First-angle or third-angle projection: the layout of the views.
+    /// First-angle or third-angle projection, which determines the layout of the views.
     pub projection_angle: SheetAngle,
-    /// The scale; `None` for the largest standard scale that fits.
+    /// The scale, or `None` for the largest standard scale that fits.
     pub scale: Option<DrawingScale>,
     /// Millimeters per scene unit.
     pub millimeters_per_unit: f64,
-    /// The unit of dimensions and of the scale bar.
+    /// The unit of the dimensions and the scale bar.
     pub dimension_unit: DimensionUnit,
-    /// The view beside the front view. `None` for the left view in first angle and the right view
-    /// in third, or the opposite one if only that faces a section plane.
+    /// The view beside the front view. `None` means the left view in first-angle projection and the
+    /// right view in third-angle projection, or the opposite view if only that one faces a section
+    /// plane.
     pub side_view: Option<NamedView>,
-    /// The axonometric view, placed in free space on the sheet; `None` for no such view.
+    /// The axonometric view, placed in free space on the sheet, or `None` to omit it.
     pub axonometric_view: Option<NamedView>,
     /// The line style of the views.
     pub style: LineStyle,
     /// Whether to draw overall dimensions.
     pub dimensions: bool,
-    /// Further dimensions, numbered in this order.
+    /// Additional dimensions, numbered in this order.
     pub measures: Vec<Dimension>,
-    /// Whether to draw center lines for circles and for the axes of round parts.
+    /// Whether to draw center lines of circles and the axes of round parts.
     pub center_lines: bool,
-    /// Whether to draw lines of symmetry: in views along a plane about which the models are
-    /// symmetric, if the line is vertical or horizontal in the view.
+    /// Whether to draw lines of symmetry. A view has one if it sees a symmetry plane of the models
+    /// edge-on, as a vertical or horizontal line.
     ///
-    /// Mirror images of vertices must be on faces, and mirror images of edges on edges, within
-    /// 1/20,000 of the diagonal of the models.
+    /// The models count as symmetric if reflected vertices are on faces and reflected edges are on
+    /// edges, within 1/20,000 of the models' diagonal.
     pub symmetry_lines: bool,
-    /// The objects that section planes do not cut: nodes with a mesh, counted over all models.
+    /// The objects that section planes do not cut, as indices of nodes with a mesh, counted over
+    /// all models.
     pub uncut: Vec<u32>,
-    /// The texts of the title block.
+    /// The text of the title block.
     pub title_block: TitleBlockText,
     /// The pages that show the models as an assembly of parts; see
     /// [`draw_pages`](Self::draw_pages).
     pub assembly: AssemblyPages,
-    /// Views that add to or replace the principal and axonometric views, and views that are cut or
-    /// broken in part.
+    /// Views that add to or replace the principal and axonometric views, and local cuts or breaks
+    /// of views.
     pub views: Vec<ViewRequest>,
     /// The border around the drawing area.
     pub frame: SheetFrame,
-    /// The number format of dimensions and scale bar.
+    /// The number format of the dimensions and the scale bar.
     pub numbers: NumberFormat,
-    /// A custom title block; `None` for the default one.
+    /// A custom title block, or `None` for the default one.
     pub title_block_template: Option<TitleBlockTemplate>,
-    /// Point labels and world axes, in every view of the first page that shows the whole; other
-    /// overlays give a warning.
+    /// Point labels and world axes, drawn in every view on the first page that shows the whole
+    /// object. Other overlays cause a warning.
     pub overlays: Vec<Overlay>,
 }
 
-/// A sheet that cannot be drawn.
+/// The reason why a sheet cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SheetError {
@@ -170,7 +172,7 @@ pub enum SheetError {
     /// The models have no points, lines or triangles.
     #[error("there is nothing to draw: the models have no points, lines or triangles")]
     Empty,
-    /// A view has no camera or no projection.
+    /// A view has no valid camera or projection.
     #[error("the {view} view cannot be drawn: {reason}")]
     View {
         /// The name of the view.
@@ -178,7 +180,7 @@ pub enum SheetError {
         /// The reason.
         reason: String,
     },
-    /// A requested view cannot be made as requested.
+    /// A view cannot be drawn as requested.
     #[error("view {number} of the sheet, the {view}: {reason}")]
     Request {
         /// The number of the request, from 1.
@@ -200,9 +202,9 @@ pub enum SheetError {
         number: usize,
         /// The name of the view.
         view: String,
-        /// The minimum and maximum distance from the left, in millimeters.
+        /// The minimum and maximum distance of its center from the left, in millimeters.
         x: [f64; 2],
-        /// The minimum and maximum distance from the top, in millimeters.
+        /// The minimum and maximum distance of its center from the top, in millimeters.
         y: [f64; 2],
     },
     #[error(
@@ -224,7 +226,7 @@ pub enum SheetError {
     },
 }
 
-/// If no view reaches this size, in millimeters of paper, the views cannot be read.
+/// The size, in millimeters on paper, that at least one view must have to be readable.
 const LEAST_DRAWING: f64 = 1.0;
 
 /// Returns a length in whole units, or with an exponent if it has more than six digits.
@@ -233,10 +235,11 @@ fn in_few_digits(length: f64) -> String {
 }
 
 impl Sheet {
-    /// Returns a technical drawing on this paper: first angle, with a left view, an isometric view
-    /// and overall dimensions.
+    /// Returns a technical drawing on this paper, in first-angle projection, with a left view, an
+    /// isometric view and overall dimensions.
     ///
-    /// Line groups grow with the paper: 0.35 mm up to A5, 0.5 mm up to A2, 0.7 mm for larger paper.
+    /// The line group grows with the paper: 0.35 mm up to A5, 0.5 mm up to A2, and 0.7 mm for
+    /// larger paper.
     #[must_use]
     pub fn for_paper(paper: Paper, paper_name: impl Into<String>) -> Self {
         let group = match paper.width().max(paper.height()) {
@@ -269,12 +272,12 @@ impl Sheet {
         }
     }
 
-    /// Draws models, cut open by section planes, with up to `threads` threads, whose number does
-    /// not change the page. Parts lists, exploded views and sheets of single parts are on further
-    /// pages: see [`draw_pages`](Self::draw_pages).
+    /// Draws models, cut open by section planes, with up to `threads` threads. The number of
+    /// threads does not change the page. Parts lists, exploded views and part sheets are on
+    /// additional pages; see [`draw_pages`](Self::draw_pages).
     ///
-    /// # Errors
-    /// If there is nothing to draw, a view cannot be drawn, or the views are larger than the paper.
+    /// # Errors Returns an error if there is nothing to draw, a view cannot be drawn, or the views
+    /// are larger than the paper.
     pub fn draw(
         &self,
         models: &[ModelInstance],
@@ -284,7 +287,7 @@ impl Sheet {
         self.draw_views(models, sections, &mut SurfaceCache::new(models, &self.uncut), threads)
     }
 
-    /// Like [`draw`](Self::draw), with surfaces shared with other pages.
+    /// Draws models like [`draw`](Self::draw), with surfaces shared with other pages.
     fn draw_views(
         &self,
         models: &[ModelInstance],
@@ -319,8 +322,9 @@ impl Sheet {
         Ok(page)
     }
 
-    /// Checks, without drawing them, whether the views of models, cut by section planes, fit on the
-    /// paper. Returns the warnings of [`draw`](Self::draw) about views, sections and texts.
+    /// Checks, without drawing anything, whether the views of models, cut by section planes, fit on
+    /// the paper. Returns the warnings that [`draw`](Self::draw) gives about views, sections and
+    /// text.
     ///
     /// # Errors
     /// See [`draw`](Self::draw).
@@ -334,13 +338,14 @@ impl Sheet {
         Ok(self.warnings_of_layout(&plan, &layout, &self.title_of(models)))
     }
 
-    /// Returns the title of the drawing: from the title block, otherwise the model names.
+    /// Returns the drawing's title, from the title block if it has one, otherwise the model names.
     fn title_of(&self, models: &[ModelInstance]) -> String {
         let own = &self.title_block.title;
         if own.is_empty() { model_names(models) } else { own.clone() }
     }
 
-    /// Warnings about views not shown as requested, and about characters that the font lacks.
+    /// Returns warnings about views not shown as requested, and about characters missing from the
+    /// font.
     fn warnings_of_layout(
         &self,
         plan: &ViewPlan,
@@ -383,9 +388,9 @@ impl Sheet {
 
     /// Returns the style of a view's lines.
     ///
-    /// Hidden lines are removed from axonometric views and from sectional views, where they would
-    /// only confuse (ISO 128-3). Part hatchings are removed from cut views, where hatching marks
-    /// the cut.
+    /// Hidden lines are removed from axonometric views and sectional views, where they would only
+    /// be confusing (ISO 128-3). Part hatching is removed from cut views, where hatching marks the
+    /// cut.
     fn style_of_view(&self, placed: &PlacedView<'_>) -> LineStyle {
         let is_outside = placed.planned.is_outside_view();
         let hidden_lines = if is_outside { self.style.hidden_lines } else { HiddenLines::Removed };
@@ -396,7 +401,8 @@ impl Sheet {
         LineStyle { hidden_lines, face_fill, ..self.style }
     }
 
-    /// Adds the drawing of a view to the page; the name of the view is prepended to its layer ids.
+    /// Adds the drawing of a view to the page, and prefixes its layer ids with the name of the
+    /// view.
     fn add_view(
         &self,
         page: &mut SheetPage,
@@ -444,7 +450,7 @@ impl Sheet {
         page.layers.extend(title_block::title_block_layers(self, &title, scale, block, ink));
     }
 
-    /// Returns the frame, with zones if requested; centering marks stop near contents.
+    /// Returns the frame, with zones if requested. Centering marks stop short of the contents.
     fn frame_layers(&self, contents: &[Extent], ink: Ink) -> Vec<Layer> {
         let frame = frame::frame_layer(self.paper, self.frame, contents, ink);
         let zones = match self.frame {
@@ -481,7 +487,7 @@ impl Sheet {
         frame::area_within_frame(self.paper)
     }
 
-    /// Returns the usual area of the scale bar.
+    /// Returns the default area of the scale bar.
     fn scale_bar_area(&self) -> Rectangle {
         scale_bar::scale_bar_areas(self)[0]
     }
@@ -492,7 +498,7 @@ impl Sheet {
     }
 }
 
-/// Returns a rectangle from finite values; its sides are made positive.
+/// Returns a rectangle from finite values, with its sides made positive.
 fn rectangle_from_size(x: f64, y: f64, width: f64, height: f64) -> Rectangle {
     let fallback = || Rectangle::from_size(1.0, 1.0);
     let rectangle = Rectangle::new(x, y, width.max(1e-6), height.max(1e-6)).or_else(|_| fallback());

@@ -36,7 +36,7 @@ pub struct PartsListItem {
     pub quantity: usize,
     /// The name, on one line.
     pub name: String,
-    /// Its material names, joined by commas; empty if it has none.
+    /// Its material names, joined by commas; empty if it has no materials.
     pub material: String,
     /// The mass of a single part in grams.
     pub mass: Option<f64>,

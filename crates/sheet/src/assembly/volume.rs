@@ -12,7 +12,7 @@ use super::part::{Part, drawn_primitives};
 use glam::{DMat3, DVec3};
 use model::{ModelInstance, Topology};
 
-/// Returns the volume of a part in cubic world units; `None` if its mesh is open or has no
+/// Returns the volume of a part in cubic world units, or `None` if its mesh is open or has no
 /// triangles.
 pub(super) fn part_volume(part: &Part, models: &[ModelInstance]) -> Option<f64> {
     let model = &models[part.model].model;

@@ -1,5 +1,5 @@
 //! Angular dimensions: an arc between the sides of an angle, or between their extensions beyond the
-//! vertex, with the degrees beside it (ISO 129-1).
+//! vertex, labeled in degrees (ISO 129-1).
 //!
 //! ```text
 //!        ╲  60°  ╱
@@ -15,20 +15,21 @@ use super::measure::{ViewDimension, ViewMeasure};
 use glam::DVec2;
 use page::{Label, TextAlign};
 
-/// The minimum radius of the arc in character heights, the step to the next one, and their number.
+/// The minimum radius of the arc and the step between radii, in character heights, and the number
+/// of radii to try.
 const RADII: (f64, f64, u32) = (4.0, 1.1, 60);
 
-/// The maximum angle of one line segment of an arc, in radians: 2.5 degrees.
+/// The maximum angle of one segment of an arc, 2.5 degrees in radians.
 const ARC_STEP: f64 = core::f64::consts::PI / 72.0;
 
-/// The decimal places of degrees.
+/// The number of decimal places of angles in degrees.
 const DEGREE_DECIMALS: u32 = 2;
 
 /// An arc between two directions from a vertex.
 struct AngleArc<'a> {
     vertex: DVec2,
-    /// The unit vectors along its sides; from the first to the second is less than a half turn from
-    /// x to y.
+    /// The unit vectors along its sides. The turn from the first to the second is less than 180°,
+    /// in the direction from x to y.
     sides: [DVec2; 2],
     /// The lengths of the sides on the part.
     lengths: [f64; 2],
@@ -40,7 +41,7 @@ struct AngleArc<'a> {
 }
 
 impl DimensionBoard {
-    /// Returns the free position of an angle nearest to its vertex.
+    /// Returns the free position nearest to the vertex of the angle.
     pub(super) fn angle_candidate(&self, dimension: &ViewDimension) -> Option<Candidate> {
         let ViewMeasure::Angle { vertex, ends } = &dimension.measure else { return None };
         let ratio = self.settings.scale.ratio();
@@ -56,7 +57,8 @@ impl DimensionBoard {
         let text = format!("{}°", numbers.decimal(sweep.to_degrees(), decimals));
         let letters = self.settings.letters;
         let (least, step, count) = RADII;
-        // Small arcs come first, each between the arms and then opposite the vertex.
+        // Tries small arcs first, each between the arms and then on the opposite side of the
+        // vertex.
         for number in 0..count {
             let radius = (least + step * f64::from(number)) * letters;
             for sense in [1.0, -1.0] {
@@ -76,15 +78,14 @@ impl DimensionBoard {
 }
 
 impl AngleArc<'_> {
-    /// Returns the point of the arc at an angle from the first side, and the unit vector along the
-    /// arc.
+    /// Returns the point on the arc at an angle from the first side, and the unit tangent there.
     fn at(&self, angle: f64) -> (DVec2, DVec2) {
         let (sine, cosine) = libm::sincos(angle);
         let arm = DVec2::new(cosine, sine).rotate(self.sides[0]);
         (self.vertex + arm * self.radius, arm.perp())
     }
 
-    /// All lines and the text.
+    /// Returns all lines and the text.
     fn candidate(&self) -> Candidate {
         let (letters, mut candidate) = (self.letters, Candidate::default());
         for (side, length) in self.sides.into_iter().zip(self.lengths) {
@@ -106,7 +107,7 @@ impl AngleArc<'_> {
         let inward = if is_narrow { -1.0 } else { 1.0 };
         for (angle, sense) in [(0.0, inward), (self.sweep, -inward)] {
             let (tip, _) = self.at(angle);
-            // Along the chord of the arrow, so that its base is on the arc.
+            // The arrow points along its chord, so that its base is on the arc.
             let (base, _) = self.at(angle + sense * arrow / self.radius);
             let head = arrowhead(tip, (base - tip).normalize_or(DVec2::X), arrow);
             candidate.push(AnnotationLayer::Dimensions, AnnotationShape::Head(head));
@@ -115,7 +116,7 @@ impl AngleArc<'_> {
         candidate
     }
 
-    /// Returns the degrees, horizontal, on the outer side of the arc.
+    /// Returns the horizontal label with the degrees, on the outer side of the arc.
     fn label(&self) -> AnnotationText {
         let (middle, _) = self.at(0.5 * self.sweep);
         let out = (middle - self.vertex).normalize_or(DVec2::NEG_Y);

@@ -1,27 +1,27 @@
-//! Annotations of a view: its dimensions, cut lines and captions, and the space they take.
+//! Annotations of a view: its dimensions, cut lines and captions, and the space they take up.
 //!
 //! ```text
 //!   ┌ ─ ─ ─ ─ ─ ─ ─ ┐
-//!      ◄── 150 ──►         all coordinates are millimeters of paper from the center of the view;
-//!   │  ┌─────────┐  │      the extent of object and annotations is what a layout has to keep free
+//!      ◄── 150 ──►         all coordinates are in millimeters on paper from the center of the view;
+//!   │  ┌─────────┐  │      a layout must keep the extent of the object and annotations free
 //!      │    +    │
 //!   │  └─────────┘  │
 //!   └ ─ ─ ─ ─ ─ ─ ─ ┘
 //! ```
 //!
-//! They are created before the view is placed, because its position depends on their extent.
+//! Annotations are created before the view is placed, because its position depends on their extent.
 
 use crate::SheetLabelFault;
 use glam::DVec2;
 use page::{Group, Ink, Label, Layer, Pen, Polyline, TextAlign, to_millimeters};
 
-/// The minimum distance of lines from texts, in millimeters.
+/// The minimum distance between lines and text, in millimeters.
 const LINE_CLEARANCE: f64 = 0.7;
 
 /// An axis-aligned rectangle: its minimum and maximum corners.
 pub(super) type Extent = [DVec2; 2];
 
-/// The layers that annotations are drawn on, in drawing order.
+/// The layers on which annotations are drawn.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum AnnotationLayer {
     /// The axes of circles and cylinders.
@@ -32,23 +32,23 @@ pub(super) enum AnnotationLayer {
     DimensionTexts,
     /// The chain lines of sections.
     CutLines,
-    /// The wide ends of those lines.
+    /// The wide ends of the section lines.
     CutEnds,
-    /// The arrows of those lines.
+    /// The arrows of the section lines.
     CutArrows,
     /// Section letters and sectional view names.
     CutNames,
-    /// The scales of views that differ from the sheet's.
+    /// The scales of views whose scale differs from the sheet's.
     ScaleNotes,
     /// Lines of symmetry, including those between the halves of half sections.
     SymmetryLines,
-    /// Circles around details, and their leader lines to letters.
+    /// Circles around details, with leader lines to their letters.
     ViewMarks,
     /// Letters of details and viewing directions, and view names.
     ViewNames,
-    /// World axes, and leader lines of point labels.
+    /// World axes and the leader lines of point labels.
     OverlayLines,
-    /// Axis names, and labels.
+    /// Axis names and point labels.
     OverlayTexts,
 }
 
@@ -69,13 +69,13 @@ pub(super) struct AnnotationText {
 pub(super) enum AnnotationShape {
     /// A straight line.
     Line([DVec2; 2]),
-    /// Straight lines from point to point, such as the parts of an arc.
+    /// Straight lines from point to point, such as the segments of an arc.
     Path(Vec<DVec2>),
     /// A polyline that ends at its first point.
     Loop(Vec<DVec2>),
     /// A filled triangle: an arrowhead.
     Head([DVec2; 3]),
-    /// A text.
+    /// A line of text.
     Text(AnnotationText),
 }
 
@@ -85,14 +85,14 @@ pub(super) struct ViewAnnotations {
     items: Vec<PlacedShape>,
     /// The requested dimensions, each as a separate group.
     dimensions: Vec<PlacedDimension>,
-    /// The dimensions without room, by name.
+    /// The names of dimensions for which there was no room.
     pub(super) left_out: Vec<String>,
-    /// The texts of missing overlays, with the reason.
+    /// The texts of missing labels, with the reasons.
     pub(super) labels_left_out: Vec<(String, SheetLabelFault)>,
 }
 
-/// A shape of a layer, with its bounding rectangle. Each text position is compared with every
-/// shape, and the rectangle of a text needs all its strokes.
+/// A shape with its layer and bounding rectangle. The rectangle is stored because each text
+/// position is compared with every shape, and the rectangle of a text depends on all its strokes.
 #[derive(Clone, PartialEq, Debug)]
 struct PlacedShape {
     layer: AnnotationLayer,
@@ -184,8 +184,8 @@ impl ViewAnnotations {
         self.push(layer, AnnotationShape::Line(ends));
     }
 
-    /// Adds the first of these texts that touches neither another annotation nor the object; if
-    /// there is none, the first.
+    /// Adds the first of these texts that touches neither another annotation nor the object, or the
+    /// first text if all of them do.
     pub(super) fn push_first_free_text(
         &mut self,
         layer: AnnotationLayer,
@@ -245,13 +245,13 @@ impl ViewAnnotations {
         self.dimensions.push(dimension);
     }
 
-    /// All shapes, with dimensions last.
+    /// Returns all shapes, with dimensions last.
     pub(super) fn shapes(&self) -> impl Iterator<Item = &AnnotationShape> {
         let of_dimensions = self.dimensions.iter().flat_map(|dimension| &dimension.shapes);
         self.items.iter().map(|placed| &placed.shape).chain(of_dimensions.map(|(_, shape)| shape))
     }
 
-    /// All shapes with their bounding rectangles, with dimensions last.
+    /// Returns all shapes with their bounding rectangles, with dimensions last.
     fn shapes_with_extents(&self) -> impl Iterator<Item = (&AnnotationShape, Option<Extent>)> {
         let of_dimensions = self.dimensions.iter().flat_map(|dimension| &dimension.shapes);
         let of_dimensions = of_dimensions.map(|(_, shape)| (shape, shape.extent()));
@@ -271,9 +271,10 @@ impl ViewAnnotations {
 }
 
 impl PlacedDimension {
-    /// Returns the shapes of one layer: the lines as one group, each text as its own group.
+    /// Returns the shapes of one layer: a group with all lines, and a group for each text.
     ///
-    /// Their ids are the number of the dimension, with the number of the text if there are several.
+    /// The group ids are the number of the dimension, followed by the index of the text if there
+    /// are several.
     fn groups(&self, layer: AnnotationLayer, origin: DVec2) -> Vec<Group> {
         let of_layer = self.shapes.iter().filter(|(other, _)| *other == layer);
         let (mut lines, mut groups) = (Group::default(), Vec::new());
@@ -317,9 +318,9 @@ impl AnnotationLayer {
         Self::OverlayTexts,
     ];
 
-    /// Creates an empty layer, with the pens of a line group and a character height.
+    /// Creates an empty layer, with a pen for a line group and a character height.
     pub(super) fn to_layer(self, group: page::IsoLineGroup, letters: f64, ink: Ink) -> Layer {
-        // Butt caps end exactly at the measured point; round ones would extend beyond it.
+        // Butt caps end exactly at the measured point. Round caps would extend beyond it.
         let butt = |width| Pen { cap: page::Cap::Butt, ..Pen::solid(width, ink) };
         let chain = || {
             page::LineType::LongDashedDotted.to_pen(
@@ -354,19 +355,19 @@ impl AnnotationLayer {
     }
 }
 
-/// Returns the rectangle around points; `None` without any.
+/// Returns the rectangle around points, or `None` if there are none.
 fn extent_of_points(points: impl Iterator<Item = DVec2>) -> Option<Extent> {
     points.fold(None, |extent: Option<Extent>, point| {
         Some(extent.map_or([point; 2], |[low, high]| [low.min(point), high.max(point)]))
     })
 }
 
-/// Whether two rectangles overlap by more than a side.
+/// Whether two rectangles overlap in more than an edge.
 pub(super) fn overlap(a: Extent, b: Extent) -> bool {
     a[0].x < b[1].x && b[0].x < a[1].x && a[0].y < b[1].y && b[0].y < a[1].y
 }
 
-/// Whether a straight line enters a rectangle (Liang and Barsky's slab test).
+/// Whether a straight line enters a rectangle (the Liang–Barsky slab test).
 fn segment_crosses([a, b]: [DVec2; 2], [low, high]: Extent) -> bool {
     let mut span = [0.0_f64, 1.0_f64];
     for axis in 0..2 {
@@ -388,7 +389,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_text_gives_way_to_lines_and_to_the_object() {
+    fn text_avoids_lines_and_the_object() {
         let object = [DVec2::splat(-10.0), DVec2::splat(10.0)];
         let mut annotations = ViewAnnotations::default();
         let below = DVec2::new(0.0, 14.0);
@@ -407,7 +408,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_cross_rectangles_that_their_boxes_only_overlap() {
+    fn lines_whose_boxes_overlap_a_rectangle_may_miss_it() {
         let area = [DVec2::ZERO, DVec2::ONE];
         let at = |x: f64, y: f64| DVec2::new(x, y);
         assert!(segment_crosses([at(-1.0, 0.5), at(2.0, 0.5)], area));

@@ -1,10 +1,10 @@
-//! The assembly page: one view of all parts, in place or exploded, with balloons around it and the
-//! parts list above the title block.
+//! Assembly page: a view of all parts, in place or exploded, with balloons around it and the parts
+//! list above the title block.
 //!
 //! ```text
 //!   ┌──────────────────────────────┐
-//!   │  ①   ②   ③   ④              │     the view is as large as its part of the sheet allows;
-//!   │  ⑤  ┌────────┐  ⑥           │     the balloons stand around it as near as they find places
+//!   │  ①   ②   ③   ④              │     the view is as large as its region of the sheet allows;
+//!   │  ⑤  ┌────────┐  ⑥           │     the balloons are around it, as near as there is room
 //!   │  ⑦  │  view  │  ⑧ ┌─────────┤
 //!   │     └────────┘    │  list   │
 //!   │  ⑨   ⑩   ⑪      ├─────────┤
@@ -21,8 +21,8 @@ use glam::DVec2;
 use page::{Group, Ink, Label, Layer, Pen, Polyline, TextAlign};
 use viewport::{DrawingScale, Rectangle};
 
-/// The distance from the view or its balloons to the frame, in millimeters: beyond the centering
-/// marks.
+/// The distance from the view or its balloons to the frame, in millimeters, which is larger than
+/// the centering marks.
 const BORDER_GAP: f64 = 6.0;
 
 /// The distance from the view to the balloons, in millimeters.
@@ -34,8 +34,8 @@ const BALLOON_GAP: f64 = 2.5;
 /// The number of rings to try, from the view to the border.
 const RING_STEPS: u32 = 5;
 
-/// The balloon distances to try on each ring, as multiples of the minimum: farther apart, leaders
-/// pass between balloons at flatter angles.
+/// The balloon distances to try on each ring, as multiples of the minimum. If balloons are farther
+/// apart, leaders can pass between them at flatter angles.
 const SPREADS: [f64; 3] = [1.0, 1.4, 2.0];
 
 /// The radius of the dot at the end of a leader, in character heights.
@@ -49,16 +49,16 @@ const CIRCLE_CORNERS: u32 = 48;
 pub(super) struct AssemblyLayout {
     pub(super) center: DVec2,
     pub(super) scale: DrawingScale,
-    /// The part of the sheet available to view and balloons.
+    /// The part of the sheet available for the view and balloons.
     region: Extent,
     /// Half the size of the view on the page.
     half: DVec2,
-    /// The radius of balloons; 0 without any.
+    /// The radius of balloons, or 0 if there are none.
     radius: f64,
     letters: f64,
 }
 
-/// An item, and the spot where its leader ends, in millimeters on the page.
+/// An item and the spot where its leader ends, in millimeters on the page.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BalloonTarget<'a> {
     pub(super) item: &'a PartsListItem,
@@ -66,10 +66,10 @@ pub(super) struct BalloonTarget<'a> {
 }
 
 impl AssemblyLayout {
-    /// Returns the layout with the largest scale next to the title block and parts list; `None` if
-    /// the view fits at no standard scale.
+    /// Returns the layout with the largest scale next to the title block and parts list, or `None`
+    /// if the view fits at no standard scale.
     ///
-    /// `count` is the maximum number of balloons, 0 for none.
+    /// `count` is the maximum number of balloons; 0 means none.
     pub(super) fn arrange(
         sheet: &Sheet,
         view: &SheetView,
@@ -81,7 +81,7 @@ impl AssemblyLayout {
         let around = if count > 0 { VIEW_GAP + 2.0 * radius + 1.0 } else { 0.0 };
         let fitting = |region: Extent| {
             let room = region[1] - region[0] - DVec2::splat(2.0 * around);
-            // The requested scale comes first, then the standard ones from the largest.
+            // Tries the requested scale first, then the standard scales from the largest down.
             let own = sheet.scale.into_iter().chain(DrawingScale::STANDARD);
             let fits = |scale: &DrawingScale| (view.size * scale.ratio()).cmple(room).all();
             let scale = own.into_iter().find(fits)?;
@@ -108,8 +108,8 @@ impl AssemblyLayout {
         2.0 * self.radius + BALLOON_GAP
     }
 
-    /// Returns the rectangle of the centers of balloons: around the view for 0, at the border for
-    /// 1.
+    /// Returns the rectangle on which balloon centers are placed: around the view if `part` is 0,
+    /// at the border if it is 1.
     fn ring(&self, part: f64) -> Extent {
         let [low, high] = self.region;
         let near = self.half + DVec2::splat(VIEW_GAP + self.radius);
@@ -118,15 +118,15 @@ impl AssemblyLayout {
         [inner[0].lerp(outer[0], part), inner[1].lerp(outer[1], part)]
     }
 
-    /// Converts a spot of the view to the page.
+    /// Converts a spot in the view to a point on the page.
     pub(super) fn on_page(&self, spot: &VisibleSpot, view: &SheetView) -> DVec2 {
         self.center + spot.at * (view.millimeters_per_unit * self.scale.ratio())
     }
 
-    /// Chooses the centers of the balloons for spots; `None` for those that do not fit.
+    /// Chooses a balloon center for each spot, or `None` if its balloon does not fit.
     ///
-    /// Uses the ring nearest to the view that has room for all of them, if there is one; otherwise
-    /// the ring with the most positions whose leaders stay clear of other balloons.
+    /// Uses the ring nearest to the view that has room for all balloons. If no ring does, uses the
+    /// ring with the most positions whose leaders stay clear of other balloons.
     fn choose_places(&self, spots: &[DVec2]) -> Vec<Option<DVec2>> {
         let clearance = self.radius + 0.5 * BALLOON_GAP;
         let rings = (0..=RING_STEPS).map(|step| self.ring(f64::from(step) / f64::from(RING_STEPS)));
@@ -149,7 +149,7 @@ impl AssemblyLayout {
         best
     }
 
-    /// Returns the layers of balloons and their numbers, and the items that could not be placed.
+    /// Returns the layers with balloons and their numbers, and the items that could not be placed.
     pub(super) fn balloon_layers<'a>(
         &self,
         targets: &[BalloonTarget<'a>],
@@ -193,7 +193,7 @@ impl AssemblyLayout {
     }
 }
 
-/// Returns the radius of balloons for numbers up to `count`: the widest number fits well inside.
+/// Returns a balloon radius with ample room for the widest number up to `count`.
 fn balloon_radius(count: usize, letters: f64) -> f64 {
     let digits = count.to_string().len();
     let widest = "0".repeat(digits);
@@ -211,8 +211,8 @@ fn circle(center: DVec2, radius: f64) -> Option<Polyline> {
     Polyline::through_points(&corners, true)
 }
 
-/// Returns the parts of the drawing area not taken by the title block and a list above it: above
-/// both, and beside them.
+/// Returns the parts of the drawing area that the title block and the list above it leave free: the
+/// area above both, and the area beside them.
 fn free_regions(sheet: &Sheet, list: Option<Rectangle>) -> Vec<Extent> {
     let (frame, block) = (sheet.drawing_area(), sheet.title_block_area());
     let top = list.map_or(block.y(), |list| list.y());

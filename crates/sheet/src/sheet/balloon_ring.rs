@@ -1,21 +1,21 @@
-//! Balloon positions on a rectangle around a view, and their assignment to spots with the shortest
-//! leaders.
+//! Balloon positions on a rectangle around a view, assigned to spots so that the leaders are as
+//! short as possible.
 //!
 //! ```text
-//!   ○  ○  ○  ○        places are a fixed distance apart; the sum of the lengths of the leaders
-//!   ○ ┌────┐ ○        is as small as it can be (Kuhn 1955, in the form of Jonker and Volgenant),
-//!   ○ │view│ ○        so leaders do not cross: of two that cross, exchanging the places
-//!   ○ └────┘ ○        would shorten the sum
+//!   ○  ○  ○  ○        places are a fixed distance apart; the total length of the leaders is
+//!   ○ ┌────┐ ○        minimal (Kuhn 1955, in the form of Jonker and Volgenant), so
+//!   ○ │view│ ○        leaders do not cross: if two leaders crossed, exchanging their
+//!   ○ └────┘ ○        places would shorten the total
 //!   ○  ○  ○  ○
 //! ```
 
 use super::annotation::Extent;
 use glam::DVec2;
 
-/// The cost of a leader that would pass over another position.
+/// The cost of a leader that would cross another balloon position.
 const FORBIDDEN: f64 = 1e9;
 
-/// Evenly spaced positions on the sides of a rectangle, at least `pitch` apart.
+/// Returns evenly spaced positions on the sides of a rectangle, at least `pitch` apart.
 pub(super) fn ring_places([low, high]: Extent, pitch: f64) -> Vec<DVec2> {
     let size = high - low;
     if size.min_element() < 0.0 {
@@ -42,9 +42,9 @@ pub(super) fn ring_places([low, high]: Extent, pitch: f64) -> Vec<DVec2> {
     places
 }
 
-/// Assigns a distinct position to each spot with the shortest leaders, which do not cross. `None`
-/// if there are too few positions, or if a leader comes closer than `clearance` to another one's
-/// position.
+/// Assigns a distinct position to each spot such that the total length of the leaders is minimal,
+/// so they do not cross. Returns `None` if there are too few positions, or if a leader comes closer
+/// than `clearance` to the position of another balloon.
 pub(super) fn shortest_places(
     spots: &[DVec2],
     places: &[DVec2],
@@ -64,8 +64,9 @@ pub(super) fn shortest_places(
     (!spots.iter().zip(&assigned).any(passes)).then_some(assigned)
 }
 
-/// Assigns a distinct position to each spot with the shortest leaders among those that stay at
-/// least `clearance` away from any other position; `None` for a spot without such a leader.
+/// Assigns a distinct position to each spot such that the total length of the leaders is minimal,
+/// but all stay at least `clearance` away from any other position. A spot without such a leader
+/// gets `None`.
 ///
 /// If some positions are ruled out, leaders may cross.
 pub(super) fn clear_places(
@@ -94,7 +95,7 @@ pub(super) fn clear_places(
     assigned.into_iter().enumerate().map(is_free).collect()
 }
 
-/// Returns the distance of a point to a segment.
+/// Returns the distance from a point to a segment.
 fn distance_to_segment(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
     let along = b - a;
     let length = along.length_squared();
@@ -104,11 +105,11 @@ fn distance_to_segment(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
 
 /// Assigns a distinct column to each row so that the sum of the costs is minimal.
 ///
-/// Shortest augmenting paths with potentials: O(rows² · columns). There must be at least as many
-/// columns as rows.
+/// Uses shortest augmenting paths with potentials, in O(rows² · columns). There must be at least as
+/// many columns as rows.
 fn least_assignment(costs: &[Vec<f64>]) -> Vec<usize> {
     let columns = costs.first().map_or(0, Vec::len);
-    // Index 0 represents no row and no column.
+    // Index 0 means "no row" or "no column".
     let mut row_potential = vec![0.0; costs.len() + 1];
     let mut column_potential = vec![0.0; columns + 1];
     let mut row_of_column = vec![0_usize; columns + 1];
@@ -118,7 +119,7 @@ fn least_assignment(costs: &[Vec<f64>]) -> Vec<usize> {
         let mut least = vec![f64::INFINITY; columns + 1];
         let mut previous = vec![0_usize; columns + 1];
         let mut is_done = vec![false; columns + 1];
-        // The search ends at a free column, whose row is 0.
+        // The search ends at a free column, which has row 0.
         while row_of_column[column] != 0 {
             is_done[column] = true;
             let at = row_of_column[column];
@@ -144,7 +145,7 @@ fn least_assignment(costs: &[Vec<f64>]) -> Vec<usize> {
             }
             column = next;
         }
-        // Augments the assignment: rows move along the path, back to its start.
+        // Augments the assignment by shifting rows along the path, back to its start.
         while column != 0 {
             row_of_column[column] = row_of_column[previous[column]];
             column = previous[column];
@@ -164,9 +165,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_least_assignment_is_least() {
+    fn the_assignment_has_minimal_cost() {
         let costs = [vec![4.0, 1.0, 3.0, 9.0], vec![2.0, 0.0, 5.0, 9.0], vec![3.0, 2.0, 2.0, 9.0]];
-        // All permutations by hand: 1 + 2 + 2.
+        // Computed by hand over all permutations: 1 + 2 + 2.
         assert_eq!(least_assignment(&costs), [1, 0, 2]);
         assert!(least_assignment(&[]).is_empty());
     }
@@ -196,8 +197,8 @@ mod tests {
     }
 
     #[test]
-    fn leaders_pass_other_places_at_a_distance() {
-        // All spots near one corner: most of the positions near it are seen at a flat angle.
+    fn leaders_stay_clear_of_other_places() {
+        // All spots are near one corner, and leaders to most positions near it are at a flat angle.
         let places = ring_places([DVec2::ZERO, DVec2::splat(100.0)], 11.0);
         let spots: Vec<DVec2> =
             (0..20).map(|k| DVec2::new(8.0 + f64::from(k % 5), 8.0 + f64::from(k / 5))).collect();
@@ -212,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn places_are_apart_and_on_the_ring() {
+    fn places_are_on_the_ring_and_keep_their_distance() {
         let ring = [DVec2::ZERO, DVec2::new(100.0, 37.0)];
         let places = ring_places(ring, 10.0);
         for (index, a) in places.iter().enumerate() {

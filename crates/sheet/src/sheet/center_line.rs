@@ -1,17 +1,17 @@
-//! Center lines: a cross in each circle, and the axis of circles seen from the side (ISO 128-2,
-//! chain lines 04.1).
+//! Center lines: crosses in circles, and the axes of circles seen from the side (ISO 128-2, chain
+//! lines 04.1).
 //!
 //! ```text
 //!        │
 //!      ╭─┼─╮          ┌───────┐
-//!    ──┼─┼─┼──      ──┼─ ─ ─ ─┼──      the lines reach a little beyond the circle or the part
+//!    ──┼─┼─┼──      ──┼─ ─ ─ ─┼──      the lines extend slightly beyond the circle or the part
 //!      ╰─┼─╯          └───────┘
 //!        │
 //! ```
 //!
 //! Circles on one axis share one line along it. In a view along the axis they share one cross,
-//! large enough for the largest of them. A circle has a cross if at least half of it exists; an
-//! axis has a line if it has two circles, as in a cylinder or a cone.
+//! large enough for the largest of them. A circle gets a cross if at least half of it exists. An
+//! axis gets a line if there are two circles on it, as in a cylinder or a cone.
 
 use super::annotation::{AnnotationLayer, ViewAnnotations};
 use super::sheet_view::SheetView;
@@ -20,19 +20,21 @@ use glam::DVec2;
 use hidden_line::WorldCircle;
 use viewport::DrawingScale;
 
-/// The overhang of center lines beyond circle or part, in millimeters of paper.
+/// The overhang of center lines beyond the circle or part, in millimeters on paper.
 pub(super) const CENTER_LINE_OVERHANG: f64 = 2.5;
 
-/// Circles with a smaller radius, in millimeters of paper, have no cross: it would hide them.
+/// The minimum radius, in millimeters on paper, of circles with a cross, which would hide smaller
+/// circles.
 const LEAST_RADIUS: f64 = 0.75;
 
-/// Circles with a smaller arc are roundings, not holes or shafts.
+/// The minimum arc of a circle with a cross. Smaller arcs are fillets, not holes or shafts.
 const LEAST_SWEEP: f64 = PI - 1e-6;
 
 /// Axes and centers closer than this fraction of the view size are the same.
 const SAME: f64 = 1e-4;
 
-/// The maximum number of crosses, and of axes, in a view: more would be a pattern, not a help.
+/// The maximum number of crosses and the maximum number of axes in a view. More would only clutter
+/// the view.
 const MAX_LINES: usize = 300;
 
 /// The center lines of a view, in object millimeters from its center, y down.
@@ -45,7 +47,7 @@ pub(super) struct CenterLines {
     /// Lines of symmetry, which replace the center lines on them: a point, and the index of the
     /// paper axis along which they run.
     symmetry: Vec<(DVec2, usize)>,
-    /// The maximum distance of lines that count as one.
+    /// The maximum distance between lines that count as one.
     same: f64,
 }
 
@@ -87,7 +89,7 @@ impl CenterLines {
         })
     }
 
-    /// Whether there are none.
+    /// Whether there are no center lines.
     pub(super) const fn is_empty(&self) -> bool {
         self.crosses.is_empty() && self.axes.is_empty()
     }
@@ -124,8 +126,8 @@ fn merge_crosses(mut crosses: Vec<(DVec2, f64)>, same: f64) -> Vec<(DVec2, f64)>
     merged
 }
 
-/// Merges axes, given by points on them and directions, from the first to the last point of each
-/// line.
+/// Merges axes that share a line into one from the first to the last point. Each axis is a list of
+/// points and a direction.
 fn merge_axes(sides: Vec<(DVec2, DVec2)>, same: f64) -> Vec<[DVec2; 2]> {
     let mut lines: Vec<(DVec2, DVec2, [f64; 2])> = Vec::new();
     for (center, along) in sides {
@@ -152,14 +154,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn circles_about_one_center_have_one_cross() {
+    fn concentric_circles_share_one_cross() {
         let at = DVec2::new(3.0, 4.0);
         let crosses = vec![(at, 2.0), (at, 5.0), (at + 1e-6, 1.0), (DVec2::ZERO, 1.0)];
         assert_eq!(merge_crosses(crosses, 1e-3), [(at, 5.0), (DVec2::ZERO, 1.0)]);
     }
 
     #[test]
-    fn an_axis_reaches_from_its_first_circle_to_its_last() {
+    fn an_axis_extends_from_its_first_circle_to_its_last() {
         let on = |x: f64| (DVec2::new(x, 7.0), DVec2::X);
         let single = (DVec2::new(0.0, 9.0), DVec2::X);
         let axes = merge_axes(vec![on(2.0), on(-5.0), single, on(1.0)], 1e-3);

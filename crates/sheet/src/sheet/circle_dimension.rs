@@ -1,5 +1,5 @@
-//! Diameters and radii: an arrow onto the circle, along a line through its center, with the number
-//! on a shelf outside the part (ISO 129-1).
+//! Diameters and radii: an arrow that points at the circle along a line through its center, with
+//! the number on a shelf outside the part (ISO 129-1).
 //!
 //! ```text
 //!            __Ø20__
@@ -16,14 +16,14 @@ use super::measure::{ViewDimension, ViewMeasure};
 use glam::DVec2;
 use page::{Label, TextAlign};
 
-/// The directions to try, in degrees from the right, upward. None is along an axis, because center
-/// lines are there.
+/// The directions to try, in degrees counterclockwise from the right. None is along an axis,
+/// because the center lines are there.
 const DIRECTIONS: [f64; 20] = [
     45.0, 135.0, -45.0, -135.0, 60.0, 120.0, -60.0, -120.0, 30.0, 150.0, -30.0, -150.0, 75.0,
     105.0, -75.0, -105.0, 15.0, 165.0, -15.0, -165.0,
 ];
 
-/// The number of lengths to try for each direction.
+/// The number of leader lengths to try for each direction.
 const LENGTHS: u32 = 40;
 
 impl DimensionBoard {
@@ -44,7 +44,7 @@ impl DimensionBoard {
             let nearest = self.exit_distance(tip, away) + 2.0 * ARROW_LENGTH * letters;
             for step in 0..LENGTHS {
                 let length = nearest + 0.6 * letters * f64::from(step);
-                // A longer leader cannot be better, so its collisions are not tested.
+                // A longer leader cannot be better, so it is not tested for collisions.
                 if best.as_ref().is_some_and(|(least, _)| *least <= length) {
                     break;
                 }
@@ -58,7 +58,7 @@ impl DimensionBoard {
         best.map(|(_, candidate)| candidate)
     }
 
-    /// Returns the length of a ray from a point inside the hull of the part.
+    /// Returns the length of the part of a ray from a point that is inside the hull of the part.
     fn exit_distance(&self, from: DVec2, along: DVec2) -> f64 {
         let hull = &self.hull;
         let crossings = hull.iter().enumerate().filter_map(|(at, &a)| {
@@ -71,8 +71,8 @@ impl DimensionBoard {
     }
 }
 
-/// Returns an arrow onto a point of a circle from a direction, with a shelf at the other end of its
-/// shaft.
+/// Returns an arrow that points at a point of a circle from a direction, with a shelf at the other
+/// end of its shaft.
 fn leader(text: &str, tip: DVec2, away: DVec2, length: f64, letters: f64) -> Candidate {
     let mut candidate = Candidate::default();
     let corner = tip + away * length;

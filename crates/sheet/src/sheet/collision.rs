@@ -1,13 +1,13 @@
-//! Collisions of annotations: convex outlines, tested for a separating axis.
+//! Collision tests of annotations, by separating axes between convex outlines.
 //!
-//! Texts, arrowheads and lines are convex, so the separating axis theorem applies: two of them are
-//! apart if they are apart along the normal of one of their sides (Gottschalk 1996).
+//! Texts, arrowheads and lines are convex, so the separating axis theorem applies: two shapes are
+//! disjoint if they are separated along the normal of one of their sides (Gottschalk 1996).
 
 use super::annotation::{AnnotationShape, AnnotationText};
 use glam::DVec2;
 use page::Label;
 
-/// Overlaps up to this, in millimeters, count as contacts.
+/// The largest overlap, in millimeters, that counts as mere contact.
 const CONTACT: f64 = 1e-6;
 
 /// Returns the corners of a text, with a margin around it.
@@ -24,7 +24,7 @@ pub(super) fn text_outline(text: &AnnotationText, margin: f64) -> [DVec2; 4] {
     [start, start + across, start + across + height, start + height]
 }
 
-/// Returns the convex parts of a shape; texts get this margin.
+/// Returns the convex parts of a shape, with this margin around text.
 pub(super) fn convex_parts(shape: &AnnotationShape, margin: f64) -> Vec<Vec<DVec2>> {
     match shape {
         AnnotationShape::Line(ends) => vec![ends.to_vec()],
@@ -38,7 +38,7 @@ pub(super) fn convex_parts(shape: &AnnotationShape, margin: f64) -> Vec<Vec<DVec
     }
 }
 
-/// Whether two convex outlines overlap by more than a contact. Two points form a line.
+/// Whether two convex outlines overlap by more than mere contact. Two points form a line.
 pub(super) fn convex_overlap(a: &[DVec2], b: &[DVec2]) -> bool {
     let axes = sides(a).chain(sides(b)).chain([DVec2::X, DVec2::Y]);
     let along = |points: &[DVec2], axis: DVec2| {
@@ -85,8 +85,8 @@ pub(super) fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     hull
 }
 
-/// Returns the farthest extent, in a direction perpendicular to an axis, of the part of a convex
-/// outline between two values along that axis; `None` if there is no such part.
+/// Returns how far the part of a convex outline between two positions along an axis extends in a
+/// direction perpendicular to the axis, or `None` if there is no such part.
 pub(super) fn reach_between(
     hull: &[DVec2],
     along: DVec2,
@@ -107,7 +107,7 @@ pub(super) fn reach_between(
             add(from);
         }
         for border in [low, high] {
-            // Only sides that cross the border; corners on it have been added above.
+            // Only sides that cross the border count here. Corners on it have been added above.
             if (s - border) * (t - border) < 0.0 {
                 add(from + (to - from) * ((border - s) / (t - s)));
             }
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_beside_a_slanted_text_are_apart_from_it() {
+    fn lines_beside_slanted_text_do_not_overlap_it() {
         let slanted = points(&[[0.0, 0.0], [10.0, 10.0], [9.0, 11.0], [-1.0, 1.0]]);
         assert!(!convex_overlap(&slanted, &points(&[[0.5, 0.0], [10.5, 10.0]])));
         assert!(convex_overlap(&slanted, &points(&[[0.0, 0.5], [10.0, 10.5]])));
@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn hulls_have_corners_only_and_reach_as_far_as_they_do() {
+    fn hulls_contain_only_corners_and_limit_the_reach() {
         let square =
             points(&[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [2.0, 2.0], [2.0, 0.0]]);
         let hull = convex_hull(square);

@@ -1,4 +1,5 @@
-//! Composition of a view: drawings of the object with different cuts, each in its part of the view.
+//! Composition of a view from drawings of the object with different cuts, each in its own part of
+//! the view.
 //!
 //! ```text
 //!    stepped        half section     local section      broken        detail
@@ -22,38 +23,38 @@ use hidden_line::{RegionEdge, WeldedSurface, region_edges};
 use homog::{ClipRange, Plane, Point, Vector, World};
 use viewport::DrawingScale;
 
-/// Half the width of the gap of a broken view, in millimeters of the paper.
+/// Half the width of the gap in a broken view, in millimeters on paper.
 const HALF_BREAK: f64 = 1.5;
 
-/// The maximum deviation of a break line, in millimeters of the paper.
+/// The maximum deviation of a break line, in millimeters on paper.
 const BREAK_WAVER: f64 = 1.2;
 
 /// The maximum deviation of the line around a local section, as a fraction of its radius.
 const LOCAL_WAVER: f64 = 0.08;
 
-/// Lines this close to the center line of a half section, in pixels of the drawing, are omitted in
-/// its favor.
+/// Lines within this distance of the center line of a half section, in pixels of the drawing, are
+/// omitted so that only the center line remains.
 const CENTER_LINE_CLEARANCE: f64 = 1e-3;
 
-/// The composition of a view's drawing.
+/// The drawings that make up a view.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub(super) enum Composition {
-    /// From one drawing.
+    /// A single drawing.
     #[default]
     Whole,
-    /// From strips, each cut by a plane.
+    /// Strips, each cut by a plane.
     Stepped {
         planes: Vec<Plane<World>>,
-        /// A point on each border, one fewer than the planes.
+        /// A point on each border between strips; there is one border fewer than planes.
         borders: Vec<Point<World>>,
         /// The direction in which the strips follow each other.
         along: Vector<World>,
     },
-    /// From a half that is cut and a half that is not.
+    /// A half that is cut and a half that is not.
     Half { plane: Plane<World>, point: Point<World>, side: ViewSide },
-    /// From a part around a point that is cut, and the rest, which is not.
+    /// A cut region around a point, and the uncut rest.
     Local { plane: Plane<World>, center: Point<World>, radius: f64 },
-    /// From the two ends of a long object.
+    /// The two ends of a long object.
     Broken(Break),
 }
 
@@ -61,7 +62,7 @@ pub(super) enum Composition {
 /// right and down.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Break {
-    /// The axis of the paper along which the view is shortened.
+    /// The paper axis along which the view is shortened.
     pub(super) axis: usize,
     pub(super) from: f64,
     pub(super) to: f64,
@@ -88,7 +89,8 @@ impl Break {
         DVec2::AXES[self.axis] * (self.to - self.from)
     }
 
-    /// Maps a point of the whole view to the shortened one; `None` if it is omitted.
+    /// Maps a point from the whole view to the shortened view, or returns `None` if the point is in
+    /// the omitted part.
     pub(super) fn shortened(&self, point: DVec2) -> Option<DVec2> {
         let half = self.length() * 0.5;
         match point[self.axis] {
@@ -124,7 +126,7 @@ impl Composition {
 }
 
 impl ComposedDrawing {
-    /// Returns the part of the drawing within a radius, in pixels, of its center.
+    /// Returns the part of the drawing within a radius of its center, in pixels.
     pub(super) fn within_disc(self, radius: f64) -> Self {
         let area = ClipArea::Disc { center: self.drawing.size * 0.5, radius };
         let parts = |line: &Vec<DVec2>| {
@@ -147,7 +149,7 @@ impl From<Drawing> for ComposedDrawing {
 }
 
 impl ViewSide {
-    /// Returns the area of this side of a point in pixels, `inset` pixels away from it.
+    /// Returns the area on this side of a point in pixels, starting `inset` pixels away from it.
     fn area(self, point: DVec2, inset: f64) -> ClipArea {
         let outward = match self {
             Self::Left => -DVec2::X,
@@ -192,7 +194,8 @@ impl PartDrawing<'_, '_> {
         let beyond = |point: DVec2| ClipArea::half_plane(point, course.perp());
         let before = |point: DVec2| ClipArea::half_plane(point, -course.perp());
         for (index, plane) in planes.iter().enumerate() {
-            // Visibility depends on the plane, so each strip is drawn whole and clipped afterward.
+            // Visibility depends on the plane, so the whole view is drawn for each strip and then
+            // clipped to it.
             let mut part = self.part(&[*plane])?;
             if let Some(border) = index.checked_sub(1).and_then(|previous| at.get(previous)) {
                 part = part.clipped(&beyond(*border), ClipSide::Inside);
@@ -208,7 +211,7 @@ impl PartDrawing<'_, '_> {
         composed.map(Into::into).ok_or(SheetError::Empty)
     }
 
-    /// Draws a half that is cut, and the other one.
+    /// Draws a half section: one half of the view is cut, and the other is not.
     fn half(
         &mut self,
         plane: Plane<World>,
@@ -222,7 +225,7 @@ impl PartDrawing<'_, '_> {
         Ok(drawing.into())
     }
 
-    /// Draws a cut part within a freehand line, and the rest.
+    /// Draws a local section: the region within a freehand line is cut, and the rest is not.
     fn local(
         &mut self,
         plane: Plane<World>,
@@ -239,7 +242,7 @@ impl PartDrawing<'_, '_> {
         Ok(ComposedDrawing { drawing, break_lines })
     }
 
-    /// Draws the two ends, moved together.
+    /// Draws the two ends of a broken view, moved together.
     fn broken(&mut self, part: &Break) -> Result<ComposedDrawing, SheetError> {
         let sections = self.view.sections.clone();
         let whole = self.part(&sections)?;
@@ -256,7 +259,7 @@ impl PartDrawing<'_, '_> {
             let shift = part.length() * (-outward * 0.5 * pixels);
             let area = end_area(&line, along * outward);
             let end = whole.clone().clipped(&area, ClipSide::Inside).moved_by(shift);
-            // The break line ends at the outline; beyond it there is nothing to break.
+            // The break line ends at the outline, because there is nothing to break beyond it.
             let lines = self.within_outline(&line)?.into_iter();
             break_lines.extend(lines.map(|line| line.iter().map(|p| *p + shift).collect()));
             match &mut composed {
@@ -280,7 +283,7 @@ impl PartDrawing<'_, '_> {
     }
 }
 
-/// Returns the area beyond a line that runs across the drawing, toward `outward`.
+/// Returns the area on the `outward` side of a line that runs across the drawing.
 fn end_area(line: &[DVec2], outward: DVec2) -> ClipArea {
     const FAR: f64 = 1e6;
     let ends = [line[0], line[line.len() - 1]];
@@ -295,7 +298,7 @@ fn end_area(line: &[DVec2], outward: DVec2) -> ClipArea {
     ClipArea::Star { center, corners: corners.collect() }
 }
 
-/// Returns the parts of a line inside the area of directed sides.
+/// Returns the parts of a line inside the region bounded by directed edges.
 fn parts_within(line: &[DVec2], edges: &[RegionEdge]) -> Vec<Vec<DVec2>> {
     let mut parts: Vec<Vec<DVec2>> = Vec::new();
     let mut is_open = false;
@@ -309,7 +312,7 @@ fn parts_within(line: &[DVec2], edges: &[RegionEdge]) -> Vec<Vec<DVec2>> {
                 (edge.ends[0] - side[0]).perp_dot(along) / across,
                 (edge.ends[0] - side[0]).perp_dot(step) / across,
             );
-            // Parallel sides do not cross, and their parameters are not finite.
+            // Parallel lines do not cross, and their parameters are not finite.
             if across != 0.0 && (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t) {
                 cuts.push(t);
             }
@@ -318,7 +321,7 @@ fn parts_within(line: &[DVec2], edges: &[RegionEdge]) -> Vec<Vec<DVec2>> {
         cuts.dedup();
         for pair in cuts.windows(2) {
             let ends = [pair[0], pair[1]].map(|t| point_at(side, t));
-            // No edge crosses the piece, so its middle decides for all of it.
+            // No edge crosses this piece, so testing its midpoint is enough.
             let is_inside = winding_number((ends[0] + ends[1]) * 0.5, edges) != 0;
             match parts.last_mut() {
                 Some(part) if is_inside && is_open => part.push(ends[1]),
@@ -331,7 +334,7 @@ fn parts_within(line: &[DVec2], edges: &[RegionEdge]) -> Vec<Vec<DVec2>> {
     parts
 }
 
-/// Returns the winding number of directed sides around a point, along a ray to the right.
+/// Returns the winding number of directed edges around a point, computed along a ray to the right.
 fn winding_number(point: DVec2, edges: &[RegionEdge]) -> i32 {
     let crossing = |edge: &RegionEdge| {
         let [a, b] = edge.ends;
@@ -362,7 +365,7 @@ mod tests {
     }
 
     #[test]
-    fn a_break_moves_both_ends_to_the_middle() {
+    fn a_break_moves_both_ends_toward_the_middle() {
         let part = Break { axis: 0, from: -10.0, to: 30.0 };
         let at = |x: f64| part.shortened(DVec2::new(x, 7.0)).map(|point| point.x);
         assert_eq!(
@@ -372,7 +375,7 @@ mod tests {
     }
 
     #[test]
-    fn sides_of_a_view_are_those_of_the_paper() {
+    fn view_sides_follow_the_paper_axes() {
         let point = DVec2::new(40.0, 30.0);
         for (side, inside) in [
             (ViewSide::Left, [-5.0, 0.0]),

@@ -2,13 +2,13 @@
 //! above it.
 //!
 //! ```text
-//!      │        150        │      extension lines at both sides,
+//!      │        150        │      extension lines on both sides,
 //!      │◄─────────────────►│      the dimension line between them
 //!      │                   │
 //!      ┌───────────────────┐      the outline of the object
 //! ```
 //!
-//! Extension lines begin a little away from the outline and end a little beyond the dimension line.
+//! Extension lines begin slightly away from the outline and end slightly beyond the dimension line.
 //! Arrows that do not fit between them are placed outside.
 //!
 //! All distances are multiples of the character height.
@@ -34,7 +34,7 @@ pub(super) const ARROW_LENGTH: f64 = 0.9;
 /// The distance from the dimension line to the text above it.
 pub(super) const TEXT_GAP: f64 = 0.35;
 
-/// The side of a view that has a dimension of its whole extent.
+/// The side of a view on which its overall dimension is placed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum OverallSide {
     Above,
@@ -55,7 +55,7 @@ struct LinearDimension {
 
 /// Adds the overall dimensions of a view whose object extends by `half` to each side of its center.
 ///
-/// An object without extent gets no dimension.
+/// An object without extent gets no dimensions.
 pub(super) fn add_overall_dimensions(
     annotations: &mut ViewAnnotations,
     sides: &[OverallSide],
@@ -79,7 +79,8 @@ pub(super) struct DimensionSettings {
     pub(super) scale: DrawingScale,
     /// The format of the lengths.
     pub(super) format: LengthFormat,
-    /// The space around the outline for cut lines and their letters, in millimeters: 0 without any.
+    /// The space around the outline for cut lines and their letters, in millimeters; 0 if there are
+    /// none.
     pub(super) reserved: f64,
     /// The length that a broken view omits along each axis of the paper, in object millimeters.
     pub(super) left_out: DVec2,
@@ -110,7 +111,7 @@ impl OverallSide {
     }
 }
 
-/// Returns the dimension of the whole extent on one side.
+/// Returns the dimension of the object's whole extent, on one side.
 fn overall_dimension(
     side: OverallSide,
     half: DVec2,
@@ -123,7 +124,7 @@ fn overall_dimension(
         OverallSide::Below => ([corner(-1.0, 1.0), corner(1.0, 1.0)], DVec2::Y),
         OverallSide::Left => ([corner(-1.0, 1.0), corner(-1.0, -1.0)], -DVec2::X),
     };
-    // A text above the line is between the line and an outline above it.
+    // If the outline is above the line, the text is between them.
     let text = if side == OverallSide::Below { 1.0 + TEXT_GAP } else { 0.0 };
     let distance = (LINE_DISTANCE * letters).max(reserved + (text + 0.5) * letters);
     let axis = usize::from(side == OverallSide::Left);
@@ -132,8 +133,8 @@ fn overall_dimension(
 }
 
 impl LinearDimension {
-    /// Returns the direction of the dimension line; its text reads along it, from the bottom or the
-    /// right of the sheet.
+    /// Returns the direction of the dimension line. The text runs along it and is read from the
+    /// bottom or the right of the sheet.
     fn line_direction(&self) -> DVec2 {
         (self.ends[1] - self.ends[0]).normalize_or(DVec2::X)
     }
@@ -151,7 +152,7 @@ impl LinearDimension {
     /// Adds extension lines, a dimension line, arrowheads and text.
     ///
     /// Arrows that do not fit between the extension lines point inward from outside. The dimension
-    /// line is extended to them, and further to a text beside it.
+    /// line extends to them, and farther if the text is beside it.
     fn annotate(&self, annotations: &mut ViewAnnotations, settings: &DimensionSettings) {
         let height = settings.letters;
         let text = settings.format.text(self.length);
@@ -159,7 +160,7 @@ impl LinearDimension {
         let (along, arrow) = (self.line_direction(), ARROW_LENGTH * height);
         let outwards = if self.fits_arrows(height) { 0.0 } else { 2.0 * arrow };
         let width = Label::new(&text, DVec2::ZERO, height).width();
-        // The text needs a quarter of its height free at each end.
+        // The text needs free space of a quarter of its height at each end.
         let is_outside = width > (self.ends[1] - self.ends[0]).length() - 0.5 * height;
         let tail = if is_outside { outwards + width } else { outwards };
         let layer = AnnotationLayer::Dimensions;
@@ -173,10 +174,10 @@ impl LinearDimension {
         for (tip, into) in [(start, along * inwards), (end, -along * inwards)] {
             annotations.push(layer, AnnotationShape::Head(arrowhead(tip, into, arrow)));
         }
-        // Above the line in reading direction means to its left.
+        // For text that reads along the line, "above" is on the left of the reading direction.
         let above = DVec2::new(along.y, -along.x) * (TEXT_GAP * height);
         let (anchor, align) = if is_outside {
-            // Beyond the extension line, which rises above the dimension line.
+            // The text is beyond the extension line, which extends above the dimension line.
             let beyond = if outwards > 0.0 { outwards } else { 0.5 * height };
             (end + along * beyond + above, TextAlign::Start)
         } else {
@@ -187,7 +188,7 @@ impl LinearDimension {
     }
 }
 
-/// Returns an arrowhead with this tip; `into` is the direction from the tip to the base.
+/// Returns an arrowhead with this tip. `into` is the direction from the tip to the base.
 pub(super) fn arrowhead(tip: DVec2, into: DVec2, length: f64) -> [DVec2; 3] {
     let across = DVec2::new(-into.y, into.x) * (length / 6.0);
     let base = tip + into * length;
@@ -209,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn narrow_dimensions_have_their_arrows_outside() {
+    fn narrow_dimensions_have_outside_arrows() {
         let span = |half: f64| {
             let object = [DVec2::ZERO; 2];
             let annotations = annotated(DVec2::splat(half), OverallSide::Above, 0.0);

@@ -1,10 +1,9 @@
-//! Dimension board: the free space around a view, in which dimensions are placed one after the
-//! other.
+//! Dimension board: the free space around a view, in which dimensions are placed one by one.
 //!
 //! ```text
 //!        │◄── 80 ──►│          a number touches neither the part (its convex hull), nor a line, nor
-//!      ┌─┴──────────┴─┐        another number; extension lines may cross the part and other lines,
-//!      │    part      │        but no number
+//!      ┌─┴──────────┴─┐        another number. Extension lines may cross the part and other lines,
+//!      │    part      │        but not numbers
 //!      └──────────────┘
 //! ```
 
@@ -34,7 +33,7 @@ pub(super) struct Candidate {
     pub(super) span: Option<[DVec2; 2]>,
 }
 
-/// The space around a view, in millimeters of paper from its center.
+/// The space around a view, in millimeters on paper from its center.
 #[derive(Clone, Debug)]
 pub(super) struct DimensionBoard {
     /// The convex hull of the object.
@@ -49,7 +48,7 @@ pub(super) struct DimensionBoard {
 }
 
 impl Candidate {
-    /// Whether its texts are clear of its lines and of each other.
+    /// Whether the candidate's texts are clear of its lines and of each other.
     fn is_legible(&self, margin: f64) -> bool {
         let parts: Vec<(bool, Vec<DVec2>)> = self
             .shapes
@@ -80,7 +79,7 @@ impl Candidate {
 }
 
 impl DimensionBoard {
-    /// Creates the space left by annotations and by the lines of others, which will follow.
+    /// Creates the space left free by existing annotations and by the reserved lines of later ones.
     pub(super) fn new(
         annotations: &ViewAnnotations,
         hull: Vec<DVec2>,
@@ -107,12 +106,12 @@ impl DimensionBoard {
         }
     }
 
-    /// Keeps texts off a line that will follow.
+    /// Keeps text clear of a line that will be added later.
     pub(super) fn reserve_line(&mut self, line: [DVec2; 2]) {
         self.lines.push(line.to_vec());
     }
 
-    /// Whether a candidate touches nothing that it must avoid.
+    /// Whether a candidate is clear of everything that it must avoid.
     pub(super) fn is_free(&self, candidate: &Candidate) -> bool {
         let margin = self.text_margin();
         let is_shape_free = |shape: &AnnotationShape| {
@@ -156,7 +155,8 @@ impl DimensionBoard {
         self.spans.extend(candidate.span);
     }
 
-    /// Places dimensions: shorter lengths next to the part first, then angles, then circles.
+    /// Places dimensions: lengths first, with shorter ones closer to the part, then angles, then
+    /// circles.
     pub(super) fn place_all(
         &mut self,
         dimensions: &[ViewDimension],
@@ -181,8 +181,7 @@ impl DimensionBoard {
         }
     }
 
-    /// Returns the free positions of the parts of a dimension: one, or one for each baseline
-    /// length.
+    /// Returns the free positions for a dimension: one position, or one for each baseline length.
     fn candidates(&self, dimension: &ViewDimension) -> Vec<Option<Candidate>> {
         match &dimension.measure {
             ViewMeasure::Lengths { .. } => self.length_candidates(dimension),

@@ -1,6 +1,6 @@
 //! Sheet frame (ISO 5457): margins, a border line of 0.7 mm and centering marks.
 //!
-//! The margin is 20 mm at the left, for filing, and 10 mm elsewhere.
+//! The margin is 20 mm on the left, for filing, and 10 mm elsewhere.
 
 use super::annotation::{Extent, overlap};
 use super::frame_zones::{SheetFrame, ZONE_BORDER};
@@ -17,15 +17,15 @@ const MARGIN: f64 = 10.0;
 /// The width of the frame's line in millimeters.
 const FRAME_LINE_WIDTH: f64 = 0.7;
 
-/// The distance of centering marks from the edge of the paper, and their length inside the drawing
-/// area.
+/// The distance from the centering marks to the edge of the paper, and the length of the marks
+/// inside the drawing area.
 const CENTERING_MARK: [f64; 2] = [5.0, 5.0];
 
 /// The minimum distance from the inner part of a centering mark to anything else, in millimeters.
 const MARK_CLEARANCE: f64 = 1.0;
 
-/// Returns the drawing area inside the frame. On paper too small for the margins, they are a tenth
-/// of its side.
+/// Returns the drawing area inside the frame. If the paper is too small for the margins, each
+/// margin is a tenth of the side.
 pub(super) fn area_within_frame(paper: Paper) -> Rectangle {
     let margin = |margin: f64, side: f64| margin.min(side * 0.1);
     let (left, right) = (margin(FILING_MARGIN, paper.width()), margin(MARGIN, paper.width()));
@@ -33,7 +33,8 @@ pub(super) fn area_within_frame(paper: Paper) -> Rectangle {
     rectangle_from_size(left, edge, paper.width() - left - right, paper.height() - 2.0 * edge)
 }
 
-/// Returns the frame and its centering marks, which stop at the frame if something is in their way.
+/// Returns the frame with its centering marks, which stop at the frame if something is in their
+/// way.
 pub(super) fn frame_layer(paper: Paper, style: SheetFrame, contents: &[Extent], ink: Ink) -> Layer {
     let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(FRAME_LINE_WIDTH, ink) };
     let mut layer = Layer::new("frame", "frame", pen);
@@ -52,7 +53,7 @@ pub(super) fn rectangle_outline(area: Rectangle) -> Polyline {
         .unwrap_or(Polyline { points: vec![[0, 0], [1, 0]], closed: false })
 }
 
-/// Marks at the middles of the sides, for aligning a sheet in a copier.
+/// Returns the marks in the middle of each side, which help align the sheet in a copier.
 fn centering_marks(paper: Paper, style: SheetFrame, contents: &[Extent]) -> Vec<Polyline> {
     let size = DVec2::new(paper.width(), paper.height());
     let (middle, area) = (size * 0.5, area_within_frame(paper));

@@ -4,8 +4,8 @@
 //! ```text
 //!      │  1  │  2  │  3  │  4  │
 //!   ───┌─────┴─────┼─────┴─────┐───
-//!    A │           │           │ A     fields of 50 mm from the middles of the sides; those at
-//!   ───┤           │           ├───    the corners take the rest
+//!    A │           │           │ A     fields of 50 mm, counted from the middle of each
+//!   ───┤           │           ├───    side; the corner fields take the rest
 //!    B │           │           │ B
 //! ```
 
@@ -18,10 +18,10 @@ use viewport::{Paper, Rectangle};
 /// The border around the drawing area of a sheet.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum SheetFrame {
-    /// A line, with marks at the middles of its sides.
+    /// A line with centering marks in the middle of each side.
     #[default]
     Plain,
-    /// Zones with letters and numbers too, and trimming marks at the corners of the paper.
+    /// In addition, zones with letters and numbers, and trimming marks at the corners of the paper.
     Zones,
 }
 
@@ -40,15 +40,15 @@ const LINE_WIDTH: f64 = 0.35;
 /// The sides of the two rectangles of a trimming mark in millimeters.
 const TRIMMING_MARK: [f64; 2] = [10.0, 5.0];
 
-/// Paper whose longer side is at most this long has letters and numbers only above and on the
-/// right.
+/// The longest side, in millimeters, of paper that has numbers only along the top and letters only
+/// on the right.
 const SMALL_PAPER: f64 = 300.0;
 
-/// The row letters: without I and O, which look like digits.
+/// The row letters, without I and O, which look like digits.
 const ROW_LETTERS: &[u8] = b"ABCDEFGHJKLMNPQRSTUVWXYZ";
 
-/// Returns the borders of the zones along a side: the frame, and multiples of 50 mm from the middle
-/// of the paper.
+/// Returns the zone borders along a side: the frame, and multiples of 50 mm from the middle of the
+/// paper.
 fn zone_borders(side: f64, [from, to]: [f64; 2]) -> Vec<f64> {
     let count = libm::round(0.5 * side / ZONE_LENGTH).max(1.0) as u32;
     let inner =
@@ -82,7 +82,7 @@ pub(super) fn zone_layers(paper: Paper, ink: Ink) -> Vec<Layer> {
         let (low, high, side) = side_of(frame, paper, axis);
         let borders = zone_borders(side, [low[axis], high[axis]]);
         for far in [false, true] {
-            // Numbers above, letters on the right.
+            // Numbers are along the top, letters on the right.
             if is_small && far == (axis == 0) {
                 continue;
             }
@@ -91,7 +91,7 @@ pub(super) fn zone_layers(paper: Paper, ink: Ink) -> Vec<Layer> {
             let at = |along: f64, across: f64| {
                 if axis == 0 { DVec2::new(along, across) } else { DVec2::new(across, along) }
             };
-            // The first and last borders are corners of the frame.
+            // The first and last borders are the corners of the frame.
             for border in &borders[1..borders.len() - 1] {
                 let ends = [at(*border, edge), at(*border, edge + outward)];
                 strokes.extend(Polyline::through_points(&ends, false));
@@ -109,14 +109,14 @@ pub(super) fn zone_layers(paper: Paper, ink: Ink) -> Vec<Layer> {
     vec![lines, names, trimming_marks(paper, butt)]
 }
 
-/// Returns the corners of the frame, and the side of the paper along an axis.
+/// Returns the corners of the frame, and the length of the paper along an axis.
 fn side_of(frame: Rectangle, paper: Paper, axis: usize) -> (DVec2, DVec2, f64) {
     let low = DVec2::new(frame.x(), frame.y());
     let high = low + DVec2::new(frame.width(), frame.height());
     (low, high, [paper.width(), paper.height()][axis])
 }
 
-/// Two rectangles in each corner of the paper, where it is to be cut.
+/// Returns trimming marks: two rectangles in each corner of the paper, where it is to be cut.
 fn trimming_marks(paper: Paper, pen: Pen) -> Layer {
     let size = DVec2::new(paper.width(), paper.height());
     let [long, short] = TRIMMING_MARK;
@@ -124,7 +124,7 @@ fn trimming_marks(paper: Paper, pen: Pen) -> Layer {
     for corner in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(DVec2::from) {
         let inward = DVec2::ONE - corner * 2.0;
         let at = |x: f64, y: f64| size * corner + inward * DVec2::new(x, y);
-        // Both rectangles as one outline, since overlapping areas in one path are not filled.
+        // Both rectangles form one outline, because overlapping areas in one path are not filled.
         let outline = [
             at(0.0, 0.0),
             at(long, 0.0),
@@ -145,8 +145,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn papers_have_the_zones_of_the_standard() {
-        // ISO 5457, table 2: zones along the longer and the shorter side.
+    fn zone_counts_match_the_standard() {
+        // ISO 5457, table 2: the numbers of zones along the longer and the shorter side.
         for (paper, counts) in [
             (Paper::A0, [24, 16]),
             (Paper::A1, [16, 12]),
@@ -160,14 +160,14 @@ mod tests {
             let across = zone_borders(paper.width(), [low.x, high.x]).len() - 1;
             assert_eq!([along, across], counts, "{paper:?}");
         }
-        // From the middle of the paper, in steps of 50 mm.
+        // Borders are multiples of 50 mm from the middle of the paper.
         let borders = zone_borders(297.0, [20.0, 287.0]);
         assert_eq!(borders, [20.0, 48.5, 98.5, 148.5, 198.5, 248.5, 287.0]);
         assert_eq!([0, 7, 8, 13, 24].map(row_letter), ["A", "H", "J", "P", "AA"]);
     }
 
     #[test]
-    fn small_paper_has_names_above_and_on_the_right_only() {
+    fn small_paper_has_zone_names_only_at_the_top_and_right() {
         let names = |paper| zone_layers(paper, [0; 3])[1].groups.len();
         assert_eq!(names(Paper::A4), 6 + 4);
         assert_eq!(names(Paper::A3.rotated()), 2 * (8 + 6));

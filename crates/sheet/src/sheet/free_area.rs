@@ -1,9 +1,9 @@
-//! Free areas of a sheet: rectangles with room for a view without a fixed position.
+//! Free areas on a sheet: rectangles with room for views that have no fixed position.
 //!
 //! ```text
 //!   ┌───────┬──────┐
-//!   │ front │ side │      a largest free rectangle ends at obstacles or at the frame, so its sides
-//!   ├───────┼──────┤      are among theirs: few enough to try all
+//!   │ front │ side │      a maximal free rectangle ends at obstacles or at the frame, so its sides
+//!   ├───────┼──────┤      are among theirs, few enough to try them all
 //!   │  top  │ ████ │
 //!   └───────┴──────┘
 //! ```
@@ -11,7 +11,7 @@
 use super::annotation::{Extent, overlap};
 use glam::DVec2;
 
-/// All free rectangles of an area with sides taken from obstacles or from the area.
+/// Returns all free rectangles in an area whose sides align with sides of the area or of obstacles.
 pub(super) fn free_rectangles(area: Extent, obstacles: &[Extent]) -> Vec<Extent> {
     let borders = |axis: usize| {
         let sides = obstacles.iter().flatten().chain(&area).map(|corner| corner[axis]);
@@ -38,11 +38,11 @@ pub(super) fn free_rectangles(area: Extent, obstacles: &[Extent]) -> Vec<Extent>
     free
 }
 
-/// Beyond this multiple of what a view needs, more space is not better.
+/// The multiple of the space a view needs beyond which more space is no longer better.
 const AMPLE: f64 = 1.3;
 
-/// Returns the best rectangle for a view of this size: preferably ample, then around `wanted`, then
-/// large.
+/// Returns the best rectangle for a view of this size. Prefers rectangles with ample space, then
+/// those around `wanted`, then larger ones.
 pub(super) fn best_rectangle(free: &[Extent], size: DVec2, wanted: DVec2) -> Option<Extent> {
     let holds = |[low, high]: &&Extent| (*high - *low).cmpge(size).all();
     let score = |[low, high]: &Extent| {
@@ -68,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn the_corner_beside_three_views_is_free() {
+    fn the_corner_next_to_three_views_is_free() {
         let area = extent([0.0, 0.0, 100.0, 80.0]);
         let views =
             [[0.0, 0.0, 40.0, 30.0], [50.0, 0.0, 90.0, 30.0], [0.0, 40.0, 40.0, 70.0]].map(extent);

@@ -1,7 +1,7 @@
-//! Freehand lines: borders of local sections and of broken views (ISO 128-2, line 01.1.18).
+//! Freehand lines: the borders of local sections and broken views (ISO 128-2, line 01.1.18).
 //!
-//! A freehand line wavers around its course. The waves are sums of sines with a fixed seed, so they
-//! are the same in every drawing of a part.
+//! A freehand line wavers around its path. The waves are sums of sines with fixed parameters, so
+//! they are the same in every drawing of a part.
 
 use drawing::circle_points;
 use glam::DVec2;
@@ -10,17 +10,18 @@ use std::f64::consts::TAU;
 /// The number of points of a freehand line.
 const POINTS: u32 = 96;
 
-/// Waves, given by their number along the line, their fraction of the amplitude, and their phase in
+/// The waves: the number of periods along the line, the fraction of the amplitude, and the phase in
 /// turns.
 const WAVES: [(f64, f64, f64); 4] =
     [(3.0, 0.5, 0.11), (5.0, 0.3, 0.63), (8.0, 0.14, 0.37), (13.0, 0.06, 0.81)];
 
-/// Returns the deviation of a freehand line at a fraction of its length, from −1 to 1; periodic.
+/// Returns the deviation of a freehand line at a fraction of its length, from −1 to 1. The
+/// deviation is periodic.
 fn waver(t: f64) -> f64 {
     WAVES.iter().map(|(count, part, phase)| part * libm::sin(TAU * (count * t + phase))).sum()
 }
 
-/// Returns a closed freehand line around a center: a circle that wavers by a fraction of its
+/// Returns a closed freehand line around a center, a circle that wavers by a fraction of its
 /// radius.
 pub(super) fn freehand_circle(center: DVec2, radius: f64, part: f64) -> Vec<DVec2> {
     let circle = circle_points(DVec2::ZERO, radius, POINTS).into_iter().zip(0..POINTS);
@@ -45,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn freehand_lines_stay_near_their_course() {
+    fn freehand_lines_stay_near_their_path() {
         let line = freehand_line([DVec2::ZERO, DVec2::new(100.0, 0.0)], 2.0);
         assert!(line.iter().all(|point| point.y.abs() <= 2.0));
         assert!(line.iter().any(|point| point.y > 0.8) && line.iter().any(|point| point.y < -0.8));

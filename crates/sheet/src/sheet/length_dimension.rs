@@ -41,7 +41,7 @@ const TEXT_LEVELS: u32 = 6;
 
 /// Lengths on one dimension line.
 struct LengthRow<'a> {
-    /// The measured points, by position along the line, in millimeters of paper.
+    /// The measured points, by position along the line, in millimeters on paper.
     feet: &'a [DVec2],
     /// The unit vector of the line; numbers read along it.
     along: DVec2,
@@ -221,7 +221,7 @@ impl LengthRow<'_> {
         is_inside && (self.is_narrow(at - 1) || self.is_narrow(at))
     }
 
-    /// All lines and texts; `None` if there is no level for numbers above the line.
+    /// All lines and texts, or `None` if there is no level for numbers above the line.
     fn candidate(&self) -> Option<Candidate> {
         let mut candidate = Candidate::default();
         self.add_extension_lines(&mut candidate);

@@ -26,12 +26,12 @@ const TRUE_SINE: f64 = 1e-4;
 pub struct Dimension {
     /// The lengths, the angle or the circle that it measures.
     pub measure: Measure,
-    /// The view that shows it; `None` for the first view that shows it at true size.
+    /// The view that shows it, or `None` for the first view that shows it at true size.
     pub view: Option<NamedView>,
-    /// The side of the part for the dimension line; `None` for the side with shorter extension
+    /// The side of the part for the dimension line, or `None` for the side with shorter extension
     /// lines. It matters only for lengths.
     pub side: Option<DimensionSide>,
-    /// The maximum number of decimal places; `None` for the default of the sheet.
+    /// The maximum number of decimal places, or `None` for the default of the sheet.
     pub decimals: Option<u32>,
     /// The name in warnings, such as `dimension 3`.
     pub name: String,

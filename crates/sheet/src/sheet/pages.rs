@@ -47,7 +47,7 @@ struct DrawnAssembly<'a> {
     models: &'a [ModelInstance],
     parts: Vec<Part>,
     list: PartsList,
-    /// The move of each part; `None` if no part moves.
+    /// The move of each part, or `None` if no part moves.
     moves: Option<Vec<DVec3>>,
     warnings: Vec<SheetWarning>,
     ink: Ink,
@@ -412,8 +412,8 @@ fn take_paths(drawing: &mut Drawing, is_exploded: bool) -> Drawing {
     }
 }
 
-/// Returns the warning about list names with characters that the font lacks; `None` if it has all
-/// of them.
+/// Returns the warning about list names with characters that the font lacks, or `None` if it has
+/// all of them.
 fn unreadable_names(list: &PartsList) -> Option<SheetWarning> {
     let is_unreadable = |text: &str| !missing_glyphs(text).is_empty();
     let mut names = list

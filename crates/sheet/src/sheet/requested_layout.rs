@@ -86,7 +86,7 @@ impl<'a> RequestedGrid<'a> {
         DVec2::new(sum(&self.spans[0]), sum(&self.spans[1]))
     }
 
-    /// Returns the centers of the views in an area; `None` if the grid is larger.
+    /// Returns the centers of the views in an area, or `None` if the grid is larger.
     fn place_views(&self, [low, high]: Extent, spacing: [GridSpacing; 2]) -> Option<Vec<DVec2>> {
         let rest = high - low - self.total_size();
         if rest.min_element() < 0.0 {

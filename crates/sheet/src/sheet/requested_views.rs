@@ -34,7 +34,7 @@ struct RequestPlanner<'a> {
     letters: std::ops::RangeInclusive<char>,
 }
 
-/// Returns the column and row of a view along an axis, with the front view at (0, 0); `None` for
+/// Returns the column and row of a view along an axis, with the front view at (0, 0), or `None` for
 /// others.
 fn grid_place(name: NamedView, angle: SheetAngle) -> Option<[i32; 2]> {
     // In first-angle projection a view is placed opposite the side from which it is seen.
@@ -373,7 +373,7 @@ fn check_radius(radius: f64) -> Result<(), Fault> {
     if is_length { Ok(()) } else { Err(fault("its radius must be greater than 0")) }
 }
 
-/// Returns the unit vector of a direction; `None` without one.
+/// Returns the unit vector of a direction, or `None` without one .
 pub(super) fn unit_vector(direction: Vector<World>) -> Option<Vector<World>> {
     // Scaled first, so that squares do not overflow or underflow.
     let raw = direction.raw();

@@ -15,7 +15,7 @@ use glam::DVec2;
 use page::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline, TextAlign};
 use viewport::{DrawingScale, Rectangle};
 
-/// The longest bar in millimeters of paper.
+/// The longest bar in millimeters on paper.
 const MAX_BAR_LENGTH: f64 = 60.0;
 
 /// The height of the bar in millimeters.

@@ -83,7 +83,7 @@ impl SheetView {
 }
 
 impl SectionLine {
-    /// Returns the line of a plane in a view; `None` if the plane is not edge-on, or misses the
+    /// Returns the line of a plane in a view, or `None` if the plane is not edge-on, or misses the
     /// object.
     ///
     /// A slab test over the area of the object gives the interval of the line, which is extended by
@@ -127,7 +127,7 @@ impl SectionLine {
         }
     }
 
-    /// Returns the line in a view with an omitted part; `None` if the line is in that part.
+    /// Returns the line in a view with an omitted part, or `None` if the line is in that part.
     pub(super) fn shortened(mut self, part: &Break, scale: DrawingScale) -> Option<Self> {
         let middle = (self.ends[0] + self.ends[1]) * 0.5;
         if self.retained_direction[part.axis].abs() < 1.0 - PARALLEL_TOLERANCE {

@@ -39,7 +39,7 @@ pub struct SheetFill {
     /// The reason why the scale is not larger.
     pub limit: ScaleLimit,
     /// The largest scale between this one and the next standard one at which all views fit, such as
-    /// 1:3; `None` if there is none.
+    /// 1:3, or `None` if there is none.
     pub between: Option<DrawingScale>,
 }
 

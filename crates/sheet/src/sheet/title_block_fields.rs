@@ -38,7 +38,7 @@ pub struct TitleBlockText {
     pub approved_by: String,
     /// The revision index, such as `B`.
     pub revision: String,
-    /// The sheet number, from 1, and the number of sheets; `None` if there is only one.
+    /// The sheet number, from 1, and the number of sheets, or `None` if there is only one.
     pub sheet: Option<[u32; 2]>,
     /// The language of the field names.
     pub language: TitleBlockLanguage,

@@ -71,7 +71,7 @@ impl<'a> ViewGrid<'a> {
         DVec2::from(self.spans.map(|spans| spans.as_flattened().iter().sum()))
     }
 
-    /// Returns the centers of the three views in an area; `None` if the grid is larger.
+    /// Returns the centers of the three views in an area, or `None` if the grid is larger.
     pub(super) fn place_views(
         &self,
         [low, high]: Extent,

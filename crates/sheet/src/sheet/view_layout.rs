@@ -168,7 +168,7 @@ impl<'a> ViewLayout<'a> {
         Some(best)
     }
 
-    /// Returns the best arrangement at one scale; `None` if the front, top and side views do not
+    /// Returns the best arrangement at one scale, or `None` if the front, top and side views do not
     /// fit.
     pub(super) fn arrange_at_scale(
         sheet: &Sheet,

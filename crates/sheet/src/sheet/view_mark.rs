@@ -26,7 +26,7 @@ const LETTER_DIRECTIONS: u32 = 16;
 /// The number of positions farther out to try for a mark.
 const STEPS: u32 = 40;
 
-/// The minimum width of objects, across a center line, that get one, in millimeters of the paper.
+/// The minimum width of objects, across a center line, that get one, in millimeters on paper.
 const LEAST_WIDTH: f64 = 2.0;
 
 /// The length by which a center line extends beyond the view, in millimeters.
@@ -63,7 +63,7 @@ impl ViewMark {
         }
     }
 
-    /// Returns the space that the mark takes beside the object, in millimeters of the paper.
+    /// Returns the space that the mark takes beside the object, in millimeters on paper.
     pub(super) fn reserve(&self, settings: &MarkSettings) -> f64 {
         let MarkSettings { ratio, object, letters } = *settings;
         match self {
@@ -231,7 +231,7 @@ fn is_beside(point: DVec2, object: Extent, letters: f64) -> bool {
     (point + letters).cmplt(object[0]).any() || (point - letters).cmpgt(object[1]).any()
 }
 
-/// Returns the distance from a point to the exit of a ray from a rectangle; 0 if the point is
+/// Returns the distance from a point to the exit of a ray from a rectangle, or 0 if the point is
 /// outside.
 fn exit_distance(from: DVec2, direction: DVec2, [low, high]: Extent) -> f64 {
     let mut exit = f64::INFINITY;

@@ -91,7 +91,7 @@ impl Sheet {
 }
 
 impl ViewMeasures {
-    /// Returns the space that center lines may take around the object, in millimeters of paper.
+    /// Returns the space that center lines may take around the object, in millimeters on paper.
     pub(super) fn reserve(&self) -> f64 {
         if self.center_lines.is_empty() { 0.0 } else { CENTER_LINE_OVERHANG }
     }

@@ -238,7 +238,7 @@ impl<'a> PlanSubject<'a> {
     }
 
     /// Returns the view onto a section plane oblique to all views, and an auxiliary view that sees
-    /// it edge-on, with its line; `None` if no view can show the direction.
+    /// it edge-on, with its line, or `None` if no view can show the direction.
     fn oblique_section(
         &self,
         views: &mut [PlannedView],

@@ -9,12 +9,12 @@ use viewport::DrawingScale;
 /// The position, scale and caption of a view on its sheet.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct ViewPlace {
-    /// The center of the view, in millimeters from the upper left corner of the paper; `None` for
-    /// the position given by the projection angle, or for free space.
+    /// The center of the view, in millimeters from the upper left corner of the paper, or `None`
+    /// for the position given by the projection angle, or for free space.
     pub at: Option<DVec2>,
-    /// The scale; `None` for the sheet's scale, or a smaller one in free space if necessary.
+    /// The scale, or `None` for the sheet's scale, or a smaller one in free space if necessary.
     pub scale: Option<DrawingScale>,
-    /// The text below the view; `None` for none, or for letter and scale.
+    /// The text below the view, or `None` for none, or for letter and scale.
     pub caption: Option<String>,
 }
 
@@ -77,7 +77,7 @@ pub enum ViewRequest {
     HalfSection {
         /// The view.
         of: NamedView,
-        /// A point on the center line and in the section plane; `None` for the center of the
+        /// A point on the center line and in the section plane, or `None` for the center of the
         /// models.
         point: Option<Point<World>>,
         /// The half that is cut.
@@ -94,7 +94,7 @@ pub enum ViewRequest {
     },
     /// A view without a part of its length (ISO 128-3, 4.4.7); dimensions remain true.
     Broken {
-        /// The view; `None` for all views along the axes that show the length.
+        /// The view, or `None` for all views along the axes that show the length.
         of: Option<NamedView>,
         /// The axis of the length: 0 for x, 1 for y, 2 for z.
         axis: usize,
@@ -106,7 +106,7 @@ pub enum ViewRequest {
 }
 
 impl ViewRequest {
-    /// Returns the place; `None` for requests that change another view.
+    /// Returns the place, or `None` for requests that change another view.
     pub(super) const fn place(&self) -> Option<&ViewPlace> {
         match self {
             Self::Named { place, .. }

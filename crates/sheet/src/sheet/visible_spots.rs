@@ -42,7 +42,7 @@ pub(super) struct MovedParts<'a> {
     pub(super) moves: &'a [DVec3],
 }
 
-/// For each part, the spot of a view that shows it best; `None` for parts that are hidden or
+/// For each part, the spot of a view that shows it best, or `None` for parts that are hidden or
 /// narrower than a pixel.
 pub(super) fn find_visible_spots(
     moved: &MovedParts<'_>,

@@ -41,7 +41,7 @@ fn both_at(sheet: &Sheet, scale: DrawingScale) -> [Sheet; 2] {
     })
 }
 
-/// Describes the fault of a sheet that should be full; empty if there is none.
+/// Describes the fault of a sheet that should be full, or empty if there is none.
 fn fault_of_fill(sheet: &Sheet, models: &[ModelInstance], fill: &SheetFill) -> String {
     if fill.fraction >= LEAST_FILL || fill.limit == ScaleLimit::Largest {
         return String::new();

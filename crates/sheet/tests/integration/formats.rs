@@ -4,7 +4,7 @@ use glam::DVec2;
 use page::{DxfOptions, to_pdf};
 use sheet::SheetPage;
 
-/// The straight lines of a layer in millimeters of paper, y down, and its texts.
+/// The straight lines of a layer in millimeters on paper, y down, and its texts.
 #[derive(Debug, Default)]
 pub struct ReadLayer {
     pub lines: Vec<Vec<DVec2>>,

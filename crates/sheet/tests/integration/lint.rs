@@ -26,7 +26,7 @@ fn is_text_layer(id: &str) -> bool {
     TEXTS.contains(&id) || id.starts_with("title-block-text-")
 }
 
-/// Returns the rectangle around lines; `None` without any.
+/// Returns the rectangle around lines, or `None` if there are none.
 pub fn extent<'a>(lines: impl Iterator<Item = &'a Polyline>) -> Option<Extent> {
     let points = lines.flat_map(|line| &line.points).copied().map(to_millimeters);
     points.fold(None, |extent: Option<Extent>, p| {
@@ -82,7 +82,7 @@ fn text_outline(group: &Group, margin: f64) -> Option<Vec<DVec2>> {
     Some(vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)])
 }
 
-/// Describes the faults of a sheet; empty if there are none.
+/// Describes the faults of a sheet, or empty if there are none.
 pub fn faults(page: &SheetPage) -> Vec<String> {
     let mut faults = Vec::new();
     let mut texts: Vec<(&str, Vec<DVec2>)> = Vec::new();

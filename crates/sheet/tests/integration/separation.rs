@@ -3,7 +3,7 @@
 use glam::DVec3;
 use model::{ModelInstance, Topology};
 
-/// Returns the world-space triangles of each object; none for objects made of lines.
+/// Returns the world-space triangles of each object, or none for objects made of lines.
 pub fn part_triangles(models: &[ModelInstance]) -> Vec<Vec<[DVec3; 3]>> {
     let mut parts = Vec::new();
     for placed in models {
