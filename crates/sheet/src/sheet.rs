@@ -276,8 +276,9 @@ impl Sheet {
     /// threads does not change the page. Parts lists, exploded views and part sheets are on
     /// additional pages; see [`draw_pages`](Self::draw_pages).
     ///
-    /// # Errors Returns an error if there is nothing to draw, a view cannot be drawn, or the views
-    /// are larger than the paper.
+    /// # Errors
+    /// Returns an error if there is nothing to draw, a view cannot be drawn, or the views are
+    /// larger than the paper.
     pub fn draw(
         &self,
         models: &[ModelInstance],

@@ -8,8 +8,9 @@
 //!       ┌──────┬────────┐          ┌──────┬─────────┐
 //! ```
 //!
-//! If two arrowheads do not fit between extension lines, oblique strokes replace those inside a
-//! chain, and numbers are placed beyond the end, or above with a leader.
+//! If two arrowheads do not fit between extension lines, oblique strokes replace the inner
+//! arrowheads of a chain. A number that does not fit is placed beyond the end of the line, or above
+//! it with a leader.
 
 use super::annotation::{AnnotationLayer, AnnotationShape, AnnotationText};
 use super::collision::{convex_overlap, reach_between, text_outline};
@@ -33,21 +34,21 @@ const LEAST_BETWEEN_ARROWS: f64 = 3.5;
 /// Half the side of the square whose diagonal is an oblique stroke, in character heights.
 const STROKE: f64 = 0.3;
 
-/// The maximum length of extension lines that will follow, in character heights.
+/// The maximum length of the extension lines of later rows, in character heights.
 const FAR: f64 = 200.0;
 
-/// The number of levels for numbers above the line.
+/// The number of levels at which numbers above the line are tried.
 const TEXT_LEVELS: u32 = 6;
 
 /// Lengths on one dimension line.
 struct LengthRow<'a> {
-    /// The measured points, by position along the line, in millimeters on paper.
+    /// The measured points, sorted by position along the line, in millimeters on paper.
     feet: &'a [DVec2],
-    /// The unit vector of the line; numbers read along it.
+    /// The unit vector along the line, in the reading direction of the numbers.
     along: DVec2,
     /// The unit vector from the part to the line.
     outward: DVec2,
-    /// The position of the line in this direction.
+    /// The position of the line along `outward`.
     level: f64,
     /// The numbers between neighboring points.
     texts: &'a [String],
@@ -57,7 +58,8 @@ struct LengthRow<'a> {
 }
 
 impl DimensionBoard {
-    /// Returns the free positions of lengths: one for a chain, one for each length from a baseline.
+    /// Returns the free positions for lengths: one for a chain, or one for each length from a
+    /// baseline.
     pub(super) fn length_candidates(&self, dimension: &ViewDimension) -> Vec<Option<Candidate>> {
         let ViewMeasure::Lengths { feet, along, is_baseline, .. } = &dimension.measure else {
             return Vec::new();
@@ -71,7 +73,7 @@ impl DimensionBoard {
             return vec![self.row_candidate(dimension, &feet, along, &sides)];
         }
         let base = feet.remove(0);
-        // Baseline dimensions are nested, with the shortest nearest the part.
+        // Baseline dimensions are nested, with the shortest closest to the part.
         feet.sort_by(|a, b| {
             let [a, b] = [a, b].map(|foot| (*foot - base).dot(along).abs());
             a.total_cmp(&b)
@@ -80,15 +82,15 @@ impl DimensionBoard {
             let rows = self.baseline_rows(dimension, base, &feet, along, *outward);
             rows.into_iter().collect::<Option<Vec<Candidate>>>()
         };
-        // All lengths share one side; if there is no room for one of them, none is drawn.
+        // All lengths are on the same side. If there is no room for one of them, none is drawn.
         match sides.iter().find_map(on_side) {
             Some(rows) => rows.into_iter().map(Some).collect(),
             None => vec![None],
         }
     }
 
-    /// Returns the free positions of the lengths from a baseline on one side, the shortest next to
-    /// the part.
+    /// Returns the free positions for the lengths from a baseline on one side, with the shortest
+    /// next to the part.
     fn baseline_rows(
         &self,
         dimension: &ViewDimension,
@@ -113,8 +115,8 @@ impl DimensionBoard {
         rows
     }
 
-    /// Returns the possible sides of a dimension line: the requested one, or both, first the one
-    /// with the shorter extension lines.
+    /// Returns the possible sides of a dimension line: the requested side, or both sides, starting
+    /// with the side that has the shorter extension lines.
     fn sides(&self, dimension: &ViewDimension, feet: &[DVec2], along: DVec2) -> Vec<DVec2> {
         let above = DVec2::new(along.y, -along.x);
         let wanted = dimension.side.map(|side| side.outward().dot(above));
@@ -134,21 +136,21 @@ impl DimensionBoard {
         }
     }
 
-    /// Returns the extent of the part beside a length.
+    /// Returns how far the part beside a length extends.
     fn level_beside(&self, feet: &[DVec2], along: DVec2, outward: DVec2) -> f64 {
         let is_upright = along.x.abs() < 1e-9 || along.y.abs() < 1e-9;
         let places = feet.iter().map(|foot| foot.dot(along));
         let [low, high] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| {
             [low.min(at), high.max(at)]
         });
-        // Beside slanted lengths, the part counts only along their extent.
+        // For slanted lengths, only the part directly beside them counts.
         let room = if is_upright { f64::INFINITY } else { 3.0 * self.settings.letters };
         let hull = reach_between(&self.hull, along, [low - room, high + room], outward);
         let of_feet = feet.iter().map(|foot| foot.dot(outward));
         of_feet.fold(hull.unwrap_or(f64::NEG_INFINITY), f64::max)
     }
 
-    /// Returns the free position of lengths on one line nearest to the part.
+    /// Returns the free position closest to the part for lengths on one line.
     fn row_candidate(
         &self,
         dimension: &ViewDimension,
@@ -162,7 +164,7 @@ impl DimensionBoard {
             .windows(2)
             .map(|pair| scale.to_object_length((pair[1] - pair[0]).dot(along)))
             .collect();
-        // Points at one position have no length between them.
+        // There is no length between points at the same position.
         if lengths.iter().any(|length| *length < 1e-6) {
             return None;
         }
@@ -200,28 +202,28 @@ impl LengthRow<'_> {
         ARROW_LENGTH * self.letters
     }
 
-    /// Returns the unit vector that is upward when reading the numbers.
+    /// Returns the unit vector that points up when reading the numbers.
     fn above(&self) -> DVec2 {
         DVec2::new(self.along.y, -self.along.x)
     }
 
-    /// Returns the length of the line between a point and the next.
+    /// Returns the length of the line between a point and the next one.
     fn interval(&self, at: usize) -> f64 {
         (self.feet[at + 1] - self.feet[at]).dot(self.along)
     }
 
-    /// Whether two arrowheads do not fit between a point and the next.
+    /// Whether the space between a point and the next one is too narrow for two arrowheads.
     fn is_narrow(&self, at: usize) -> bool {
         self.interval(at) <= LEAST_BETWEEN_ARROWS * self.arrow()
     }
 
-    /// Whether a point of a chain has an oblique stroke, because arrowheads do not fit beside it.
+    /// Whether a point in a chain gets an oblique stroke because arrowheads do not fit beside it.
     fn is_stroke(&self, at: usize) -> bool {
         let is_inside = at > 0 && at + 1 < self.feet.len();
         is_inside && (self.is_narrow(at - 1) || self.is_narrow(at))
     }
 
-    /// All lines and texts, or `None` if there is no level for numbers above the line.
+    /// Returns all lines and texts, or `None` if no level has room for the numbers above the line.
     fn candidate(&self) -> Option<Candidate> {
         let mut candidate = Candidate::default();
         self.add_extension_lines(&mut candidate);
@@ -237,10 +239,10 @@ impl LengthRow<'_> {
                 self.add_text(&mut candidate, text, middle, TextAlign::Middle);
                 continue;
             }
-            // A single length has both ends free; `is_text_first` chooses the first.
+            // Both ends of a single length are free. `is_text_first` selects the first one.
             let is_end = at == last && !(last == 0 && self.is_text_first);
             if is_end || at == 0 {
-                // Beyond the extension line, which rises above the dimension line.
+                // The text is beyond the extension line, which extends above the dimension line.
                 let tail = &mut tails[usize::from(is_end)];
                 let beyond = if *tail > 0.0 { *tail } else { 0.5 * self.letters };
                 let sense = if is_end { 1.0 } else { -1.0 };
@@ -262,7 +264,8 @@ impl LengthRow<'_> {
         Some(candidate)
     }
 
-    /// Adds the extension lines, from a little away from the points to a little beyond the line.
+    /// Adds the extension lines, which start slightly away from the points and end slightly beyond
+    /// the line.
     fn add_extension_lines(&self, candidate: &mut Candidate) {
         for (at, foot) in self.feet.iter().enumerate() {
             let gap = EXTENSION_GAP * self.letters;
@@ -273,7 +276,8 @@ impl LengthRow<'_> {
         }
     }
 
-    /// Adds arrowheads: inside, outside at narrow ends, and strokes at narrow positions of a chain.
+    /// Adds the arrowheads, which are outside at narrow ends, and oblique strokes at narrow
+    /// positions in a chain.
     fn add_terminators(&self, candidate: &mut Candidate) {
         let last = self.feet.len() - 1;
         for at in 0..=last {
@@ -294,7 +298,7 @@ impl LengthRow<'_> {
         }
     }
 
-    /// Adds a number above a point of the line.
+    /// Adds a number above a point on the line.
     fn add_text(&self, candidate: &mut Candidate, text: &str, at: DVec2, align: TextAlign) {
         let anchor = at + self.above() * (TEXT_GAP * self.letters);
         let text = self.text(text, anchor, align);
@@ -307,10 +311,10 @@ impl LengthRow<'_> {
         AnnotationText { text: text.to_owned(), anchor, height, direction, align }
     }
 
-    /// Adds a number that is wider than its space: farther out, at the end of a leader.
+    /// Adds a number that is wider than its space, farther out at the end of a leader.
     fn add_raised_text(&self, candidate: &mut Candidate, at: usize, text: &str) -> Option<()> {
         let middle = (self.line_point(at) + self.line_point(at + 1)) * 0.5;
-        // The baseline is on the side of the part if the number reads away from it.
+        // If "up" for the reader is away from the part, the baseline is on the side of the part.
         let own_height = if self.outward.dot(self.above()) > 0.0 { 0.0 } else { 1.0 };
         for level in 0..TEXT_LEVELS {
             let raised = 0.9 + 1.5 * f64::from(level);
@@ -323,7 +327,7 @@ impl LengthRow<'_> {
                     let other = text_outline(other, 0.1 * self.letters);
                     !convex_overlap(&other, &outline) && !convex_overlap(&other, &leader)
                 }
-                // The leader may cross lines; the text may not.
+                // The leader may cross lines, but the text may not.
                 AnnotationShape::Line(ends) => !convex_overlap(ends, &outline),
                 _ => true,
             });

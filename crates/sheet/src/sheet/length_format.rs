@@ -2,13 +2,13 @@
 //!
 //! | unit | 1234.5 mm | decimals |
 //! | --- | --- | --- |
-//! | millimeters | 1235, and 234.5 below a meter | at most 2, none from one meter on |
+//! | millimeters | 1235, and 234.5 below a meter | at most 2, none from one meter up |
 //! | inches | 48.602 | at most 3 |
 //! | feet and inches | 4'-0 5/8" | sixteenths of an inch |
 
 use viewport::MILLIMETERS_PER_INCH;
 
-/// The unit of lengths on a sheet; the paper is always measured in millimeters.
+/// The unit of lengths on a sheet. The paper itself is always measured in millimeters.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum DimensionUnit {
     /// Millimeters.
@@ -34,14 +34,14 @@ pub enum DecimalMark {
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct NumberFormat {
     /// The maximum number of decimals, up to [`MAX_DECIMALS`](Self::MAX_DECIMALS); trailing zeros
-    /// are omitted. `None` for the default of the unit; feet and inches then have fractions.
+    /// are omitted. `None` means the default of the unit, which is fractions for feet and inches.
     pub decimals: Option<u8>,
     /// The decimal separator.
     pub decimal_mark: DecimalMark,
 }
 
 impl NumberFormat {
-    /// The maximum number of decimals: a micrometer needs six in meters.
+    /// The upper limit for `decimals`; a micrometer in meters needs six.
     pub const MAX_DECIMALS: u8 = 6;
 
     /// Formats a number with at most `most` decimals, without trailing zeros.
@@ -89,15 +89,15 @@ pub(super) struct LengthFormat {
 }
 
 impl LengthFormat {
-    /// Sets the maximum number of decimals, if given.
+    /// Sets the maximum number of decimals, if specified.
     pub(super) fn with_decimals(self, decimals: Option<u32>) -> Self {
         let Some(decimals) = decimals else { return self };
         let most = u8::try_from(decimals).unwrap_or(NumberFormat::MAX_DECIMALS);
         Self { numbers: NumberFormat { decimals: Some(most), ..self.numbers }, ..self }
     }
 
-    /// Returns a length, given in millimeters, for a dimension line: without a unit, except for
-    /// feet and inches.
+    /// Formats a length in millimeters for a dimension line, without a unit except for feet and
+    /// inches.
     pub(super) fn text(self, millimeters: f64) -> String {
         let length = millimeters / self.unit.in_millimeters();
         let own = self.numbers.decimals.map(|most| most.min(NumberFormat::MAX_DECIMALS).into());
@@ -114,7 +114,7 @@ impl LengthFormat {
         }
     }
 
-    /// Returns a length with its unit, for the scale bar: long ones in meters or kilometers.
+    /// Formats a length with its unit for the scale bar. Long lengths are in meters or kilometers.
     pub(super) fn text_with_unit(self, length: f64) -> String {
         let number = |length: f64| {
             let text = length.to_string();
@@ -131,7 +131,7 @@ impl LengthFormat {
         }
     }
 
-    /// Feet, and inches with decimals: rounded first, so that 12 inches become a foot.
+    /// Formats inches as feet and decimal inches. Rounds first, so that 12 inches become a foot.
     fn feet_and_decimals(self, inches: f64, most: usize) -> String {
         let step = libm::pow(10.0, -(most as f64));
         let rounded = libm::round(inches / step) * step;
@@ -142,7 +142,7 @@ impl LengthFormat {
     }
 }
 
-/// Feet, inches and sixteenths of an inch, the fraction in lowest terms.
+/// Formats inches as feet, inches and sixteenths of an inch, with the fraction in lowest terms.
 fn feet_and_sixteenths(inches: f64) -> String {
     let sixteenths = libm::round(inches * 16.0);
     let (feet, rest) = (libm::floor(sixteenths / 192.0), sixteenths % 192.0);
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn decimals_and_their_mark_are_chosen() {
+    fn decimals_and_decimal_mark_are_configurable() {
         let format = |decimals, decimal_mark| LengthFormat {
             unit: DimensionUnit::Millimeter,
             numbers: NumberFormat { decimals, decimal_mark },
@@ -197,7 +197,7 @@ mod tests {
             let comma = format(Some(decimals), DecimalMark::Comma).text(1234.5678);
             assert_eq!((point.as_str(), comma), (text, text.replace('.', ",")));
         }
-        // Too many decimals, and trailing zeros.
+        // More decimals than allowed, and trailing zeros.
         assert_eq!(format(Some(9), DecimalMark::Comma).text(0.25), "0,25");
         assert_eq!(format(None, DecimalMark::Comma).text_with_unit(500.0), "500 mm");
         assert_eq!(format(None, DecimalMark::Comma).text_with_unit(2500.0), "2,5 m");

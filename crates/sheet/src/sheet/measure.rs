@@ -1,14 +1,15 @@
-//! Requested dimensions: lengths, circles and angles in the world, and the view that shows each at
-//! true size.
+//! Requested dimensions: lengths, circles and angles in world space, each shown in a view at true
+//! size.
 //!
 //! ```text
 //!   Measure (world) ─► the first view with a true image ─► ViewMeasure (millimeters of the object
 //!                                                          from the center of the view, y down)
 //! ```
 //!
-//! A length is true if it is perpendicular to the view direction, a circle if its axis is parallel
-//! to it, an angle if its plane is perpendicular to it. Nothing else is dimensioned: a number that
-//! cannot be measured on the paper would mislead anyone who works from the drawing.
+//! A view shows a length at true size if the length is perpendicular to the view direction, a
+//! circle if its axis is parallel to it, and an angle if its plane is perpendicular to it. Nothing
+//! else is dimensioned, because a number that cannot be measured on the paper would mislead anyone
+//! who works from the drawing.
 
 use super::sheet_view::{SheetView, ViewName};
 use crate::DimensionFault;
@@ -17,27 +18,27 @@ use glam::{DVec2, DVec3};
 use hidden_line::WorldCircle;
 use homog::{Plane, Point, World};
 
-/// The maximum sine between parallel directions: a length that far out of the plane of a view has a
-/// relative error of 5·10⁻⁹.
+/// The maximum sine of the angle between directions that count as parallel. A length tilted this
+/// far out of the view plane has a relative error of 5·10⁻⁹.
 const TRUE_SINE: f64 = 1e-4;
 
 /// A dimension requested for a sheet.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Dimension {
-    /// The lengths, the angle or the circle that it measures.
+    /// The lengths, angle or circle that it measures.
     pub measure: Measure,
     /// The view that shows it, or `None` for the first view that shows it at true size.
     pub view: Option<NamedView>,
-    /// The side of the part for the dimension line, or `None` for the side with shorter extension
-    /// lines. It matters only for lengths.
+    /// The side of the part on which the dimension line is drawn, or `None` for the side with
+    /// shorter extension lines. Applies only to lengths.
     pub side: Option<DimensionSide>,
-    /// The maximum number of decimal places, or `None` for the default of the sheet.
+    /// The maximum number of decimal places, or `None` for the sheet's default.
     pub decimals: Option<u32>,
     /// The name in warnings, such as `dimension 3`.
     pub name: String,
 }
 
-/// The lengths, the angle or the circle that a dimension measures.
+/// The lengths, angle or circle that a dimension measures.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Measure {
     /// Lengths between neighboring points, on one line.
@@ -60,7 +61,7 @@ pub enum LengthDirection {
     Aligned,
     /// Across the view, from left to right.
     Horizontal,
-    /// Up the view.
+    /// Upward in the view.
     Vertical,
 }
 
@@ -80,12 +81,12 @@ pub enum DimensionSide {
 /// The image of a measure in a view, in object millimeters from the center of the view, y down.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum ViewMeasure {
-    /// Lengths between the images of points along a unit vector, which points to the right or
-    /// upward; `prefix` precedes the number.
+    /// Lengths between the images of points along a unit vector that points to the right or upward.
+    /// `prefix` precedes the number.
     Lengths { feet: Vec<DVec2>, along: DVec2, is_baseline: bool, prefix: &'static str },
-    /// A circle seen face-on, with its prefix and the number of radii that it measures.
+    /// A circle seen face-on, with the prefix of its number and the length measured, in radii.
     Round { center: DVec2, radius: f64, prefix: &'static str, radii: f64 },
-    /// An angle, by its vertex and the ends of its sides.
+    /// An angle, defined by its vertex and the ends of its sides.
     Angle { vertex: DVec2, ends: [DVec2; 2] },
 }
 
@@ -101,7 +102,7 @@ pub(super) struct ViewDimension {
 }
 
 impl DimensionSide {
-    /// Returns the unit vector from the part to the side, on paper.
+    /// Returns the unit vector from the part toward this side, on paper.
     pub(super) const fn outward(self) -> DVec2 {
         match self {
             Self::Above => DVec2::NEG_Y,
@@ -127,7 +128,7 @@ impl SheetView {
         }
     }
 
-    /// Returns the unit vector into the depth of the view.
+    /// Returns the unit vector along the view direction.
     fn gaze_vector(&self) -> DVec3 {
         self.camera.gaze().raw()
     }
@@ -159,7 +160,8 @@ impl Measure {
         }
     }
 
-    /// Returns the image in a view, if it is true, with its rank: a lower rank is better.
+    /// Returns the image in a view that shows the measure at true size, with its rank; lower is
+    /// better.
     pub(super) fn image_in(&self, view: &SheetView) -> Result<(ViewMeasure, u8), DimensionFault> {
         if !self.points().iter().all(|&point| view.retains(point)) {
             return Err(DimensionFault::CutAway);
@@ -176,8 +178,8 @@ impl Measure {
 
 /// Returns the image of lengths between points.
 ///
-/// Along the paper every length is true in itself, but the view where it equals the distance of the
-/// points comes first.
+/// Horizontal and vertical lengths are true in every view, but a view where the length equals the
+/// distance between the points is preferred.
 fn lengths_in(
     view: &SheetView,
     points: &[Point<World>],
@@ -208,7 +210,7 @@ fn lengths_in(
     Ok((ViewMeasure::Lengths { feet, along, is_baseline, prefix: "" }, rank))
 }
 
-/// Returns the image of a circle: the circle itself, or its diameter if seen from the side.
+/// Returns the image of a circle: the circle itself, or its diameter if it is seen from the side.
 fn circle_in(
     view: &SheetView,
     circle: &WorldCircle,
@@ -247,7 +249,7 @@ fn angle_in(
     Ok((ViewMeasure::Angle { vertex, ends: [from, to] }, 0))
 }
 
-/// Returns the unit vector of a line that reads to the right or upward.
+/// Returns the unit vector along a line, in the direction that reads to the right or upward.
 fn reading_direction(line: DVec2) -> DVec2 {
     let unit = line.normalize_or(DVec2::X);
     let is_upright = unit.x.abs() < 1e-9;
@@ -259,7 +261,7 @@ impl Dimension {
     /// Chooses the view that shows the dimension, as an index into `views`, and the image in it.
     ///
     /// # Errors
-    /// If no view shows it, or the requested one does not.
+    /// Returns the reason if no view shows the dimension, or the requested view does not.
     pub(super) fn choose_view(
         &self,
         views: &[&SheetView],
@@ -270,7 +272,7 @@ impl Dimension {
             let shown = images.iter().enumerate();
             let shown =
                 shown.filter_map(|(at, image)| image.as_ref().ok().map(|image| (at, image)));
-            // At equal rank, the earlier view is preferred.
+            // If the ranks are equal, the earlier view is preferred.
             shown.min_by_key(|(at, (_, rank))| (*rank, *at))
         };
         if let Some(name) = self.view {

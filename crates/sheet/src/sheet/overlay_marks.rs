@@ -1,15 +1,15 @@
 //! Scene overlays in the views of a sheet: points with labels, and the world axes.
 //!
 //! ```text
-//!        ridge              a label is beside the object, at the free position nearest to its
+//!        ridge              a label is beside the object, at the free position closest to its
 //!          ╲                point, with a leader line and a dot at the point
 //!     ┌─────●─────┐
-//!     │     └──►  │  x      axes are drawn over the object, their names beside it
+//!     │     └──►  │  x      axes are drawn over the object, with their names beside it
 //!     └───────────┘
 //! ```
 //!
-//! Every parallel view shows every point, even points that the object hides. Overlays come last:
-//! dimensions have priority, and a label without room is omitted with a warning.
+//! Every parallel view shows every point, even points hidden by the object. Overlays are placed
+//! last, after dimensions, and a label for which there is no room is omitted with a warning.
 
 use super::Sheet;
 use super::annotation::{
@@ -26,7 +26,8 @@ use glam::DVec2;
 use homog::{Bounds, Point, World};
 use model::{ModelInstance, world_points};
 
-/// The maximum number of labels in a view: more would hide the object and take a long time to place.
+/// The maximum number of labels in a view. More would hide the object and take a long time to
+/// place.
 const MAX_LABELS: usize = 100;
 
 /// The number of rings around the object on which label positions are tried.
@@ -42,13 +43,13 @@ const LEADER_GAP: f64 = 0.35;
 const DOT_RADIUS: f64 = 0.1;
 const HEAD_LENGTH: f64 = 0.9;
 
-/// The number of corners of dots.
+/// The number of corners of a dot.
 const DOT_CORNERS: u32 = 12;
 
 /// Points farther from the object than this fraction of its longer side have no label.
 const FARTHEST: f64 = 0.25;
 
-/// The length of an axis as a fraction of the models' diagonal, as in pictures.
+/// The length of an axis as a fraction of the models' diagonal, the same as in pictures.
 const AXIS_LENGTH: f64 = 0.6;
 
 /// The overlays of a view, in object millimeters from its center, y down.
@@ -56,7 +57,7 @@ const AXIS_LENGTH: f64 = 0.6;
 pub(super) struct ViewOverlays {
     /// Points with their labels.
     labels: Vec<(DVec2, String)>,
-    /// Axes from the origin to their ends, and their names.
+    /// Axes, from the origin to their ends, with their names.
     axes: Vec<([DVec2; 2], &'static str)>,
 }
 
@@ -85,7 +86,7 @@ impl ViewPlan {
     }
 }
 
-/// Returns the warning about an overlay that sheets do not show, or not completely.
+/// Returns the warning if sheets do not show an overlay, or show it incompletely.
 fn overlay_warning(overlay: &Overlay) -> Option<SheetWarning> {
     let overlay = match overlay {
         Overlay::Grid(_) => "grid",
@@ -130,7 +131,7 @@ impl ViewOverlays {
         }
     }
 
-    /// Adds the overlays at a scale, clear of everything already there.
+    /// Adds the overlays at a scale, clear of everything placed so far.
     pub(super) fn annotate(&self, annotations: &mut ViewAnnotations, settings: &MarkSettings) {
         let MarkSettings { ratio, object, letters } = *settings;
         let board = LabelBoard { object, letters };
@@ -167,8 +168,8 @@ impl LabelBoard {
         point.cmpge(low - far).all() && point.cmple(high + far).all()
     }
 
-    /// Adds an axis with its arrowhead and name; it ends where it would get too far from the
-    /// object, or cross a label.
+    /// Adds an axis with its arrowhead and name. The axis ends before it gets too far from the
+    /// object or crosses a label.
     fn add_axis(&self, annotations: &mut ViewAnnotations, [from, to]: [DVec2; 2], name: &str) {
         const PARTS: i32 = 40;
         let ends = (1..=PARTS).map(|k| from.lerp(to, f64::from(k) / f64::from(PARTS)));
@@ -184,7 +185,7 @@ impl LabelBoard {
         let head = along * (HEAD_LENGTH * self.letters);
         let across = head.perp() / 6.0;
         annotations.push_line(AnnotationLayer::OverlayLines, [from, tip]);
-        // The name is placed first: its leader line begins at the arrowhead.
+        // The name is placed first, because its leader line begins at the arrowhead.
         if !self.add_label(annotations, tip, name, false) {
             annotations.labels_left_out.push((name.to_owned(), SheetLabelFault::NoRoom));
         }
@@ -192,8 +193,8 @@ impl LabelBoard {
         annotations.push(AnnotationLayer::OverlayLines, head);
     }
 
-    /// Adds a label at the position nearest to a point where it touches nothing, with a leader line
-    /// unless it is at the point. Returns `false` if there is no such position.
+    /// Adds a label at the free position closest to a point, with a leader line unless the label is
+    /// next to the point. Returns `false` if there is no such position.
     fn add_label(
         &self,
         annotations: &mut ViewAnnotations,
@@ -218,8 +219,8 @@ impl LabelBoard {
         false
     }
 
-    /// Returns positions for a label on rings around the object, nearest to the point first, each
-    /// with a leader line if needed.
+    /// Returns positions for a label on rings around the object, each with a leader line if needed.
+    /// Positions closest to the point come first.
     fn candidates(
         &self,
         point: DVec2,
@@ -233,11 +234,11 @@ impl LabelBoard {
             let away = half + 0.5 * self.letters + step * f64::from(ring);
             let (low, high) = (self.object[0] - away, self.object[1] + away);
             middles.extend(ring_places([low, high], step));
-            // Directly away from the point.
+            // Adds the positions straight across from the point.
             let [x, y] = point.clamp(low, high).to_array();
             middles.extend([[low.x, y], [high.x, y], [x, low.y], [x, high.y]].map(DVec2::from));
         }
-        // Beside the point, if it is not on the object.
+        // Adds positions beside the point, in case it is not on the object.
         let beside = half + 0.5 * self.letters;
         let around = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]].map(DVec2::from);
         let corners = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].map(DVec2::from);
@@ -257,7 +258,7 @@ impl LabelBoard {
         })
     }
 
-    /// Returns the outline of a dot at a point: about as wide as a line.
+    /// Returns the outline of a dot at a point, about as wide as a line.
     fn dot(&self, point: DVec2) -> Vec<DVec2> {
         circle_points(point, DOT_RADIUS * self.letters, DOT_CORNERS)
     }

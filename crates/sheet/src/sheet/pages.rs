@@ -1,10 +1,10 @@
-//! The pages of a sheet: principal views, the assembly with balloons, the parts list, and a sheet
-//! for each part.
+//! The pages of a sheet: the principal views, the assembly with balloons, the parts list, and a
+//! sheet for each part.
 //!
 //! ```text
 //!   1  front, top, side and axonometric view          Sheet::draw
 //!   2  assembly, in place or exploded; balloons       assembly_view
-//!      (several pages where the balloons are many)
+//!      (several pages if there are many balloons)
 //!   3  parts list, unless it fits on page 2           parts_table
 //!   4  item 1, 5  item 2 …                            Sheet::draw, of one part
 //! ```
@@ -35,13 +35,13 @@ use viewport::DrawingScale;
 /// above the title block.
 const LIST_PART: f64 = 0.4;
 
-/// The maximum number of balloon pages; more are omitted, with a warning.
+/// The maximum number of balloon pages. Further pages are omitted with a warning.
 const MAX_BALLOON_PAGES: usize = 20;
 
-/// The maximum number of part sheets; more are omitted, with a warning.
+/// The maximum number of part sheets. Further sheets are omitted with a warning.
 const MAX_PART_SHEETS: usize = 500;
 
-/// The drawn assembly: its parts, parts list and moves.
+/// The assembly to draw: its parts, parts list and moves.
 struct DrawnAssembly<'a> {
     sheet: &'a Sheet,
     models: &'a [ModelInstance],
@@ -58,7 +58,7 @@ struct DrawnAssembly<'a> {
 struct DrawnView {
     images: Vec<PlacedImage>,
     layers: Vec<Layer>,
-    /// The balloon layers of each page; empty without balloons.
+    /// The balloon layers of each page; empty if there are no balloons.
     balloons: Vec<[Layer; 2]>,
     scale: DrawingScale,
     warnings: Vec<SheetWarning>,
@@ -68,12 +68,12 @@ impl Sheet {
     /// Draws the sheet with the pages of the [assembly](Self::assembly), with up to `threads`
     /// threads. The number of threads does not change the pages.
     ///
-    /// The first page is the one from [`draw`](Self::draw). If there are several, the title block
-    /// has the page number and the page count.
+    /// The first page is the one from [`draw`](Self::draw). If there are several pages, the title
+    /// block shows the page number and the page count.
     ///
     /// # Errors
-    /// See [`draw`](Self::draw); also if the assembly or a part is larger than the paper at all
-    /// standard scales.
+    /// See [`draw`](Self::draw). Also returns an error if the assembly or a part is larger than the
+    /// paper at every standard scale.
     pub fn draw_pages(
         &self,
         models: &[ModelInstance],
@@ -112,7 +112,7 @@ impl Sheet {
         pages[0].warnings.extend(assembly.warnings.iter().cloned());
         for index in 0..view_pages {
             let Some(view) = &view else { break };
-            // The list is beside the view on its first page only.
+            // The list is beside the view only on the view's first page.
             let list = beside.as_ref().filter(|_| index == 0).map(|column| (&table, column));
             let sheet = numbered(pages.len() + 1);
             pages.push(assembly.view_page(&sheet, view, index, list));
@@ -154,7 +154,7 @@ impl Sheet {
 }
 
 impl<'a> DrawnAssembly<'a> {
-    /// Collects the parts of models, their list and their moves.
+    /// Collects the parts of models and computes their list and moves.
     fn new(sheet: &'a Sheet, models: &'a [ModelInstance]) -> Self {
         let AssemblyPages { densities, explosion, part_sheets, .. } = &sheet.assembly;
         let parts = gather_parts(models);
@@ -163,7 +163,7 @@ impl<'a> DrawnAssembly<'a> {
         let mut warnings = list.warnings.clone();
         warnings.extend(unreadable_names(&list));
         let mut explosion = explosion.as_ref();
-        // The time of an explosion grows with the square of the number of parts.
+        // The time to compute an explosion is quadratic in the number of parts.
         if explosion.is_some() && parts.len() > MAX_EXPLODED_PARTS {
             warnings.push(SheetWarning::Assembly(AssemblyWarning::TooManyPartsToExplode {
                 most: MAX_EXPLODED_PARTS,
@@ -230,7 +230,7 @@ impl<'a> DrawnAssembly<'a> {
             let moves = self.moves.clone().unwrap_or_else(|| vec![DVec3::ZERO; self.parts.len()]);
             let moved = MovedParts { parts: &self.parts, models: self.models, moves: &moves };
             let mut spots = find_visible_spots(&moved, &view);
-            // The objects of an exploded view are the parts.
+            // In an exploded view, each object is a part.
             let object = |part: usize| match exploded {
                 Some(_) => part as u32,
                 None => self.parts[part].object,
@@ -240,13 +240,13 @@ impl<'a> DrawnAssembly<'a> {
             balloons = self.place_balloons(&layout, &targets, &mut warnings);
         }
         let inks = [self.ink, sheet.style.paper.unwrap_or(WHITE)];
-        // Fills go below the lines, so they are inserted in front.
+        // Fills go below the lines, so they are inserted at the start.
         layers.splice(0..0, drawing.face_fill_layers(&style, placement, prefix, inks));
         let images = drawing.face_fill_image(&style, placement, prefix).into_iter().collect();
         Ok(DrawnView { images, layers, balloons, scale: layout.scale, warnings })
     }
 
-    /// Returns the layers of part paths: narrow chain lines.
+    /// Returns the layers with the paths of parts, as narrow chain lines.
     fn path_layers(&self, paths: &Drawing, style: &LineStyle, placement: Placement) -> Vec<Layer> {
         let mut layers = paths.to_layers(style, placement, "path-", self.ink);
         let width = self.sheet.line_width_group().narrow_width();
@@ -257,8 +257,8 @@ impl<'a> DrawnAssembly<'a> {
         layers
     }
 
-    /// Returns the items with a spot for each leader, the best among the item's parts. Warns about
-    /// items that are not visible.
+    /// Returns the items, each with the best spot for its leader among the item's parts. Warns
+    /// about items that are not visible.
     fn balloon_targets(
         &self,
         spots: &[Option<VisibleSpot>],
@@ -268,7 +268,7 @@ impl<'a> DrawnAssembly<'a> {
     ) -> Vec<BalloonTarget<'_>> {
         let (mut targets, mut hidden) = (Vec::new(), Vec::new());
         for item in &self.list.items {
-            // Parts are in the order of their objects.
+            // Parts are sorted by object.
             let number = |object: &u32| self.parts.binary_search_by_key(object, |p| p.object).ok();
             let of_item = item.objects.iter().filter_map(number).filter_map(|at| spots[at]);
             let of_item: Vec<VisibleSpot> = of_item.collect();
@@ -290,8 +290,8 @@ impl<'a> DrawnAssembly<'a> {
         targets
     }
 
-    /// Places the balloons of all pages, as many per page as fit; warns about those that do not
-    /// fit.
+    /// Places the balloons of all pages, as many per page as fit, and warns about balloons that do
+    /// not fit.
     fn place_balloons(
         &self,
         layout: &AssemblyLayout,
@@ -302,7 +302,7 @@ impl<'a> DrawnAssembly<'a> {
         // Balloons at some positions block the leaders of others.
         let capacity = (layout.capacity() * 2 / 3).max(1);
         let page_count = targets.len().div_ceil(capacity).max(1);
-        // Spread evenly, so that the last page is not almost empty.
+        // Balloons are spread evenly over the pages, so that the last page is not almost empty.
         let each = targets.len().div_ceil(page_count).max(1);
         let mut pages = Vec::new();
         let mut left_out = Vec::new();
@@ -323,7 +323,7 @@ impl<'a> DrawnAssembly<'a> {
         pages
     }
 
-    /// Returns an assembly page: its view, its balloons, and the list if it is on this page.
+    /// Returns an assembly page with its view, its balloons, and the list if it is on this page.
     fn view_page(
         &self,
         sheet: &Sheet,
@@ -343,7 +343,7 @@ impl<'a> DrawnAssembly<'a> {
         page
     }
 
-    /// Draws the sheet of one item: its principal views, with its name as the title.
+    /// Draws the sheet of one item, with its principal views and its name as the title.
     fn draw_part_sheet(
         &self,
         mut sheet: Sheet,
@@ -362,7 +362,7 @@ impl<'a> DrawnAssembly<'a> {
             number => format!("{number}-{}", item.number),
         };
         sheet.scale = None;
-        // These are views, overlays and dimensions of the whole assembly.
+        // The requested views, overlays and dimensions belong to the whole assembly.
         sheet.views.clear();
         sheet.overlays.clear();
         sheet.measures.clear();
@@ -371,7 +371,7 @@ impl<'a> DrawnAssembly<'a> {
 }
 
 impl Sheet {
-    /// Returns the error for an assembly that fits at no standard scale.
+    /// Returns the error for an assembly that does not fit at any standard scale.
     fn assembly_too_large(&self, view: &SheetView) -> SheetError {
         let scale = DrawingScale::STANDARD[DrawingScale::STANDARD.len() - 1];
         let area = self.drawing_area();
@@ -385,8 +385,8 @@ impl Sheet {
     }
 }
 
-/// Returns the spot where the leader of equal parts ends. Among the spots about as clear as the
-/// clearest, it is the one nearest to the border of the view.
+/// Returns the spot where the leader for identical parts ends: among the spots about as clear as
+/// the clearest, the one closest to the border of the view.
 fn outermost_clear_spot(spots: &[VisibleSpot], view: &SheetView) -> Option<VisibleSpot> {
     let clearest = spots.iter().map(|spot| spot.clearance).fold(0.0, f64::max);
     let clear = spots.iter().filter(|spot| spot.clearance >= 0.6 * clearest).copied();
@@ -397,7 +397,7 @@ fn outermost_clear_spot(spots: &[VisibleSpot], view: &SheetView) -> Option<Visib
     clear.reduce(farther)
 }
 
-/// Removes the paths of the parts from a drawing and returns them; they belong to its last object.
+/// Removes the paths of the parts, which are the last object, from a drawing and returns them.
 fn take_paths(drawing: &mut Drawing, is_exploded: bool) -> Drawing {
     let last = drawing.objects.len().wrapping_sub(1) as u32;
     let has_paths = is_exploded && drawing.objects.last().is_some_and(|name| name == PATHS);
@@ -412,8 +412,8 @@ fn take_paths(drawing: &mut Drawing, is_exploded: bool) -> Drawing {
     }
 }
 
-/// Returns the warning about list names with characters that the font lacks, or `None` if it has
-/// all of them.
+/// Returns the warning about names in the list with characters missing from the font, or `None` if
+/// there are none.
 fn unreadable_names(list: &PartsList) -> Option<SheetWarning> {
     let is_unreadable = |text: &str| !missing_glyphs(text).is_empty();
     let mut names = list

@@ -1,10 +1,10 @@
-//! Paper choice: its orientation, and the smallest sufficient size.
+//! Paper choice: the orientation, and the smallest sufficient size.
 //!
 //! ```text
 //!   scale     A4 portrait  A4 landscape
 //!   1:2       no           no
-//!   1:5       no           yes               the larger scale wins, then the more views, then
-//!   1:10      yes          yes               their scales
+//!   1:5       no           yes               the larger scale wins, then more views, then
+//!   1:10      yes          yes               the scales of the views
 //! ```
 
 use super::Sheet;
@@ -15,8 +15,8 @@ use model::ModelInstance;
 use viewport::DrawingScale;
 
 impl Sheet {
-    /// Turns the paper to portrait or landscape, to make models larger or fit more views; unchanged
-    /// if both are equal.
+    /// Turns the paper to portrait or landscape, whichever makes models larger or fits more views.
+    /// Leaves it unchanged if both are equally good.
     #[must_use]
     pub fn with_best_orientation(
         self,
@@ -27,15 +27,17 @@ impl Sheet {
         self.turned_for(&plan)
     }
 
-    /// Returns the first sufficient sheet, given sheets from the smallest paper to the largest:
+    /// Returns the first sufficient sheet of a list that goes from the smallest paper to the
+    /// largest:
     ///
-    /// - with a given scale, the first sheet that fits all views at that scale;
+    /// - if a scale is set, the first sheet that fits all views at that scale;
     /// - otherwise the first sheet that fits all views at 1:1 or larger;
     /// - if not even the largest paper fits them at that scale, the first sheet for which the next
-    ///   larger one gives no larger scale.
+    ///   larger paper does not allow a larger scale.
     ///
-    /// With `turns`, each sheet is taken in its best orientation. Without models, the first sheet
-    /// is returned. `None` without sheets. The sheets must differ only in paper and line widths.
+    /// If `turns` is set, each sheet is used in its best orientation. Returns the first sheet if
+    /// there are no models, and `None` if there are no sheets. The sheets may differ only in paper
+    /// and line widths.
     #[must_use]
     pub fn smallest_of(
         sheets: Vec<Self>,
@@ -69,7 +71,8 @@ impl Sheet {
         let both = [&self, &rotated];
         let at_own_scale = ViewLayout::arrange_on_best(&both, plan);
         let is_rotated = at_own_scale.map(|(at, _)| at == 1).unwrap_or_else(|| {
-            // The given scale fits in neither orientation: the one that comes closest to it.
+            // The requested scale fits in neither orientation, so the orientation that allows the
+            // larger scale is used.
             let any = both.map(|sheet| Self { scale: None, ..sheet.clone() });
             let best = ViewLayout::arrange_on_best(&any.each_ref(), plan);
             best.is_some_and(|(at, _)| at == 1)
@@ -78,7 +81,7 @@ impl Sheet {
     }
 }
 
-/// Returns the scales to try on sheets, largest first.
+/// Returns the scales to try on a sheet, largest first.
 pub(super) fn scales_of(sheet: &Sheet) -> Vec<DrawingScale> {
     sheet.scale.map_or(DrawingScale::STANDARD.to_vec(), |scale| vec![scale])
 }

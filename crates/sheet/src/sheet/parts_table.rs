@@ -1,7 +1,7 @@
 //! Parts lists on paper (ISO 7573): a table above the title block, or on separate pages.
 //!
 //! ```text
-//!   │ 2 │ 8 │ bolt M8  │ steel │ 12.3 │      above the title block the list is read upward,
+//!   │ 2 │ 8 │ bolt M8  │ steel │ 12.3 │      above the title block, the list is read upward,
 //!   │ 1 │ 1 │ housing  │ iron  │  812 │      so that it can grow
 //!   ├───┼───┼──────────┼───────┼──────┤
 //!   │ Item Quantity Name … Mass in g  │
@@ -25,14 +25,15 @@ const ROW_HEIGHT: f64 = 2.3;
 /// The distance from the border of a cell to its text, in millimeters.
 const INSET: f64 = 1.2;
 
-/// A text wider than its cell is reduced to at most this fraction of its height, then truncated.
+/// The smallest fraction to which the height of text wider than its cell is reduced before the text
+/// is truncated.
 const LEAST_REDUCTION: f64 = 0.7;
 
 /// The distance from a table on a separate page to the frame and to the title block, in
-/// millimeters: beyond the centering marks.
+/// millimeters, which is larger than the centering marks.
 const GAP: f64 = 6.0;
 
-/// The layout of a parts list on the paper of a sheet.
+/// The layout of a parts list on a sheet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PartsTable<'a> {
     sheet: &'a Sheet,
@@ -43,7 +44,7 @@ pub(super) struct PartsTable<'a> {
 /// Rows of a list below or above a heading.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct TableColumn {
-    /// The items.
+    /// The indices of the items.
     pub(super) rows: Range<usize>,
     /// The upper left corner.
     corner: DVec2,
@@ -63,16 +64,17 @@ impl<'a> PartsTable<'a> {
         self.letters * ROW_HEIGHT
     }
 
-    /// Returns the height of this many rows and the heading, in millimeters.
+    /// Returns the height of this many rows plus the heading, in millimeters.
     fn height(&self, rows: usize) -> f64 {
         self.row_height() * (rows + 1) as f64
     }
 
-    /// Returns the whole list above the title block, if it takes at most `most` millimeters.
+    /// Returns the whole list as a column above the title block, if it is at most `most`
+    /// millimeters high.
     pub(super) fn above_title_block(&self, most: f64) -> Option<TableColumn> {
         let (block, rows) = (self.sheet.title_block_area(), self.list.items.len());
         let corner = DVec2::new(block.x(), block.y() - self.height(rows));
-        // The centering mark at the middle of the side stays clear.
+        // Stays clear of the centering mark in the middle of the side.
         let is_below_mark = corner.y > 0.5 * self.sheet.paper.height() + 1.0;
         let width = block.width();
         (self.height(rows) <= most && is_below_mark).then_some(TableColumn {
@@ -83,14 +85,14 @@ impl<'a> PartsTable<'a> {
         })
     }
 
-    /// Returns the columns of each page that the list takes by itself; at least one page.
+    /// Returns the columns on each page of a list on separate pages. There is at least one page.
     ///
-    /// Wide paper has more columns beside the one above the title block.
+    /// Wide paper has additional columns beside the column above the title block.
     pub(super) fn pages(&self) -> Vec<Vec<TableColumn>> {
         let (frame, block) = (self.sheet.drawing_area(), self.sheet.title_block_area());
         // Rounding must not lose a column that fits exactly.
         let beside = ((block.x() - frame.x()) / block.width() + 1e-9).floor() as usize;
-        // The header takes one row. At least one row remains, or the loop below would not end.
+        // The heading takes one row. At least one row must remain, or the loop below would not end.
         let rows_in = |height: f64| ((height / self.row_height()).floor() as usize).max(2) - 1;
         let width = (block.width() - 2.0 * GAP).max(0.5 * block.width());
         let inset = 0.5 * (block.width() - width);
@@ -115,7 +117,7 @@ impl<'a> PartsTable<'a> {
         pages
     }
 
-    /// Returns the area of a column, with its heading.
+    /// Returns the area of a column, including its heading.
     pub(super) fn area(&self, column: &TableColumn) -> Rectangle {
         let [x, y] = column.corner.to_array();
         rectangle_from_size(x, y, column.width, self.height(column.rows.len()))
@@ -157,7 +159,7 @@ impl<'a> PartsTable<'a> {
         Group { strokes, ..Group::default() }
     }
 
-    /// Returns the start and the width of each cell of a row of this width, in millimeters.
+    /// Returns the start and width of each cell in a row of this width, in millimeters.
     fn cells(&self, width: f64) -> Vec<(f64, f64)> {
         let parts: &[f64] = if self.list.has_masses {
             &[0.08, 0.09, 0.42, 0.27, 0.14]
@@ -173,7 +175,7 @@ impl<'a> PartsTable<'a> {
         parts.iter().map(cell).collect()
     }
 
-    /// Returns the cell names.
+    /// Returns the column headings.
     fn headings(&self) -> Vec<String> {
         let mut names = ["Item", "Qty", "Name", "Material"].map(str::to_owned).to_vec();
         if self.list.has_masses {
@@ -188,7 +190,7 @@ impl<'a> PartsTable<'a> {
         if masses.fold(0.0, f64::max) >= 1000.0 { ("kg", 1000.0) } else { ("g", 1.0) }
     }
 
-    /// Returns the texts of an item; an unknown mass is left blank.
+    /// Returns the cell texts of an item. An unknown mass is left blank.
     fn texts_of_item(&self, item: &PartsListItem) -> Vec<String> {
         let mut texts = vec![
             item.number.to_string(),
@@ -203,7 +205,7 @@ impl<'a> PartsTable<'a> {
         texts
     }
 
-    /// Adds the texts of a row: counts are centered, masses are right-aligned.
+    /// Adds the texts of a row, with counts centered and masses right-aligned.
     fn add_row(&self, layer: &mut Layer, column: &TableColumn, row: usize, texts: &[String]) {
         let foot = (ROW_HEIGHT - 1.0) * 0.5 * self.letters;
         let y = column.corner.y + self.row_height() * (row + 1) as f64 - foot;
@@ -226,8 +228,7 @@ impl<'a> PartsTable<'a> {
     }
 }
 
-/// Truncates a text to the width `room` at a character height; an ellipsis of three dots marks the
-/// cut.
+/// Truncates text to the width `room` at a character height, and marks the cut with three dots.
 fn cut_to_width(text: &str, height: f64, room: f64) -> String {
     let fits = |text: &str| Label::new(text, DVec2::ZERO, height).width() <= room;
     // A character, including spacing, is wider than a tenth of its height.
@@ -240,7 +241,7 @@ fn cut_to_width(text: &str, height: f64, room: f64) -> String {
         let start: String = characters[..count].iter().collect();
         format!("{}...", start.trim_end())
     };
-    // The longest prefix that fits, by bisection: a longer text is wider.
+    // Finds the longest prefix that fits by bisection, because longer text is wider.
     let (mut low, mut high) = (0, characters.len());
     while low + 1 < high {
         let middle = usize::midpoint(low, high);
@@ -270,7 +271,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn masses_have_four_digits() {
+    fn masses_have_four_significant_digits() {
         for (mass, text) in
             [(812.0, "812"), (12.345, "12.35"), (0.5, "0.5"), (123_456.7, "123457"), (0.0, "0")]
         {
@@ -279,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn long_names_are_cut_off() {
+    fn long_names_are_truncated() {
         let long = "a very long name of a part ".repeat(4000);
         let cut = cut_to_width(&long, 2.0, 60.0);
         assert!(cut.starts_with("a very long") && cut.ends_with("..."), "{cut}");

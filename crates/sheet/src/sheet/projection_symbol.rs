@@ -1,4 +1,4 @@
-//! Projection symbol (ISO 5456-2): a truncated cone, from the side and from its narrow end.
+//! Projection symbol (ISO 5456-2): a truncated cone, seen from the side and from its narrow end.
 //!
 //! ```text
 //!   first angle      ╱│          third angle       │╲
@@ -17,11 +17,12 @@ const CIRCLE_SIDES: u32 = 48;
 /// Returns the symbol of a projection angle around a center. The cone is as long as it is high, and
 /// half as high at its narrow end.
 ///
-/// The second view shows the narrow end as two circles: in first angle it is to the right of the
-/// cone, in third angle to the left.
+/// The second view shows the narrow end as two circles: in first-angle projection it is to the
+/// right of the cone, and in third-angle projection to the left.
 pub(super) fn projection_symbol(angle: SheetAngle, middle: DVec2, height: f64) -> Vec<Polyline> {
     let half = height * 0.5;
-    // In first angle the left view, which shows the narrow end, is to the right of the cone.
+    // In first-angle projection the left view, which shows the narrow end, is to the right of the
+    // cone.
     let side = match angle {
         SheetAngle::First => 1.0,
         SheetAngle::Third => -1.0,

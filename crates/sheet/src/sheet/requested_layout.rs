@@ -1,13 +1,13 @@
-//! Layout of requested views: at given positions, in the grid around the front view, or in free
+//! Layout of requested views: at requested positions, in the grid around the front view, or in free
 //! space.
 //!
 //! ```text
-//!   1. views with a given position go there
+//!   1. views with a requested position are placed there
 //!   2. views along the axes form columns and rows around the front view
-//!   3. all others go to free rectangles, one after the other
+//!   3. all others are placed in free rectangles, one by one
 //! ```
 //!
-//! As for the default views, the largest scale at which all of them fit is used.
+//! The scale is the largest at which all of them fit, as for the default views.
 
 use super::annotation::{Extent, overlap};
 use super::free_area::{best_rectangle, free_rectangles};
@@ -30,11 +30,13 @@ const DETAIL_ENLARGEMENT: [f64; 2] = [1.9, 5.1];
 /// The views of a grid at a scale, with the column and row of each.
 struct RequestedGrid<'a> {
     cells: Vec<(ViewCell<'a>, [usize; 2])>,
-    /// For each axis and each column or row: the space of its views before and after their centers.
+    /// The space that views need before and after their centers, for each axis and each column or
+    /// row.
     spans: [Vec<[f64; 2]>; 2],
 }
 
-/// Returns the cell of a view at a scale, which is written below it if it differs from the sheet's.
+/// Returns the cell of a view at a scale, with the scale written below the view if it differs from
+/// the sheet's.
 fn cell_at<'a>(
     planned: &'a PlannedView,
     sheet: &Sheet,
@@ -53,7 +55,7 @@ impl<'a> RequestedGrid<'a> {
     /// Arranges the views around the front view, without empty columns and rows.
     fn new(sheet: &Sheet, views: &'a [PlannedView], scale: DrawingScale) -> Self {
         let placed = || views.iter().filter_map(|one| Some((one, one.grid?)));
-        // Grid places may have gaps, which get no space.
+        // Grid positions may have gaps, which take no space.
         let [columns, rows] = [0, 1].map(|axis| {
             let mut used: Vec<i32> = placed().map(|(_, place)| place[axis]).collect();
             used.sort_unstable();
@@ -86,7 +88,7 @@ impl<'a> RequestedGrid<'a> {
         DVec2::new(sum(&self.spans[0]), sum(&self.spans[1]))
     }
 
-    /// Returns the centers of the views in an area, or `None` if the grid is larger.
+    /// Returns the centers of the views in an area, or `None` if the grid is larger than the area.
     fn place_views(&self, [low, high]: Extent, spacing: [GridSpacing; 2]) -> Option<Vec<DVec2>> {
         let rest = high - low - self.total_size();
         if rest.min_element() < 0.0 {
@@ -119,13 +121,13 @@ pub(super) fn requested_fault(sheet: &Sheet, plan: &ViewPlan) -> SheetError {
     fault.unwrap_or(SheetError::Empty)
 }
 
-/// Warnings about views that overlap others at their given positions.
+/// Returns warnings about views that overlap others at their requested positions.
 fn find_overlaps(views: &[PlacedView<'_>], blocks: [(&str, Extent); 2]) -> Vec<SheetWarning> {
     let is_placed = |view: &PlacedView<'_>| view.planned.place.at.is_some();
     let mut warnings = Vec::new();
     for (index, view) in views.iter().enumerate() {
         let others = views.iter().enumerate();
-        // Two views with given positions are reported once.
+        // An overlap of two views with requested positions is reported once.
         let others = others.filter(|(at, other)| *at > index || *at < index && !is_placed(other));
         let others = others.map(|(_, other)| (other.planned.title(), other.extent()));
         let blocks = blocks.iter().map(|(name, area)| ((*name).to_owned(), *area));
@@ -141,7 +143,7 @@ fn find_overlaps(views: &[PlacedView<'_>], blocks: [(&str, Extent); 2]) -> Vec<S
 ///
 /// # Errors
 /// [`SheetError::TooLarge`] if they do not fit, [`SheetError::Outside`] if a view extends beyond
-/// the frame at its given position.
+/// the frame at its requested position.
 pub(super) fn arrange_requested<'a>(
     sheet: &Sheet,
     plan: &'a ViewPlan,
@@ -177,7 +179,7 @@ pub(super) fn arrange_requested<'a>(
         let mut layout = ViewLayout { scale, views, left_out, scale_bar, overlaps };
         place_others(&mut layout, sheet, &plan.requested, obstacles);
         let block = extent_of_rectangle(sheet.title_block_area());
-        // Views at given positions may overlap; that is only a warning.
+        // Views at requested positions may overlap, which only causes a warning.
         layout.overlaps =
             find_overlaps(&layout.views, [("title block", block), ("scale bar", bar)]);
         if best.as_ref().is_none_or(|best| layout.is_better_than(best)) {
@@ -187,7 +189,7 @@ pub(super) fn arrange_requested<'a>(
     best.ok_or_else(|| too_large(sheet, &grid, scale))
 }
 
-/// Checks that a view at its given position is inside the frame.
+/// Checks that a view at its requested position is inside the frame.
 fn check_place(sheet: &Sheet, cell: &ViewCell<'_>, at: DVec2) -> Result<(), SheetError> {
     let [low, high] = extent_of_rectangle(sheet.drawing_area());
     let half = cell.planned.view.size * cell.scale.ratio() * 0.5;
@@ -212,7 +214,7 @@ fn check_place(sheet: &Sheet, cell: &ViewCell<'_>, at: DVec2) -> Result<(), Shee
     })
 }
 
-/// Places the views without a grid cell or given position, each at its largest scale.
+/// Places the views without a grid cell or requested position, each at its largest scale.
 fn place_others<'a>(
     layout: &mut ViewLayout<'a>,
     sheet: &Sheet,
@@ -260,7 +262,7 @@ fn scales_of(planned: &PlannedView, sheet_scale: DrawingScale) -> Vec<DrawingSca
     core::iter::once(sheet_scale).chain(smaller).collect()
 }
 
-/// Returns the error with the needed and available sizes.
+/// Returns the error with the required and available sizes.
 fn too_large(sheet: &Sheet, grid: &RequestedGrid<'_>, scale: DrawingScale) -> SheetError {
     let need = grid.total_size().to_array();
     let [low, high] = extent_of_rectangle(sheet.drawing_area());

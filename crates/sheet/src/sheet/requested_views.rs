@@ -2,9 +2,9 @@
 //!
 //! | request | result |
 //! | --- | --- |
-//! | named views | the views of the sheet, instead of front, top, side and axonometric view |
-//! | half section, local section, break | another composition of a view |
-//! | detail, auxiliary view, stepped section | a separate view, and its mark in other views |
+//! | named views | the views on the sheet, instead of the front, top, side and axonometric views |
+//! | half section, local section, break | a different composition of a view |
+//! | detail, auxiliary view, stepped section | a separate view, marked in other views |
 //!
 //! Views along the axes are placed around the front view as in ISO 5456-2, unless they have their
 //! own position or scale.
@@ -23,10 +23,11 @@ use glam::{DVec2, DVec3};
 use homog::{Bounds, Normal, Plane, Point, Vector, World};
 use projection::SheetAngle;
 
-/// The maximum number of requests per sheet: more are a mistake, and each takes space and time.
+/// The maximum number of requests per sheet. More are likely a mistake, and each takes space and
+/// time.
 const MAX_REQUESTS: usize = 24;
 
-/// The state of planning requests: the views so far, and the letters that remain.
+/// The state while planning requests: the views so far, and the unused letters.
 struct RequestPlanner<'a> {
     subject: &'a PlanSubject<'a>,
     views: Vec<PlannedView>,
@@ -51,7 +52,7 @@ fn grid_place(name: NamedView, angle: SheetAngle) -> Option<[i32; 2]> {
 }
 
 impl ViewPlan {
-    /// Plans the requests of a sheet; without any, nothing changes.
+    /// Plans the requests of a sheet. Changes nothing if there are no requests.
     ///
     /// # Errors
     /// [`SheetError::Request`] if a request cannot be fulfilled.
@@ -72,7 +73,7 @@ impl ViewPlan {
                 _ => None,
             })
             .collect();
-        // If only details and sections are requested, they refer to the default views.
+        // If only details and sections are requested, they apply to the default views.
         let views = if names.is_empty() {
             self.principal.iter().chain(&self.free).cloned().collect()
         } else {
@@ -80,13 +81,13 @@ impl ViewPlan {
             self.warnings = warnings;
             views
         };
-        // Letters continue after the letters of the sections.
+        // Letters continue after those used for the sections.
         let lettered = views.iter().filter_map(|view| view.letter).max();
         let first = lettered.map_or('A', |last| char::from_u32(u32::from(last) + 1).unwrap_or('Z'));
         let mut planner =
             RequestPlanner { subject, views, warnings: Vec::new(), letters: first..='Z' };
         planner.assign_places();
-        // Marks depend on compositions, so changes of composition come first.
+        // Marks depend on compositions, so composition changes are planned first.
         for is_change in [true, false] {
             for (request, number) in requests.iter().zip(1..) {
                 if request.place().is_none() == is_change {
@@ -101,7 +102,7 @@ impl ViewPlan {
 }
 
 impl RequestPlanner<'_> {
-    /// Gives the views along the axes their positions around the front view.
+    /// Assigns the views along the axes their positions around the front view.
     fn assign_places(&mut self) {
         let angle = self.subject.sheet.projection_angle;
         for one in &mut self.views {
@@ -141,10 +142,10 @@ impl RequestPlanner<'_> {
         self.letters.next().ok_or_else(|| fault("the views need more than 26 letters"))
     }
 
-    /// Checks that a requested view exists only once.
+    /// Checks that a view is requested only once.
     fn check_named(&self, name: NamedView) -> Result<(), Fault> {
         let alike = self.views.iter().filter(|one| one.view.name == ViewName::Named(name));
-        if alike.count() > 1 { Err(fault("the sheet has this view twice")) } else { Ok(()) }
+        if alike.count() > 1 { Err(fault("this view is requested twice")) } else { Ok(()) }
     }
 
     /// Returns the index of a view, by name.
@@ -170,7 +171,7 @@ impl RequestPlanner<'_> {
         Ok(index)
     }
 
-    /// Adds a detail of a view, and its circle.
+    /// Adds a detail of a view, and the circle around the detail.
     fn add_detail(
         &mut self,
         of: NamedView,
@@ -194,7 +195,7 @@ impl RequestPlanner<'_> {
         let Some(at) = shown else {
             return Err(fault("its center is in the omitted part of the view"));
         };
-        // A detail is on one side of a break, so it needs no break itself.
+        // A detail is on one side of a break, so the detail itself needs no break.
         let composition = match &mother.composition {
             Composition::Broken(_) => Composition::Whole,
             other => other.clone(),
@@ -214,7 +215,7 @@ impl RequestPlanner<'_> {
         Ok(())
     }
 
-    /// Adds a view onto an oblique face, and its arrow.
+    /// Adds an auxiliary view of an oblique face, and its arrow.
     fn add_auxiliary(&mut self, facing: Vector<World>, place: &ViewPlace) -> Result<(), Fault> {
         let gaze =
             -unit_vector(facing).ok_or_else(|| fault("its direction must not be (0, 0, 0)"))?;
@@ -260,8 +261,8 @@ impl RequestPlanner<'_> {
         Ok(())
     }
 
-    /// Returns the plane through a point that faces a view, if it cuts the models and the view is
-    /// not yet cut.
+    /// Returns the plane through a point that faces a view, or a fault if the plane misses the
+    /// models or the view is already cut.
     fn cutting_plane(&self, index: usize, point: Point<World>) -> Result<Plane<World>, Fault> {
         let one = &self.views[index];
         if !one.view.sections.is_empty() {
@@ -276,7 +277,7 @@ impl RequestPlanner<'_> {
         Ok(plane)
     }
 
-    /// Removes a part of a length from one view, or from all views along the axes that show it.
+    /// Omits part of a length from one view, or from all views along the axes that show the length.
     fn shorten(&mut self, of: Option<NamedView>, axis: usize, ends: [f64; 2]) -> Result<(), Fault> {
         let direction = Vector::from_raw(DVec3::AXES[axis.min(2)]);
         let shows = |one: &PlannedView| {
@@ -309,7 +310,7 @@ impl RequestPlanner<'_> {
         Ok(())
     }
 
-    /// Adds a section along parallel planes, and its line.
+    /// Adds a section along parallel planes, and its section line.
     fn add_stepped(
         &mut self,
         removed: Vector<World>,
@@ -326,7 +327,7 @@ impl RequestPlanner<'_> {
         let borders: Vec<Point<World>> =
             corners[1..corners.len() - 1].iter().step_by(2).copied().collect();
         let line = SteppedLine { corners, removed, across: removed.cross(along), letter };
-        // Counting runs the iterator to its end, which marks every view.
+        // Counting runs the iterator to the end, which marks every view.
         let marks = self.views.iter_mut().map(|one| line.mark(one)).filter(|marked| *marked);
         if marks.count() == 0 {
             self.warnings
@@ -356,7 +357,8 @@ impl RequestPlanner<'_> {
     }
 }
 
-/// Marks a viewing direction in the view that foreshortens it least; returns whether there is one.
+/// Marks a viewing direction in the view that foreshortens it least. Returns `false` if no view
+/// shows it well enough.
 pub(super) fn mark_direction(views: &mut [PlannedView], gaze: Vector<World>, letter: char) -> bool {
     let shortening = |one: &PlannedView| one.view.camera.gaze().dot(gaze).abs();
     let along_axes = views.iter_mut().filter(|one| one.is_along_axis());
@@ -373,9 +375,9 @@ fn check_radius(radius: f64) -> Result<(), Fault> {
     if is_length { Ok(()) } else { Err(fault("its radius must be greater than 0")) }
 }
 
-/// Returns the unit vector of a direction, or `None` without one .
+/// Returns the unit vector of a direction, or `None` for the zero vector.
 pub(super) fn unit_vector(direction: Vector<World>) -> Option<Vector<World>> {
-    // Scaled first, so that squares do not overflow or underflow.
+    // Scales the vector first, so that squares do not overflow or underflow.
     let raw = direction.raw();
     let scaled = raw / raw.abs().max_element();
     scaled.is_finite().then(|| Vector::from_raw(scaled.normalize()))
@@ -403,7 +405,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn views_stand_about_the_front_view() {
+    fn views_are_arranged_around_the_front_view() {
         let place = |name| [SheetAngle::First, SheetAngle::Third].map(|a| grid_place(name, a));
         assert_eq!(place(NamedView::Left), [Some([1, 0]), Some([-1, 0])]);
         assert_eq!(place(NamedView::Right), [Some([-1, 0]), Some([1, 0])]);

@@ -1,4 +1,4 @@
-//! Scale bar: a graphic scale, which stays correct when a sheet is enlarged or reduced.
+//! Scale bar: a graphic scale that stays correct when a sheet is enlarged or reduced.
 //!
 //! ```text
 //!   ┌────┬────┬─────────┐
@@ -7,15 +7,15 @@
 //!   0              100 mm
 //! ```
 //!
-//! A scale such as 1:50 in the title block is wrong on a copy of another size; a bar printed with
-//! the drawing scales with it.
+//! A scale such as 1:50 in the title block is wrong on a copy of a different size, but a bar
+//! printed with the drawing scales with it.
 
 use super::{Sheet, rectangle_from_size};
 use glam::DVec2;
 use page::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline, TextAlign};
 use viewport::{DrawingScale, Rectangle};
 
-/// The longest bar in millimeters on paper.
+/// The maximum length of the bar, in millimeters on paper.
 const MAX_BAR_LENGTH: f64 = 60.0;
 
 /// The height of the bar in millimeters.
@@ -27,8 +27,9 @@ const LABEL_HEIGHT_FACTOR: f64 = 0.7;
 /// The number of segments; every other one is filled.
 const BAR_SEGMENTS: u32 = 4;
 
-/// Returns the possible areas for the bar and its labels: the lower left corner of the frame, or
-/// above a title block as wide as the frame; and above the title block at the right.
+/// Returns the possible areas for the bar and its labels. The first is the lower left corner of the
+/// frame, or above the title block if that is nearly as wide as the frame. The second is above the
+/// title block on the right.
 pub(super) fn scale_bar_areas(sheet: &Sheet) -> [Rectangle; 2] {
     let (frame, block) = (sheet.drawing_area(), sheet.title_block_area());
     let letters = sheet.lettering_height() * LABEL_HEIGHT_FACTOR;
@@ -43,7 +44,7 @@ pub(super) fn scale_bar_areas(sheet: &Sheet) -> [Rectangle; 2] {
     ]
 }
 
-/// Returns the bar in its area, at a scale, with lengths below it.
+/// Returns the layers of the bar in its area, at a scale, with lengths below it.
 pub(super) fn scale_bar_layers(
     sheet: &Sheet,
     area: Rectangle,
@@ -90,8 +91,8 @@ fn bar_segment(corner: DVec2, from: f64, length: f64) -> Polyline {
 
 /// Returns the largest length of the form 1, 2 or 5 · 10ⁿ that is at most `most`.
 ///
-/// Lengths below 1 mm are rounded to the quotient of 1 and an integer, so that their shortest
-/// decimal is the label.
+/// Lengths below 1 mm are computed as 1 divided by an integer, so that the shortest decimal form is
+/// the label.
 fn round_length(most: f64) -> f64 {
     let mut power = 1e-6;
     while power * 10.0 <= most {

@@ -7,9 +7,9 @@
 //!    ▼━ ── · ── · ── ━ ▼
 //! ```
 //!
-//! The line is a narrow chain line with wide ends; arrows show the viewing direction, and a letter
-//! names the section. The view that faces the plane is drawn cut, with A–A below it. Letters and
-//! names are placed in free space: beyond their arrows, beyond the line, or farther out.
+//! The line is a narrow chain line with wide ends. Arrows show the viewing direction, and a letter
+//! identifies the section. The view that faces the plane is drawn cut, with A–A below it. Letters
+//! and names are placed in free space: beyond their arrows, beyond the line, or farther out.
 
 use super::annotation::{
     AnnotationLayer, AnnotationShape, AnnotationText, Extent, ViewAnnotations,
@@ -22,17 +22,18 @@ use homog::{Plane, Vector, World};
 use page::TextAlign;
 use viewport::DrawingScale;
 
-/// Directions are parallel or perpendicular if their sine or cosine is at most this far from exact.
+/// The maximum deviation of the sine or cosine at which directions count as parallel or
+/// perpendicular.
 pub(super) const PARALLEL_TOLERANCE: f64 = 1e-6;
 
-/// The length by which the line extends beyond the view, in millimeters; its wide ends have the
-/// same length.
+/// The overhang of the line beyond the view, in millimeters, which is also the length of its wide
+/// ends.
 pub(super) const OVERHANG: f64 = 4.0;
 
-/// The length of arrows with their shafts, in millimeters.
+/// The length of an arrow including its shaft, in millimeters.
 pub(super) const ARROW_LENGTH: f64 = 6.0;
 
-/// The number of positions farther out to try for a letter or a name.
+/// The number of positions to try, farther and farther out, for a letter or a name.
 const TEXT_STEPS: u32 = 40;
 
 /// Returns the space beside a view for a section line and a letter beyond its end, in millimeters.
@@ -40,7 +41,7 @@ pub(super) fn section_line_reserve(letters: f64) -> f64 {
     OVERHANG + 1.8 * letters
 }
 
-/// A section plane and the letter that names its section.
+/// A section plane and the letter of its section.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LetteredPlane {
     pub(super) plane: Plane<World>,
@@ -51,13 +52,14 @@ pub(super) struct LetteredPlane {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SectionLine {
     ends: [DVec2; 2],
-    /// The unit vector on the sheet toward the retained side: the viewing direction of the section.
+    /// The unit vector on the sheet toward the retained side, which is the viewing direction of the
+    /// section.
     retained_direction: DVec2,
     letter: char,
 }
 
 impl SheetView {
-    /// Whether the view looks straight onto the plane, from the removed side.
+    /// Whether the view looks straight at the plane, from the removed side.
     pub(super) fn faces_section(&self, plane: Plane<World>) -> bool {
         plane.normal().dot(self.camera.gaze()) > 1.0 - PARALLEL_TOLERANCE
     }
@@ -67,8 +69,8 @@ impl SheetView {
         plane.normal().dot(self.camera.gaze()).abs() <= PARALLEL_TOLERANCE
     }
 
-    /// Returns the trace of a plane seen edge-on: a point in millimeters from the center of the
-    /// view, and the unit vector toward the retained side.
+    /// Returns the trace of a plane seen edge-on, as a point on it in millimeters from the center
+    /// of the view, and the unit vector toward the retained side.
     fn section_trace(&self, plane: Plane<World>, scale: DrawingScale) -> Option<(DVec2, DVec2)> {
         let normal = Vector::from_raw(plane.normal().raw());
         let direction = self.camera.rotation().transform_vector(normal).raw();
@@ -83,11 +85,11 @@ impl SheetView {
 }
 
 impl SectionLine {
-    /// Returns the line of a plane in a view, or `None` if the plane is not edge-on, or misses the
+    /// Returns the line of a plane in a view, or `None` if the plane is not edge-on or misses the
     /// object.
     ///
-    /// A slab test over the area of the object gives the interval of the line, which is extended by
-    /// [`OVERHANG`] at both ends.
+    /// A slab test against the area of the object gives the interval of the line, which is extended
+    /// by [`OVERHANG`] at both ends.
     pub(super) fn in_view(
         view: &SheetView,
         scale: DrawingScale,
@@ -127,11 +129,13 @@ impl SectionLine {
         }
     }
 
-    /// Returns the line in a view with an omitted part, or `None` if the line is in that part.
+    /// Returns the line in a view with an omitted part, or `None` if the line is in the omitted
+    /// part.
     pub(super) fn shortened(mut self, part: &Break, scale: DrawingScale) -> Option<Self> {
         let middle = (self.ends[0] + self.ends[1]) * 0.5;
         if self.retained_direction[part.axis].abs() < 1.0 - PARALLEL_TOLERANCE {
-            // Along the part or oblique to it: its ends stay beside the object.
+            // The line runs along the shortened axis or is oblique to it, so its ends move with the
+            // ends of the object.
             let half = part.length() * (0.5 * scale.ratio());
             for end in &mut self.ends {
                 *end -= half * (*end - middle)[part.axis].signum();
@@ -143,7 +147,7 @@ impl SectionLine {
         Some(self)
     }
 
-    /// Adds the letter at both ends, each at the first free position.
+    /// Adds the letter at both ends of the line, at the first free position.
     pub(super) fn add_letters(
         &self,
         annotations: &mut ViewAnnotations,
@@ -167,7 +171,7 @@ pub(super) fn add_section_arrow(annotations: &mut ViewAnnotations, tip: DVec2, g
     annotations.push(AnnotationLayer::CutArrows, head);
 }
 
-/// Adds a text below a view, as close to it as other annotations allow.
+/// Adds text below a view, as close to it as other annotations allow.
 pub(super) fn add_caption(
     annotations: &mut ViewAnnotations,
     layer: AnnotationLayer,

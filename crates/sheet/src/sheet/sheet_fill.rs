@@ -10,9 +10,9 @@
 //!   └────────────────┴──────────────┘
 //! ```
 //!
-//! A rectangle encloses a view and its annotations. The standard scales (ISO 5455) are a factor of
-//! 2 or 2.5 apart, so areas differ by a factor of 4 or 6.25. A sheet whose views just miss a scale
-//! is hardly filled, and the only remedy is other paper.
+//! Each rectangle encloses a view and its annotations. The standard scales (ISO 5455) are a factor
+//! of 2 or 2.5 apart, so areas differ by a factor of 4 or 6.25. A sheet whose views just miss a
+//! scale is mostly empty, and the only remedy is a different paper size.
 
 use super::annotation::Extent;
 use super::view_layout::ViewLayout;
@@ -23,23 +23,23 @@ use homog::{Plane, World};
 use model::ModelInstance;
 use viewport::{DrawingScale, Rectangle};
 
-/// Numbers n of scales 1:n and n:1 between the standard ones.
+/// The numbers n of scales 1:n and n:1 between the standard scales.
 const INTERMEDIATE: [u32; 14] = [3, 4, 15, 25, 30, 40, 150, 250, 300, 400, 1500, 2500, 3000, 4000];
 
-/// The fraction of a sheet that its views use, and why they are not larger.
+/// The fraction of a sheet that its views use, and the reason why they are not larger.
 ///
-/// Its text says both in one sentence.
+/// The `Display` text reports both in one sentence.
 #[derive(Clone, PartialEq, Debug)]
 pub struct SheetFill {
     /// The scale of the sheet.
     pub scale: DrawingScale,
     /// The area of the views with their annotations, each as a rectangle, as a fraction of the area
-    /// inside the frame without title block and scale bar.
+    /// inside the frame without the title block and scale bar.
     pub fraction: f64,
     /// The reason why the scale is not larger.
     pub limit: ScaleLimit,
-    /// The largest scale between this one and the next standard one at which all views fit, such as
-    /// 1:3, or `None` if there is none.
+    /// The largest scale between this one and the next standard scale at which all views fit, such
+    /// as 1:3. `None` if there is no such scale.
     pub between: Option<DrawingScale>,
 }
 
@@ -47,11 +47,11 @@ pub struct SheetFill {
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum ScaleLimit {
-    /// Nothing: the scale was given.
+    /// The scale was requested.
     Given,
     /// There is no larger standard scale.
     Largest,
-    /// Front, top and side views are larger than the available space.
+    /// The front, top and side views are larger than the available space.
     TooLarge {
         /// The next larger scale.
         scale: DrawingScale,
@@ -60,18 +60,18 @@ pub enum ScaleLimit {
         /// The available width and height, in millimeters.
         available: [f64; 2],
     },
-    /// Front, top and side views leave no room for others.
+    /// The front, top and side views leave no room for other views.
     NoRoom {
         /// The next larger scale.
         scale: DrawingScale,
-        /// The other view names, such as `isometric view`.
+        /// The names of the other views, such as `isometric view`.
         views: Vec<String>,
     },
 }
 
 impl Sheet {
-    /// Computes how much of the paper the views of models, cut by section planes, use, without
-    /// drawing them.
+    /// Computes what fraction of the paper the views of models use, without drawing them. The
+    /// models are cut by section planes.
     ///
     /// # Errors
     /// See [`draw`](Self::draw).
@@ -172,7 +172,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_fill_is_described_in_a_sentence() {
+    fn fill_is_described_in_one_sentence() {
         let [scale, next] = [7, 6].map(|at| DrawingScale::STANDARD[at]);
         let fill = |limit, between| SheetFill { scale, fraction: 0.384, limit, between };
         let (need, available) = ([391.2, 262.0], [257.0, 158.4]);

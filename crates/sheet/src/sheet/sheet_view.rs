@@ -1,4 +1,4 @@
-//! Sheet view: one orthographic view of a sheet, with its size in object millimeters.
+//! Sheet view: one orthographic view on a sheet, with its size in object millimeters.
 //!
 //! ```text
 //!   points of the models ─frame─► camera, depths, size      (SheetView::frame_points)
@@ -6,8 +6,8 @@
 //!   drawing, scale ─placement─► millimeters on the sheet    (placement)
 //! ```
 //!
-//! The drawing is made at a fixed resolution and scaled during layout: pixels are only a unit,
-//! because coordinates are f64.
+//! The drawing is created at a fixed resolution and scaled during layout. Pixels are only a unit,
+//! because coordinates are `f64`.
 
 use super::section_line::LetteredPlane;
 use super::{Placement, SheetError};
@@ -20,20 +20,21 @@ use homog::{Plane, Point, Vector, World};
 use projection::{Convention, Orthographic};
 use viewport::DrawingScale;
 
-/// The longer side of the drawing in pixels; only its ratio to the window matters.
+/// The longer side of the drawing in pixels. Only its ratio to the window matters.
 const LONG_SIDE_PIXELS: f64 = 8192.0;
 
 /// The resolution of flat fills: 300 dots per inch.
 const FILL_DOTS_PER_MILLIMETER: f64 = 300.0 / viewport::MILLIMETERS_PER_INCH;
 
-/// The resolution at which the areas of gray fills are traced, so that their borders stay under the
-/// narrowest wide line.
+/// The resolution at which the outlines of gray fills are traced, fine enough that the narrowest
+/// wide line covers them.
 const GRAY_DOTS_PER_MILLIMETER: f64 = 2.0 * FILL_DOTS_PER_MILLIMETER;
 
 /// The factor by which the window is larger than the object, so that nothing touches its border.
 const WINDOW_MARGIN: f64 = 1.02;
 
-/// The content of a sheet view: the object from a named direction, or a section by its letter.
+/// The content of a sheet view: the object from a named direction, or a section, detail or
+/// auxiliary view with its letter.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum ViewName {
     Named(NamedView),
@@ -43,7 +44,7 @@ pub(super) enum ViewName {
 }
 
 impl fmt::Display for ViewName {
-    /// Writes the name as used at the start of layer ids.
+    /// Writes the name in the form used as a prefix of layer ids.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Named(view) => view.fmt(f),
@@ -73,7 +74,7 @@ impl SheetView {
     /// Creates an uncut view of these points in a named direction.
     ///
     /// # Errors
-    /// [`SheetError::Empty`] without points, [`SheetError::View`] if the points cannot be framed.
+    /// [`SheetError::Empty`] if there are no points, [`SheetError::View`] if they cannot be framed.
     pub(super) fn frame_points(
         points: &[Point<World>],
         name: NamedView,
@@ -82,7 +83,8 @@ impl SheetView {
         Self::frame_from(points, ViewName::Named(name), name.basis(), unit)
     }
 
-    /// Creates the view onto a section plane, of the points that the plane retains.
+    /// Creates the view that looks straight at a section plane, of the points that the plane
+    /// retains.
     ///
     /// # Errors
     /// See [`frame_points`](Self::frame_points).
@@ -97,7 +99,7 @@ impl SheetView {
         Ok(view.cut_by(vec![plane]))
     }
 
-    /// Creates a view of these points in any direction, with the top of the models at the top.
+    /// Creates a view of these points in any direction, with the top of the models up.
     ///
     /// # Errors
     /// See [`frame_points`](Self::frame_points).
@@ -115,7 +117,7 @@ impl SheetView {
         Self::frame_from(points, name, basis, unit)
     }
 
-    /// Returns a part of the view: everything within a radius of a point, in scene units.
+    /// Returns the part of the view within a radius of a point, in scene units.
     ///
     /// # Errors
     /// [`SheetError::View`] if the camera cannot be moved there.
@@ -136,7 +138,7 @@ impl SheetView {
         Ok(Self { name, camera, size, ..self.clone() })
     }
 
-    /// Returns a world direction as the view shows it: right and down, foreshortened.
+    /// Returns a world direction as foreshortened in the view, to the right and down.
     pub(super) fn direction_of(&self, direction: Vector<World>) -> DVec2 {
         let seen = self.camera.rotation().transform_vector(direction).raw();
         DVec2::new(seen.x, -seen.y)
@@ -148,7 +150,7 @@ impl SheetView {
         (window * (LONG_SIDE_PIXELS / window.max_element())).ceil().max(DVec2::ONE)
     }
 
-    /// Pixels of the drawing per scene unit, along its longer side.
+    /// Returns the number of drawing pixels per scene unit, along the longer side.
     pub(super) fn pixels_per_unit(&self) -> f64 {
         LONG_SIDE_PIXELS / self.window_size().max_element()
     }
@@ -191,8 +193,8 @@ impl SheetView {
         Ok(Self { name, camera, sections, depths, size, millimeters_per_unit: unit })
     }
 
-    /// Returns the width and height of the window in scene units; never zero, however flat the
-    /// object.
+    /// Returns the width and height of the window in scene units, which are never zero, even if the
+    /// object is flat.
     fn window_size(&self) -> DVec2 {
         let size = self.size / self.millimeters_per_unit;
         let least = size.max_element().max(self.depths[1] - self.depths[0]).max(1e-9) * 0.02;
@@ -209,7 +211,7 @@ impl SheetView {
     ) -> Result<Drawing, SheetError> {
         let (view_projection, size) = self.view_projection()?;
         let window = self.window_size();
-        // Millimeters of paper per pixel.
+        // Millimeters on paper per pixel.
         let pixel = scale.to_paper_length(window.max_element() * self.millimeters_per_unit)
             / LONG_SIDE_PIXELS;
         let dots = match style.face_fill {
@@ -222,11 +224,11 @@ impl SheetView {
         Ok(draw_surface(surface, &view_projection, size, &options, &fill, threads)?)
     }
 
-    /// Returns the camera with its view volume, and the size of the drawing in pixels. Depths get a
-    /// margin of 2 % of the extent.
+    /// Returns the camera with its view volume, and the size of the drawing in pixels. The depth
+    /// range gets a margin of 2% of the extent.
     ///
     /// # Errors
-    /// [`SheetError::View`] if there is no such volume.
+    /// [`SheetError::View`] if the view volume is invalid.
     pub(super) fn view_projection(&self) -> Result<(ViewProjection, [u32; 2]), SheetError> {
         let window = self.window_size();
         let half = window * 0.5;

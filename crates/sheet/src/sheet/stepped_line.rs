@@ -1,9 +1,9 @@
-//! The line of a stepped section: its corners, checked, and its marks in the views along the steps.
+//! The line of a stepped section: checks its corners, and marks it in the views along the steps.
 //!
 //! ```text
-//!   1 ────── 2                pieces perpendicular to the normal, from corner 1 to 2, 3 to 4 …
+//!   1 ────── 2                pieces perpendicular to the normal: from corner 1 to 2, 3 to 4 …
 //!            │
-//!            3 ────── 4       steps along it
+//!            3 ────── 4       steps along the normal
 //! ```
 
 use super::composition::Composition;
@@ -14,20 +14,21 @@ use super::view_plan::PlannedView;
 use glam::DVec2;
 use homog::{Point, Vector, World};
 
-/// The maximum number of corners: more are a mistake, and each pair costs a drawing.
+/// The maximum number of corners. More are likely a mistake, and each pair takes an additional
+/// drawing.
 const MAX_CORNERS: usize = 32;
 
 /// The line of a stepped section in space.
 pub(super) struct SteppedLine<'a> {
     pub(super) corners: &'a [Point<World>],
     pub(super) removed: Vector<World>,
-    /// The direction of the steps' edges: seen along it, the cut is a line.
+    /// The direction of the edges of the steps. Seen along it, the cut is a line.
     pub(super) across: Vector<World>,
     pub(super) letter: char,
 }
 
 impl SteppedLine<'_> {
-    /// Marks the line in a view that looks along the edges of the steps; returns whether it does.
+    /// Marks the line in a view if it looks along the edges of the steps. Returns whether it does.
     pub(super) fn mark(&self, one: &mut PlannedView) -> bool {
         let sees = one.view.camera.gaze().dot(self.across).abs() > 1.0 - PARALLEL_TOLERANCE;
         if !sees || !one.is_along_axis() {
@@ -52,7 +53,8 @@ impl SteppedLine<'_> {
     }
 }
 
-/// Moves the end of a line that begins inside a rectangle around the origin to its border.
+/// Moves the end of a line that begins inside a rectangle around the origin to the rectangle's
+/// border.
 fn end_at_border(from: DVec2, end: DVec2, half: DVec2) -> DVec2 {
     let direction = (end - from).normalize_or_zero();
     let to_side = |axis: usize| match direction[axis] {
@@ -63,7 +65,7 @@ fn end_at_border(from: DVec2, end: DVec2, half: DVec2) -> DVec2 {
     if length > 0.0 && length.is_finite() { from + direction * length } else { end }
 }
 
-/// Returns the direction of the pieces of a stepped section, if its corners are valid.
+/// Checks the corners of a stepped section and returns the direction of its pieces.
 pub(super) fn check_steps(
     removed: Vector<World>,
     corners: &[Point<World>],
@@ -79,7 +81,7 @@ pub(super) fn check_steps(
     }
     let sides: Vec<Vector<World>> = corners.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let along = unit_vector(sides[0]).ok_or_else(|| fault("its first two corners are the same"))?;
-    // The tolerance is relative to the whole line, because single sides may be short.
+    // The tolerance is relative to the whole line, because individual segments may be short.
     let total: f64 = sides.iter().map(|side| side.length()).sum();
     for (index, side) in sides.iter().enumerate() {
         let direction = if index % 2 == 0 { along } else { removed };

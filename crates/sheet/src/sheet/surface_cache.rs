@@ -1,19 +1,20 @@
-//! Surface cache: the welded surfaces of a sheet, one for each set of sections shown in its views.
+//! Surface cache: the welded surfaces of a sheet, one for each combination of sections shown in its
+//! views.
 //!
-//! Welding and the search for intersections depend on models and sections, not on the viewer. The
-//! three principal views of an uncut object share one surface; a sectional view needs a separate
-//! one.
+//! Welding and finding intersections depend on the models and sections, not on the viewer. The
+//! three principal views of an uncut object share one surface, but a sectional view needs a
+//! separate surface.
 
 use hidden_line::WeldedSurface;
 use homog::{Plane, World};
 use model::ModelInstance;
 
-/// Welded surfaces of the same models by the section planes that cut them.
+/// Welded surfaces of the same models, keyed by the section planes that cut them.
 pub(super) struct SurfaceCache<'a> {
     models: &'a [ModelInstance],
-    /// The objects that no section cuts.
+    /// The objects that sections do not cut.
     uncut: &'a [u32],
-    /// In the order of first use; a sheet has four views, so a search is cheap.
+    /// The surfaces in the order of first use. A sheet has few views, so a linear search is cheap.
     surfaces: Vec<(Vec<Plane<World>>, WeldedSurface)>,
 }
 
@@ -23,7 +24,7 @@ impl<'a> SurfaceCache<'a> {
         Self { models, uncut, surfaces: Vec::new() }
     }
 
-    /// Returns the surface cut by these planes, welded on demand.
+    /// Returns the surface cut by these planes, which is welded on demand.
     pub(super) fn cut_by(&mut self, sections: &[Plane<World>]) -> &WeldedSurface {
         let cached = self.surfaces.iter().position(|(planes, _)| planes == sections);
         let index = cached.unwrap_or_else(|| {
@@ -41,7 +42,7 @@ mod tests {
     use homog::{Normal, Point};
 
     #[test]
-    fn views_with_equal_sections_share_a_surface() {
+    fn views_with_the_same_sections_share_a_surface() {
         let plane = Plane::through(Point::ORIGIN, Normal::new(0.0, 0.0, 1.0));
         let mut cache = SurfaceCache::new(&[], &[]);
         for sections in [&[][..], &[plane], &[], &[plane]] {

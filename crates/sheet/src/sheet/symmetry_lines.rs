@@ -1,5 +1,4 @@
-//! Lines of symmetry: planes of symmetry of the models, seen from the side (ISO 128-2, chain lines
-//! 04.1).
+//! Lines of symmetry: symmetry planes of the models, seen edge-on (ISO 128-2, chain lines 04.1).
 
 use super::Sheet;
 use super::view_mark::ViewMark;
@@ -7,8 +6,8 @@ use super::view_plan::PlannedView;
 use hidden_line::FeaturePicker;
 
 impl Sheet {
-    /// Adds the lines of symmetry to views along a plane of symmetry where they are vertical or
-    /// horizontal.
+    /// Adds lines of symmetry to the views that see a symmetry plane edge-on, as a vertical or
+    /// horizontal line.
     pub(super) fn add_symmetry_lines(
         &self,
         planned: &mut [&mut PlannedView],
@@ -17,7 +16,7 @@ impl Sheet {
         let mut symmetry = picker.mirror_symmetry();
         for PlannedView { view, marks, .. } in planned.iter_mut().map(|planned| &mut **planned) {
             let camera = &view.camera;
-            // A vertical line belongs to a plane perpendicular to the direction to the right.
+            // The plane of a vertical line is perpendicular to the direction to the right.
             for (axis, across) in [(1, camera.right()), (0, camera.v())] {
                 let mut lines = marks.iter().filter_map(ViewMark::as_center_line);
                 if lines.any(|(_, known)| known == axis) {

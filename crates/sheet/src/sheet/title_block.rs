@@ -23,17 +23,17 @@ use viewport::{DrawingScale, Rectangle};
 /// The width of the block if the paper is wide enough, in millimeters.
 const BLOCK_WIDTH: f64 = 180.0;
 
-/// The heights of a block with three rows and with four rows, in millimeters.
+/// The heights of blocks with three rows and with four rows, in millimeters.
 const BLOCK_HEIGHTS: [f64; 2] = [32.0, 48.0];
 
-/// The maximum fraction of the drawing area's height that these take.
+/// The maximum fractions of the drawing area's height for blocks with three and four rows.
 const MOST_OF_HEIGHT: [f64; 2] = [0.3, 0.38];
 
 /// The character height of field names and the width of their strokes, in millimeters.
 const NAME_HEIGHT: f64 = 1.8;
 const NAME_WIDTH: f64 = 0.18;
-/// The height of Chinese field names and the width of their strokes, in millimeters: they have
-/// more strokes than Latin letters.
+/// The height of Chinese field names and the width of their strokes, in millimeters. The characters
+/// are larger because they have more strokes than Latin letters.
 const CHINESE_NAME: [f64; 2] = [2.5, 0.13];
 /// The character height of field values, in millimeters.
 const VALUE_HEIGHT: f64 = 3.5;
@@ -49,7 +49,7 @@ impl TitleBlockField {
         self.corner(block, 1) - self.corner(block, 0)
     }
 
-    /// Returns the upper left (0) or lower right (1) corner of the field in a block.
+    /// Returns a corner of the field in a block: 0 is the upper left, 1 is the lower right.
     fn corner(&self, block: Rectangle, end: usize) -> DVec2 {
         let (x, y) = (self.x[end], self.y[end]);
         DVec2::new(block.x() + x * block.width(), block.y() + y * block.height())
@@ -61,7 +61,7 @@ impl TitleBlockField {
         rectangle_from_size(corner.x, corner.y, size.x, size.y)
     }
 
-    /// Returns the heights of its first and second values, in a field of a given height.
+    /// Returns the heights of the first and second value in a field of this height.
     fn value_heights(&self, height: f64) -> [f64; 2] {
         let usual = if self.field == FieldName::Title { TITLE_HEIGHT } else { VALUE_HEIGHT };
         let share = if self.second_value.is_empty() { 0.42 } else { 0.3 };
@@ -81,10 +81,11 @@ pub(super) fn title_block_area(sheet: &Sheet, frame: Rectangle) -> Rectangle {
     rectangle_from_size(right - width, bottom - height, width, height)
 }
 
-/// Returns the borders, the lettering in its three widths, and the projection symbol.
+/// Returns the layers with the borders, the lettering in its three widths, and the projection
+/// symbol.
 ///
-/// Text that is too wide for its field is reduced in height. On small paper the block shrinks, and
-/// so do its characters.
+/// Text that is too wide for its field is reduced in height. On small paper, the block and its
+/// characters shrink.
 pub(super) fn title_block_layers(
     sheet: &Sheet,
     title: &str,
@@ -138,7 +139,7 @@ pub(super) fn title_block_layers(
     vec![borders, names, heading, values]
 }
 
-/// The distance from the name of its field to the projection symbol, in millimeters.
+/// The distance from the field name to the projection symbol, in millimeters.
 const SYMBOL_DISTANCE: f64 = 1.4;
 
 /// Returns the projection symbol in its field, to the right of the field's name.

@@ -7,7 +7,7 @@
 //!   ├─────────────┴─────────┴──────────────┤       ├───────────┬───┴────────┬──┴───────────┤
 //!   │ Title                                │       │ Created by│ Approved by│ Date of issue│
 //!   ├───────┬───────┬───────┬───────┬──────┤       ├───────────┴────────────┴──────────────┤
-//!   │ Scale │ Paper │ Unit  │ Proj. │ …    │       │ Title, and below it a second one      │
+//!   │ Scale │ Paper │ Unit  │ Proj. │ …    │       │ Title, with a second line below       │
 //!   └───────┴───────┴───────┴───────┴──────┘       ├─────┬─────┬─────┬─────┬────┬────┬─────┤
 //!                                                  │Scale│Paper│Unit │Proj.│Rev.│Lang│Sheet│
 //!                                                  └─────┴─────┴─────┴─────┴────┴────┴─────┘
@@ -17,14 +17,14 @@ use super::Sheet;
 use super::title_block_language::{FieldName, TitleBlockLanguage};
 use viewport::DrawingScale;
 
-/// The texts of a title block (ISO 7200).
+/// The text of a title block (ISO 7200).
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct TitleBlockText {
-    /// The title of the drawing; if empty, the model names are used.
+    /// The title of the drawing. If empty, the model names are used.
     pub title: String,
     /// The author.
     pub author: String,
-    /// The date as text.
+    /// The date, as text.
     pub date: String,
     /// The drawing number.
     pub number: String,
@@ -45,7 +45,7 @@ pub struct TitleBlockText {
 }
 
 impl TitleBlockText {
-    /// Whether there is a text for a field that only the larger block has.
+    /// Whether any field that only the larger block has is set.
     pub(super) fn has_all_fields(&self) -> bool {
         let texts = [
             &self.supplementary_title,
@@ -57,7 +57,7 @@ impl TitleBlockText {
         texts.into_iter().any(|text| !text.is_empty())
     }
 
-    /// All texts, to search for characters that the font lacks.
+    /// Returns all texts, which are searched for characters missing from the font.
     pub(super) fn texts(&self) -> [&str; 9] {
         [
             &self.title,
@@ -72,7 +72,8 @@ impl TitleBlockText {
         ]
     }
 
-    /// Returns the sheet number and the sheet count, such as `2/5`; empty without them.
+    /// Returns the sheet number and the sheet count, such as `2/5`, or an empty string if they are
+    /// not set.
     pub(super) fn sheet_number(&self) -> String {
         self.sheet.map_or_else(String::new, |[number, count]| format!("{number}/{count}"))
     }
@@ -85,11 +86,11 @@ pub(super) struct TitleBlockField {
     pub(super) field: FieldName,
     pub(super) name: &'static str,
     pub(super) value: String,
-    /// A second line below the value, or empty.
+    /// A second line below the value; may be empty.
     pub(super) second_value: String,
 }
 
-/// The bottoms of the rows as fractions of the block, with three and with four rows.
+/// The bottoms of the rows as fractions of the block's height, with three and with four rows.
 const THREE_ROWS: [f64; 3] = [0.31, 0.69, 1.0];
 const FOUR_ROWS: [f64; 4] = [10.0 / 48.0, 20.0 / 48.0, 38.0 / 48.0, 1.0];
 
@@ -116,7 +117,7 @@ pub(super) fn title_block_fields(
     let unit = sheet.dimension_unit.symbol();
     let number = texts.sheet_number();
     if !is_large {
-        // Without a sheet number, the field before it takes its space.
+        // If there is no sheet number, the previous field takes its space.
         let number_end = if number.is_empty() { 1.0 } else { 0.87 };
         let mut fields = vec![
             field(0, [0.0, 0.4], FieldName::Author, &texts.author),

@@ -1,6 +1,6 @@
-//! Languages of the title block: its field names.
+//! Languages of the title block, and the field names in each.
 
-/// The language of the field names; the values stay as given.
+/// The language of the field names. The values are not translated.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum TitleBlockLanguage {
     /// English.

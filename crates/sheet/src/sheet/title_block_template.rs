@@ -1,4 +1,4 @@
-//! Custom title blocks: SVG files whose texts contain fields, such as `{title}`.
+//! Custom title blocks: SVG files whose text contains fields, such as `{title}`.
 //!
 //! ```text
 //!   <svg width="180mm" height="30mm" viewBox="0 0 180 30">
@@ -9,9 +9,10 @@
 //!   </svg>
 //! ```
 //!
-//! Lines, rectangles, polylines, polygons, paths of straight lines, texts and groups are supported.
-//! A unit of the view box is always a millimeter; `width` and `height` are ignored. Any other drawn
-//! element is an error with its position, so that no part of a block is lost unnoticed.
+//! Lines, rectangles, polylines, polygons, paths of straight lines, text and groups are supported.
+//! A unit of the view box is always a millimeter; `width` and `height` are ignored. Any other
+//! visible element is reported as an error with its position, so that no part of a block is
+//! silently lost.
 
 mod layers;
 mod markup;
@@ -25,16 +26,16 @@ use markup::{Element, Event, MarkupReader};
 use page::TextAlign;
 use path_data::{parse_numbers, parse_path};
 
-/// The width of lines without `stroke-width`, in millimeters.
+/// The default of `stroke-width`, in millimeters.
 const DEFAULT_LINE_WIDTH: f64 = 0.35;
 
-/// The character height without `font-size`, in millimeters.
+/// The default of `font-size`, in millimeters.
 const DEFAULT_TEXT_HEIGHT: f64 = 3.5;
 
-/// The maximum length of a file, in bytes.
+/// The maximum file size in bytes.
 const MAX_LENGTH: usize = 1 << 20;
 
-/// The longest side of a block in millimeters.
+/// The maximum side of a block in millimeters.
 const MAX_SIDE: f64 = 1000.0;
 
 /// A title block read from an SVG file.
@@ -65,18 +66,18 @@ pub(super) struct TemplateLine {
     pub(super) width: f64,
 }
 
-/// A text of a template.
+/// Text in a template.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct TemplateText {
     parts: Vec<TextPart>,
     pub(super) anchor: DVec2,
     pub(super) height: f64,
     pub(super) align: TextAlign,
-    /// The maximum width, to which it is reduced, in millimeters.
+    /// The maximum width, in millimeters, to which wider text is reduced.
     pub(super) most_width: Option<f64>,
 }
 
-/// A part of a text.
+/// Part of a text.
 #[derive(Clone, PartialEq, Debug)]
 enum TextPart {
     Fixed(String),
@@ -121,11 +122,11 @@ pub(super) enum TemplateField {
     Scale,
     Paper,
     Unit,
-    /// The projection symbol, instead of text.
+    /// The projection symbol, which replaces text.
     Projection,
 }
 
-/// The values of fields that are not texts of the sheet.
+/// The values of fields that are not in the sheet's title block text.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FieldValues<'a> {
     pub(super) texts: &'a TitleBlockText,
@@ -143,12 +144,12 @@ pub struct TemplateError {
     pub line: usize,
     /// The column in characters, from 1.
     pub column: usize,
-    /// The error and its remedy.
+    /// A description of the error, with a remedy.
     pub message: String,
 }
 
 impl TemplateError {
-    /// Creates an error at a byte of a text.
+    /// Creates an error at a byte position in the source.
     fn at(source: &str, byte: usize, message: impl Into<String>) -> Self {
         let before = source.get(..byte).unwrap_or(source);
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
@@ -161,10 +162,10 @@ impl TitleBlockTemplate {
     /// Parses a template from the text of an SVG file.
     ///
     /// # Errors
-    /// If the file is not an SVG file, or contains unsupported shapes, transforms, styles or
-    /// unknown fields.
+    /// Returns an error if the text is not an SVG file, or contains unsupported shapes, transforms,
+    /// styles or unknown fields.
     pub fn parse(svg: &str) -> Result<Self, TemplateError> {
-        // A limit in bytes bounds the time and memory of everything below.
+        // A limit on the size limits the time and memory of everything below.
         if svg.len() > MAX_LENGTH {
             let message = format!("a title block can have at most {MAX_LENGTH} bytes");
             return Err(TemplateError::at(svg, 0, message));
@@ -182,7 +183,7 @@ impl TitleBlockTemplate {
         };
         let size = view_box_size(svg, &root)?;
         let mut template = Self { size, lines: Vec::new(), texts: Vec::new() };
-        // The open text element: its start and its text so far.
+        // The open text element, with its start tag and its text so far.
         let mut text: Option<(Element<'_>, String)> = None;
         while let Some(event) = reader.next()? {
             match (event, &mut text) {
@@ -196,7 +197,7 @@ impl TitleBlockTemplate {
                 (Event::Start(element), None) => template.add_shape(svg, &element)?,
                 (Event::Text(part), Some((_, so_far))) => so_far.push_str(&part),
                 (Event::Text(_), None) => {}
-                // Only text elements have content, so other ends need no action.
+                // Only text elements have content, so other end tags need no action.
                 (Event::End(name), _) => {
                     if let Some((element, content)) = text.take_if(|_| name == "text") {
                         template.add_text(svg, &element, content.trim())?;
@@ -213,12 +214,12 @@ impl TitleBlockTemplate {
         [self.size.x, self.size.y]
     }
 
-    /// Adds a shape, if the element is one.
+    /// Adds the lines of the element, if it is a shape.
     fn add_shape(&mut self, svg: &str, element: &Element<'_>) -> Result<(), TemplateError> {
         let number = |name| element.number(svg, name, 0.0);
         let point = |x, y| Ok::<_, TemplateError>(DVec2::new(number(x)?, number(y)?));
         let lines = match element.name {
-            // A group has no effect: `check_attributes` refuses transforms.
+            // A group has no effect, because `check_attributes` rejects transforms.
             "g" => Vec::new(),
             "line" => vec![(vec![point("x1", "y1")?, point("x2", "y2")?], false)],
             "rect" => {
@@ -249,7 +250,7 @@ impl TitleBlockTemplate {
         Ok(())
     }
 
-    /// Adds a text with its fields.
+    /// Adds text with its fields.
     fn add_text(
         &mut self,
         svg: &str,
@@ -272,7 +273,7 @@ impl TitleBlockTemplate {
         };
         let width = element.number(svg, "textLength", 0.0)?;
         let most_width = (width > 0.0).then_some(width);
-        // Capitals are about seven tenths of the font size.
+        // The height of capitals is about seven tenths of the font size.
         let height = height * CAPITALS;
         self.texts.push(TemplateText { parts, anchor, height, align, most_width });
         Ok(())
@@ -283,7 +284,7 @@ impl TitleBlockTemplate {
 const CAPITALS: f64 = 0.7;
 
 impl TemplateText {
-    /// Returns the text with the values of its fields.
+    /// Returns the text with its fields filled in.
     pub(super) fn content(&self, values: &FieldValues<'_>) -> String {
         let part = |part: &TextPart| match part {
             TextPart::Fixed(text) => text.clone(),
@@ -292,14 +293,14 @@ impl TemplateText {
         self.parts.iter().map(part).collect()
     }
 
-    /// Whether the text is the projection symbol.
+    /// Whether this is the projection symbol instead of text.
     pub(super) fn is_symbol(&self) -> bool {
         self.parts == [TextPart::Field(TemplateField::Projection)]
     }
 }
 
 impl Sheet {
-    /// Returns the values of the fields of its template.
+    /// Returns the field values for the sheet's template.
     pub(super) fn field_values<'a>(&'a self, title: &'a str, scale: &'a str) -> FieldValues<'a> {
         let (texts, paper) = (&self.title_block, self.paper_name.as_str());
         FieldValues { texts, title, scale, paper, unit: self.dimension_unit.symbol() }
@@ -332,7 +333,7 @@ impl FieldValues<'_> {
     }
 }
 
-/// Returns the parts of a text: `{name}` is a field, `{{` a brace.
+/// Splits a text into its parts. `{name}` is a field, and `{{` is a brace.
 fn text_parts(content: &str) -> Result<Vec<TextPart>, String> {
     let (mut parts, mut rest) = (Vec::new(), content);
     while let Some((before, after)) = rest.split_once('{') {
@@ -364,7 +365,7 @@ fn text_parts(content: &str) -> Result<Vec<TextPart>, String> {
     Ok(parts)
 }
 
-/// Returns the size in millimeters, from the view box, whose corner is at 0, 0.
+/// Returns the size in millimeters from the view box, which must begin at 0, 0.
 fn view_box_size(svg: &str, root: &Element<'_>) -> Result<DVec2, TemplateError> {
     let fault = |message: &str| TemplateError::at(svg, root.at, message);
     let numbers = parse_numbers(svg, root.attribute("viewBox"))?;

@@ -1,4 +1,4 @@
-//! View grid: front, top and side views in two columns and two rows.
+//! View grid: the front, top and side views in two columns and two rows.
 //!
 //! ```text
 //!   first angle             third angle
@@ -19,34 +19,35 @@ use glam::DVec2;
 use projection::SheetAngle;
 use viewport::DrawingScale;
 
-/// Distribution of the free space along an axis.
+/// The distribution of the free space along an axis.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum GridSpacing {
-    /// Divided equally among the gaps.
+    /// The space is divided equally among the gaps.
     Equal,
-    /// Left at the end.
+    /// The space is left at the end.
     Close,
 }
 
-/// The cells of the three views at a scale, and their columns and rows.
+/// The cells of the three views at a scale, with their columns and rows.
 #[derive(Clone, Debug)]
 pub(super) struct ViewGrid<'a> {
     /// The front, top and side views.
     pub(super) cells: [ViewCell<'a>; 3],
-    /// The column and row of each.
+    /// The column and row of each view.
     places: [[usize; 2]; 3],
-    /// For each axis and each column or row: the space of its views before and after their centers.
+    /// The space that views need before and after their centers, for each axis and each column or
+    /// row.
     spans: [[[f64; 2]; 2]; 2],
 }
 
 impl<'a> ViewGrid<'a> {
     /// Creates the grid for a sheet's projection angle.
     ///
-    /// In first-angle projection a view is placed opposite the side from which it is seen, in
+    /// In first-angle projection a view is placed opposite the side from which it is seen, and in
     /// third-angle projection on that side.
     pub(super) fn new(sheet: &Sheet, principal: &'a [PlannedView; 3], scale: DrawingScale) -> Self {
         let first = sheet.projection_angle == SheetAngle::First;
-        // First angle: the left view is drawn on the right.
+        // In first-angle projection, the left view is drawn on the right.
         let is_left_view = principal[2].view.name == ViewName::Named(NamedView::Left);
         let side_is_right = first == is_left_view;
         let (front_column, front_row) = (usize::from(!side_is_right), usize::from(!first));
@@ -71,7 +72,8 @@ impl<'a> ViewGrid<'a> {
         DVec2::from(self.spans.map(|spans| spans.as_flattened().iter().sum()))
     }
 
-    /// Returns the centers of the three views in an area, or `None` if the grid is larger.
+    /// Returns the centers of the three views in an area, or `None` if the grid is larger than the
+    /// area.
     pub(super) fn place_views(
         &self,
         [low, high]: Extent,

@@ -4,18 +4,18 @@
 //!         column 0     column 1
 //!       ┌───────────┬───────────┐
 //!  row 0│   front   │   side    │      each cell holds a view with its dimensions, cut lines and
-//!       ├───────────┼───────────┤      captions, so that nothing of one view meets another
+//!       ├───────────┼───────────┤      captions, so that views do not touch each other
 //!  row 1│    top    │  (free)   │
 //!       └───────────┴───────────┘
 //! ```
 //!
-//! The front and side views share a row, the front and top views a column. The axonometric view and
-//! the views of sections have no fixed position: each is placed in the best free rectangle, at a
-//! smaller scale if necessary.
+//! The front and side views share a row, and the front and top views share a column. The
+//! axonometric view and the section views have no fixed position. Each of them is placed in the
+//! best free rectangle, at a smaller scale if necessary.
 //!
 //! Several arrangements of the grid are tried at each scale: with equal gaps on the whole drawing
-//! area or above the title block, or moved together to leave more room beside it. The largest scale
-//! at which all views fit wins.
+//! area or above the title block, or with the views close together to leave more room beside them.
+//! The largest scale at which all views fit wins.
 
 use super::annotation::{Extent, ViewAnnotations, overlap};
 use super::free_area::{best_rectangle, free_rectangles};
@@ -31,22 +31,22 @@ use viewport::{DrawingScale, Rectangle};
 /// The distance from a cell to the frame, and half the distance between objects, in millimeters.
 pub(super) const HALF_GAP: f64 = 5.0;
 
-/// The distance from a cell to the frame if a larger one would force a smaller scale, in
-/// millimeters.
+/// The distance from a cell to the frame, in millimeters, if [`HALF_GAP`] would force a smaller
+/// scale.
 const TIGHT_GAP: f64 = 0.5;
 
 /// The minimum distance from the annotations of a view to its cell's border, in millimeters.
 const ANNOTATION_GAP: f64 = 1.5;
 
-/// The minimum scale of a view without a fixed position, as a fraction of the sheet's scale; at a
-/// smaller sheet scale there may be more room.
+/// The minimum scale of a view without a fixed position, as a fraction of the sheet's scale. Below
+/// this, a smaller sheet scale is tried, which may leave more room.
 const LEAST_FREE_SCALE: f64 = 0.2;
 
-/// The number of smaller scales to try for views that do not fit.
+/// The number of smaller sheet scales to try if some views do not fit.
 const SMALLER_SCALES: usize = 2;
 
-/// The minimum longer side of a view, in millimeters; smaller views are omitted, unless they are at
-/// the scale of the sheet.
+/// The minimum length of the longer side of a view, in millimeters. Smaller views are omitted
+/// unless they are at the sheet's scale.
 pub(super) const LEAST_VIEW_SIZE: f64 = 8.0;
 
 /// A view with its position and scale.
@@ -60,7 +60,7 @@ pub(super) struct PlacedView<'a> {
 }
 
 impl PlacedView<'_> {
-    /// Width and height of the object in the view, in millimeters.
+    /// Returns the width and height of the object in the view, in millimeters.
     pub(super) fn object_size(&self) -> DVec2 {
         self.planned.view.size * self.scale.ratio()
     }
@@ -77,13 +77,13 @@ impl PlacedView<'_> {
 pub(super) struct ViewLayout<'a> {
     /// The scale of the sheet.
     pub(super) scale: DrawingScale,
-    /// The front, top and side views, then those without a fixed position.
+    /// The front, top and side views, followed by the views without a fixed position.
     pub(super) views: Vec<PlacedView<'a>>,
     /// The views that could not be placed.
     pub(super) left_out: Vec<&'a PlannedView>,
     /// The area of the scale bar.
     pub(super) scale_bar: Rectangle,
-    /// Warnings about views that overlap others at their given positions.
+    /// Warnings about views that overlap others at their requested positions.
     pub(super) overlaps: Vec<SheetWarning>,
 }
 
@@ -97,7 +97,7 @@ pub(super) struct ViewCell<'a> {
 }
 
 impl<'a> ViewCell<'a> {
-    /// Creates the cell of a view; a scale that differs from the sheet's is written below it.
+    /// Creates the cell of a view at a scale.
     pub(super) fn new(planned: &'a PlannedView, sheet: &Sheet, scale: DrawingScale) -> Self {
         Self::with_annotations(planned, scale, planned.annotate(sheet, scale))
     }
@@ -122,7 +122,7 @@ impl<'a> ViewCell<'a> {
         self.extent.map(|corner| center + corner)
     }
 
-    /// Returns the view at a center.
+    /// Returns the view placed at a center.
     pub(super) fn place(self, center: DVec2) -> PlacedView<'a> {
         let Self { planned, scale, annotations, .. } = self;
         PlacedView { planned, center, scale, annotations }
@@ -132,11 +132,11 @@ impl<'a> ViewCell<'a> {
 impl<'a> ViewLayout<'a> {
     /// Arranges the views at the sheet's scale, or at the largest standard scale that fits.
     ///
-    /// Views stay clear of the title block and the scale bar. If the sheet has no given scale,
-    /// smaller ones are tried when a view without a fixed position does not fit.
+    /// Views stay clear of the title block and the scale bar. If no scale is set for the sheet,
+    /// smaller scales are tried when a view without a fixed position does not fit.
     ///
     /// # Errors
-    /// [`SheetError::TooLarge`] if they do not fit; it suggests a scale that would, if there is
+    /// [`SheetError::TooLarge`] if the views do not fit. It suggests a scale that fits, if there is
     /// one.
     pub(super) fn arrange_views(sheet: &Sheet, plan: &'a ViewPlan) -> Result<Self, SheetError> {
         let best = Self::arrange_on_best(&[sheet], plan);
@@ -146,8 +146,9 @@ impl<'a> ViewLayout<'a> {
         })
     }
 
-    /// Like [`arrange_views`](Self::arrange_views), on the best of these sheets, which differ only
-    /// in their paper, with its index; the first one if equal.
+    /// Arranges views like [`arrange_views`](Self::arrange_views), on the best of these sheets,
+    /// which differ only in their paper. Returns the index of the sheet as well. If sheets are
+    /// equally good, the first one is used.
     pub(super) fn arrange_on_best(sheets: &[&Sheet], plan: &'a ViewPlan) -> Option<(usize, Self)> {
         let at_scale = |scale: DrawingScale| {
             let layouts = sheets.iter().map(|sheet| Self::arrange_at_scale(sheet, plan, scale));
@@ -202,7 +203,7 @@ impl<'a> ViewLayout<'a> {
         best
     }
 
-    /// Places the views without a fixed position, one after the other, each at the largest scale.
+    /// Places the views without a fixed position one by one, each at the largest scale.
     fn place_free_views(
         &mut self,
         sheet: &Sheet,
@@ -224,48 +225,51 @@ impl<'a> ViewLayout<'a> {
         }
     }
 
-    /// Whether every view has a position and a scale not much smaller than the sheet's.
+    /// Whether every view has a position, and a scale that is not much smaller than the sheet's.
     pub(super) fn is_satisfied(&self) -> bool {
         self.cramped_views().next().is_none() && self.overlaps.is_empty()
     }
 
-    /// Returns the views without a position, or with a scale much smaller than the sheet's.
+    /// Returns the views that have no position, or a scale much smaller than the sheet's.
     pub(super) fn cramped_views(&self) -> impl Iterator<Item = &'a PlannedView> {
         let least = LEAST_FREE_SCALE * self.scale.ratio() * (1.0 - 1e-9);
         let small = self.views.iter().filter(move |view| view.scale.ratio() < least);
         self.left_out.iter().copied().chain(small.map(|view| view.planned))
     }
 
-    /// Returns the width and height that front, top and side views need at a scale, in millimeters.
+    /// Returns the width and height that the front, top and side views need at a scale, in
+    /// millimeters.
     pub(super) fn least_size(sheet: &Sheet, plan: &ViewPlan, scale: DrawingScale) -> DVec2 {
         ViewGrid::new(sheet, &plan.principal, scale).total_size()
     }
 
-    /// Returns the width and height always available to views, in millimeters.
+    /// Returns the width and height that are always available for views, in millimeters.
     pub(super) fn room_above_blocks(sheet: &Sheet) -> DVec2 {
         let [low, high] = area_above_blocks(sheet, TIGHT_GAP);
         (high - low).max(DVec2::ZERO)
     }
 
-    /// Whether more views are placed, or the same views at larger scales.
+    /// Whether more views are placed than in `other`, or the same views at larger scales.
     pub(super) fn is_better_than(&self, other: &Self) -> bool {
         let score = |layout: &Self| {
             let scales = layout.views.iter().map(|placed| placed.scale.ratio());
             [layout.scale.ratio(), -(layout.left_out.len() as f64), scales.product::<f64>()]
         };
         let (own, others) = (score(self), score(other));
-        // The last digits of a product of scales depend on the order of its factors.
+        // The tolerance is needed because the last digits of a product of scales depend on the
+        // order of its factors.
         let differs = |(a, b): &(f64, f64)| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
         own.into_iter().zip(others).find(differs).is_some_and(|(a, b)| a > b)
     }
 
-    /// Returns the contents of the frame: views with their annotations, title block and scale bar.
+    /// Returns the extents of everything in the frame: the views with their annotations, the title
+    /// block and the scale bar.
     pub(super) fn contents(&self, title_block: Rectangle) -> Vec<Extent> {
         let blocks = [title_block, self.scale_bar].map(extent_of_rectangle);
         self.views.iter().map(PlacedView::extent).chain(blocks).collect()
     }
 
-    /// Returns the error with the needed and available sizes, and a remedy.
+    /// Returns the error with the required and available sizes, and a remedy.
     fn too_large(sheet: &Sheet, plan: &ViewPlan) -> SheetError {
         let fits =
             |scale: &&DrawingScale| ViewLayout::arrange_at_scale(sheet, plan, **scale).is_some();
@@ -300,7 +304,7 @@ fn fit_into<'a>(
         let cell = if scale == sheet_scale {
             ViewCell::new(planned, sheet, scale)
         } else {
-            // A view at another scale must state it.
+            // A view at a different scale must state its scale.
             let annotations = planned.annotate_with_scale(sheet, scale);
             ViewCell::with_annotations(planned, scale, annotations)
         };
@@ -321,9 +325,10 @@ pub(super) struct Arrangement {
     pub(super) scale_bar: Rectangle,
 }
 
-/// Returns the arrangements to try, most even first.
+/// Returns the arrangements to try, with the most even spacing first.
 ///
-/// The last ones leave less space between views and frame, or move the scale bar out of the way.
+/// The last arrangements leave less space between the views and the frame, or move the scale bar
+/// out of the way.
 pub(super) fn arrangements(sheet: &Sheet) -> Vec<Arrangement> {
     let [low, high] = extent_of_rectangle(sheet.drawing_area());
     let whole = |gap: f64| [low + gap, high - gap];

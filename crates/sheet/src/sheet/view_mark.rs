@@ -1,4 +1,4 @@
-//! View marks: they show where other views of a sheet are taken from (ISO 128-3).
+//! View marks, which show where the other views on a sheet are taken from (ISO 128-3).
 //!
 //! ```text
 //!     B                      ┌───┐                   A              A
@@ -7,8 +7,8 @@
 //!    ╲_╱                             direction            ┗━─·─┘      wide ends and corners
 //! ```
 //!
-//! A letter is placed in free space beside the object; a leader line connects it to a circle inside
-//! the object.
+//! Letters are placed in free space beside the object. A leader line connects a letter to a circle
+//! inside the object.
 
 use super::annotation::{
     AnnotationLayer, AnnotationShape, AnnotationText, Extent, ViewAnnotations,
@@ -23,22 +23,23 @@ const CIRCLE_POINTS: u32 = 120;
 /// The number of directions to try for the letter of a detail.
 const LETTER_DIRECTIONS: u32 = 16;
 
-/// The number of positions farther out to try for a mark.
+/// The number of positions to try for a mark, farther and farther out.
 const STEPS: u32 = 40;
 
-/// The minimum width of objects, across a center line, that get one, in millimeters on paper.
+/// The minimum width across a center line, in millimeters on paper, that an object must have to get
+/// the line.
 const LEAST_WIDTH: f64 = 2.0;
 
-/// The length by which a center line extends beyond the view, in millimeters.
+/// The overhang of a center line beyond the view, in millimeters.
 const CENTER_LINE_OVERHANG: f64 = 3.0;
 
-/// A mark in a view: positions are in object millimeters from the center of the view, to the right
+/// A mark in a view. Positions are in object millimeters from the center of the view, to the right
 /// and down.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum ViewMark {
-    /// The circle around a detail; in the detail itself it has no letter.
+    /// The circle around a detail. In the detail itself it has no letter.
     Circle { center: DVec2, radius: f64, letter: Option<char> },
-    /// The viewing direction of another view: a unit vector.
+    /// The viewing direction of another view, as a unit vector.
     Direction { gaze: DVec2, letter: char },
     /// The line of a stepped section, and the unit vector toward the retained side.
     SteppedLine { corners: Vec<DVec2>, retained: DVec2, letter: char },
@@ -46,7 +47,7 @@ pub(super) enum ViewMark {
     CenterLine { through: DVec2, axis: usize },
 }
 
-/// The scale of a view, its object on the paper, and the character height.
+/// The scale of a view, the extent of its object on paper, and the character height.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct MarkSettings {
     pub(super) ratio: f64,
@@ -63,7 +64,7 @@ impl ViewMark {
         }
     }
 
-    /// Returns the space that the mark takes beside the object, in millimeters on paper.
+    /// Returns the space that the mark takes up beside the object, in millimeters on paper.
     pub(super) fn reserve(&self, settings: &MarkSettings) -> f64 {
         let MarkSettings { ratio, object, letters } = *settings;
         match self {
@@ -77,7 +78,7 @@ impl ViewMark {
         }
     }
 
-    /// Adds the lines, whose positions are fixed.
+    /// Adds the lines of the mark, which have fixed positions.
     pub(super) fn annotate(&self, annotations: &mut ViewAnnotations, settings: &MarkSettings) {
         let MarkSettings { ratio, object, .. } = *settings;
         match self {
@@ -90,7 +91,8 @@ impl ViewMark {
                 let corners = stepped_line(corners, ratio);
                 annotate_stepped_line(annotations, &corners, *retained);
             }
-            // An object seen as a line gets no line of symmetry: ISO 128 prefers outlines.
+            // An object seen as a line gets no line of symmetry, because ISO 128 gives outlines
+            // priority.
             Self::CenterLine { axis, .. }
                 if object[1][1 - *axis] - object[0][1 - *axis] < LEAST_WIDTH => {}
             Self::CenterLine { through, axis } => {
@@ -106,7 +108,7 @@ impl ViewMark {
         }
     }
 
-    /// Adds letters and arrows, each at the first free position.
+    /// Adds the letters and arrows of the mark, each at the first free position.
     pub(super) fn add_letters(&self, annotations: &mut ViewAnnotations, settings: &MarkSettings) {
         match self {
             Self::Circle { letter: None, .. } | Self::CenterLine { .. } => {}
@@ -132,7 +134,7 @@ impl ViewMark {
     }
 }
 
-/// Returns the corners on the paper, with both ends extended.
+/// Returns the corners of the line on paper, with both ends extended.
 fn stepped_line(corners: &[DVec2], ratio: f64) -> Vec<DVec2> {
     let mut corners: Vec<DVec2> = corners.iter().map(|corner| *corner * ratio).collect();
     let count = corners.len();
@@ -159,7 +161,7 @@ fn annotate_stepped_line(annotations: &mut ViewAnnotations, corners: &[DVec2], r
     }
 }
 
-/// Adds a letter at the end of a section line, beyond its arrow or beyond the line.
+/// Adds a letter at the end of a section line, beyond the arrow or beyond the line.
 pub(super) fn add_end_letter(
     annotations: &mut ViewAnnotations,
     end: DVec2,
@@ -184,8 +186,8 @@ pub(super) fn add_end_letter(
     annotations.push_first_free_text(AnnotationLayer::CutNames, places, settings.object);
 }
 
-/// Adds the letter of a circle, as close to it as possible, with a leader line if it is not beside
-/// it.
+/// Adds the letter of a circle, as close to the circle as possible, with a leader line unless it is
+/// right beside the circle.
 fn add_circle_letter(
     annotations: &mut ViewAnnotations,
     center: DVec2,
@@ -195,7 +197,7 @@ fn add_circle_letter(
 ) {
     let MarkSettings { object, letters, .. } = *settings;
     let mut places: Vec<(f64, DVec2)> = Vec::new();
-    // Starting at the upper right, where the letter is tried first.
+    // Starts at the upper right, which is tried first.
     let directions = circle_points(DVec2::ZERO, 1.0, LETTER_DIRECTIONS);
     let start = directions.len() - directions.len() / 8;
     for direction in directions.iter().cycle().skip(start).take(directions.len()) {
@@ -231,7 +233,7 @@ fn is_beside(point: DVec2, object: Extent, letters: f64) -> bool {
     (point + letters).cmplt(object[0]).any() || (point - letters).cmpgt(object[1]).any()
 }
 
-/// Returns the distance from a point to the exit of a ray from a rectangle, or 0 if the point is
+/// Returns the distance from a point to where a ray leaves a rectangle, or 0 if the point is
 /// outside.
 fn exit_distance(from: DVec2, direction: DVec2, [low, high]: Extent) -> f64 {
     let mut exit = f64::INFINITY;
@@ -244,7 +246,8 @@ fn exit_distance(from: DVec2, direction: DVec2, [low, high]: Extent) -> f64 {
     exit.max(0.0)
 }
 
-/// Adds an arrow toward the object with a letter behind it, in free space beside the object.
+/// Adds an arrow that points toward the object, with a letter behind it, in free space beside the
+/// object.
 fn add_direction(
     annotations: &mut ViewAnnotations,
     gaze: DVec2,
@@ -286,7 +289,7 @@ mod tests {
     };
 
     #[test]
-    fn rays_leave_rectangles_at_their_sides() {
+    fn rays_leave_rectangles_at_a_side() {
         let object = SETTINGS.object;
         assert_eq!(exit_distance(DVec2::new(10.0, 0.0), DVec2::X, object), 20.0);
         assert_eq!(exit_distance(DVec2::new(10.0, 0.0), -DVec2::Y, object), 30.0);
@@ -294,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn circles_are_to_scale_and_their_letters_beside_the_object() {
+    fn circles_are_to_scale_with_letters_beside_the_object() {
         let circle =
             ViewMark::Circle { center: DVec2::new(14.0, 0.0), radius: 4.0, letter: Some('B') };
         // 14 + 4 at 2:1 is 36, and the object ends at 30.
@@ -310,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn stepped_lines_extend_beyond_their_ends_only() {
+    fn stepped_lines_extend_only_at_their_ends() {
         let corners = [[-15.0, 0.0], [0.0, 0.0], [0.0, 5.0], [15.0, 5.0]].map(DVec2::from);
         let line = stepped_line(&corners, 2.0);
         assert_eq!(line[0], DVec2::new(-30.0 - OVERHANG, 0.0));

@@ -28,8 +28,8 @@ pub(super) struct ViewMeasures {
 }
 
 impl ViewPlan {
-    /// Assigns each dimension to the view that shows it, with warnings for those that no view
-    /// shows. Center lines are in every view except axonometric ones.
+    /// Assigns each dimension to the view that shows it, and warns about dimensions that no view
+    /// shows. Adds center lines to every view except axonometric views.
     pub(super) fn add_measures(&mut self, sheet: &Sheet, models: &[ModelInstance]) {
         if sheet.measures.is_empty() && !sheet.center_lines && !sheet.symmetry_lines {
             return;
@@ -64,7 +64,8 @@ impl ViewPlan {
         let points = world_points(models);
         for planned in planned {
             let PlannedView { view, measures, .. } = planned;
-            // The hull takes a pass over all points and only places dimensions.
+            // Computing the hull takes a pass over all points, and the hull is needed only to place
+            // dimensions.
             if !measures.dimensions.is_empty() {
                 let images = points.iter().map(|&point| view.image_of(point)).collect();
                 measures.hull = convex_hull(images);
@@ -74,7 +75,7 @@ impl ViewPlan {
 }
 
 impl Sheet {
-    /// Adds lines of symmetry, and center lines where there are none of these.
+    /// Adds lines of symmetry, and center lines that do not coincide with them.
     fn add_center_lines(&self, planned: &mut [&mut PlannedView], picker: &FeaturePicker<'_>) {
         if self.symmetry_lines {
             self.add_symmetry_lines(planned, picker);
@@ -91,13 +92,13 @@ impl Sheet {
 }
 
 impl ViewMeasures {
-    /// Returns the space that center lines may take around the object, in millimeters on paper.
+    /// Returns the space that center lines may take up around the object, in millimeters on paper.
     pub(super) fn reserve(&self) -> f64 {
         if self.center_lines.is_empty() { 0.0 } else { CENTER_LINE_OVERHANG }
     }
 
-    /// Adds the dimensions at a scale, clear of everything already there and of the overall
-    /// dimensions that will follow.
+    /// Adds the dimensions at a scale, clear of everything placed so far and of the overall
+    /// dimensions that are added later.
     pub(super) fn annotate(
         &self,
         annotations: &mut ViewAnnotations,

@@ -1,12 +1,11 @@
-//! View plan: the views of a sheet, the sections that cut each of them, and the annotations beside
-//! them.
+//! View plan: the views on a sheet, the sections that cut each view, and the annotations beside it.
 //!
-//! | section plane | where it is shown |
+//! | section plane | shown in |
 //! | --- | --- |
-//! | faced by the front, top or side view | that view is cut; the others show its line |
-//! | edge-on in one of them | a separate view onto the plane, and its line in the others |
-//! | oblique to all three | a separate view, and its line in an auxiliary view, with an arrow |
-//! | beside the object | nowhere, with a warning |
+//! | faces the front, top or side view | that view, which is cut; the others show its line |
+//! | edge-on in one of them | a separate view of the plane; the others show its line |
+//! | oblique to all three | a separate view; an auxiliary view, marked by an arrow, shows its line |
+//! | beside the object | no view, with a warning |
 //!
 //! Separate views and the axonometric view have no fixed position and are placed in free space.
 
@@ -36,7 +35,7 @@ use viewport::DrawingScale;
 #[derive(Clone, Debug)]
 pub(super) struct PlannedView {
     pub(super) view: SheetView,
-    /// The sides with an overall dimension.
+    /// The sides that have an overall dimension.
     pub(super) dimensions: Vec<OverallSide>,
     /// The planes whose section lines the view shows.
     pub(super) section_lines: Vec<LetteredPlane>,
@@ -44,13 +43,13 @@ pub(super) struct PlannedView {
     pub(super) letter: Option<char>,
     /// The requested dimensions and center lines.
     pub(super) measures: ViewMeasures,
-    /// The composition of the drawing.
+    /// The drawings that make up the view.
     pub(super) composition: Composition,
     /// The radius of a detail, in scene units.
     pub(super) detail_radius: Option<f64>,
     /// Marks of other views.
     pub(super) marks: Vec<ViewMark>,
-    /// Points and axes of the scene's overlays.
+    /// The points and axes of the scene's overlays.
     pub(super) overlays: ViewOverlays,
     /// The requested position of the view.
     pub(super) place: ViewPlace,
@@ -58,14 +57,14 @@ pub(super) struct PlannedView {
     pub(super) grid: Option<[i32; 2]>,
 }
 
-/// The views of a sheet.
+/// The views on a sheet.
 #[derive(Clone, Debug)]
 pub(super) struct ViewPlan {
     /// The front, top and side views.
     pub(super) principal: [PlannedView; 3],
-    /// Views without a fixed position: sections, then the axonometric view.
+    /// The views without a fixed position: sections, then the axonometric view.
     pub(super) free: Vec<PlannedView>,
-    /// All views in their places, if the sheet has requests.
+    /// All views that are placed instead, if the sheet has requests.
     pub(super) requested: Vec<PlannedView>,
     /// Warnings about sections that are not shown as requested.
     pub(super) warnings: Vec<SheetWarning>,
@@ -77,11 +76,11 @@ pub(super) struct PlanSubject<'a> {
     models: &'a [ModelInstance],
     /// All points of the models.
     pub(super) points: Vec<Point<World>>,
-    /// Points with the same extents along the axes as all points: the corners of the bounding box.
+    /// The corners of the bounding box, which have the same extents along the axes as all points.
     extreme: Vec<Point<World>>,
     /// The sections that cut something, numbered from 1.
     cutting: Vec<(Plane<World>, usize)>,
-    /// Warnings about the other sections.
+    /// Warnings about sections that cut nothing.
     idle: Vec<SheetWarning>,
 }
 
@@ -90,7 +89,7 @@ impl ViewPlan {
     ///
     /// # Errors
     /// [`SheetError::Empty`] if there is nothing to draw, [`SheetError::View`] if a view has no
-    /// camera, [`SheetError::Request`] if a requested view cannot be made.
+    /// valid camera, [`SheetError::Request`] if a requested view is not possible.
     pub(super) fn new(
         sheet: &Sheet,
         models: &[ModelInstance],
@@ -104,8 +103,9 @@ impl ViewPlan {
             [named(NamedView::Front)?, named(NamedView::Top)?, side].map(PlannedView::plain);
         let (mut free, warnings) = subject.assign_sections(&mut principal)?;
         if sheet.dimensions {
-            // In first angle the top view is below the front view, so the width is given above; in
-            // third angle the reverse.
+            // In first-angle projection the top view is below the front view, so the width is
+            // dimensioned above the front view. In third-angle projection it is the other way
+            // around.
             let first = sheet.projection_angle == SheetAngle::First;
             let across = if first { OverallSide::Above } else { OverallSide::Below };
             principal[0].dimensions = vec![across, OverallSide::Left];
@@ -115,7 +115,7 @@ impl ViewPlan {
             free.push(PlannedView::plain(subject.cut_view(name)?));
         }
         let mut plan = Self { principal, free, requested: Vec::new(), warnings };
-        // Requests may replace all views, so measures and overlays follow.
+        // Requests may replace all views, so measures and overlays are added afterward.
         plan.add_requests(&subject)?;
         plan.add_measures(sheet, models);
         plan.add_overlays(sheet, models);
@@ -133,13 +133,14 @@ impl<'a> PlanSubject<'a> {
         let warnings = warnings.map(SheetWarning::from).collect();
         let cutting =
             numbered().filter(|(plane, number)| idle(*plane, *number).is_none()).collect();
-        // Along the axes, the corners of the bounding box have the same extents as all points.
+        // For views along the axes, the corners of the bounding box have the same extents as all
+        // points.
         let corners = Bounds::from_points(points.iter().copied()).map(Bounds::corners);
         let extreme = corners.map(Vec::from).unwrap_or_default();
         Self { sheet, models, points, extreme, cutting, idle: warnings }
     }
 
-    /// Millimeters per scene unit.
+    /// Returns the number of millimeters per scene unit.
     pub(super) const fn unit(&self) -> f64 {
         self.sheet.millimeters_per_unit
     }
@@ -174,7 +175,8 @@ impl<'a> PlanSubject<'a> {
         Ok(PlannedView::plain(view))
     }
 
-    /// Returns the views with these names, with sections and overall dimensions, and section views.
+    /// Returns the views with these names, with their sections and overall dimensions, and the
+    /// section views.
     pub(super) fn named_views(
         &self,
         names: &[(NamedView, &ViewPlace)],
@@ -194,8 +196,8 @@ impl<'a> PlanSubject<'a> {
         Ok((along_axes.into_iter().chain(free).chain(axonometric).collect(), warnings))
     }
 
-    /// Cuts the views along the axes that face a section, marks its line in the others, and returns
-    /// the views that the remaining sections need.
+    /// Cuts the views along the axes that face a section, marks the section line in the others, and
+    /// returns separate views for the remaining sections.
     fn assign_sections(
         &self,
         views: &mut [PlannedView],
@@ -237,8 +239,9 @@ impl<'a> PlanSubject<'a> {
         Ok((free, warnings))
     }
 
-    /// Returns the view onto a section plane oblique to all views, and an auxiliary view that sees
-    /// it edge-on, with its line, or `None` if no view can show the direction.
+    /// Returns the view of a section plane that is oblique to all views, and an auxiliary view that
+    /// sees the plane edge-on and shows its line. Returns `None` if no view can show the direction
+    /// of the auxiliary view.
     fn oblique_section(
         &self,
         views: &mut [PlannedView],
@@ -247,7 +250,8 @@ impl<'a> PlanSubject<'a> {
     ) -> Result<Option<[PlannedView; 2]>, SheetError> {
         let LetteredPlane { plane, letter } = section;
         let normal = Vector::from_raw(plane.normal().raw());
-        // A horizontal gaze along the plane: the top view shows its direction at full length.
+        // The auxiliary view looks horizontally along the plane, so the top view shows its
+        // direction at full length.
         let level = unit_vector(normal.cross(Vector::Y)).unwrap_or(Vector::X);
         if !mark_direction(views, level, auxiliary) {
             return Ok(None);
@@ -285,8 +289,8 @@ fn add_dimensions(views: &mut [PlannedView], angle: SheetAngle) {
     }
 }
 
-/// Returns the view beside the front view: the requested one, or the default of the projection
-/// angle, or its opposite if only that faces a section.
+/// Returns the view beside the front view: the requested view or the projection angle's default, or
+/// the opposite of the default if only that view faces a section.
 fn side_view(
     sheet: &Sheet,
     planes: &[Plane<World>],
@@ -303,7 +307,7 @@ fn side_view(
 }
 
 impl PlannedView {
-    /// Plans a view with nothing beside it.
+    /// Plans a view without annotations.
     pub(super) fn plain(view: SheetView) -> Self {
         Self {
             view,
@@ -320,7 +324,7 @@ impl PlannedView {
         }
     }
 
-    /// Plans the view as the view of a section.
+    /// Sets the letter of the section that the view shows.
     pub(super) fn with_letter(self, letter: char) -> Self {
         Self { letter: Some(letter), ..self }
     }
@@ -333,12 +337,12 @@ impl PlannedView {
         Self { section_lines: shown.collect(), ..self }
     }
 
-    /// Whether the view is one of the six along the axes.
+    /// Whether the view is one of the six views along the axes.
     pub(super) fn is_along_axis(&self) -> bool {
         matches!(self.view.name, ViewName::Named(name) if NamedView::PRINCIPAL.contains(&name))
     }
 
-    /// Whether the view is uncut, and along an axis or onto an oblique face.
+    /// Whether the view is uncut, and looks along an axis or is a detail.
     pub(super) fn is_outside_view(&self) -> bool {
         let is_outside = match self.view.name {
             ViewName::Named(_) => self.is_along_axis(),
@@ -355,8 +359,8 @@ impl PlannedView {
             || matches!(self.composition, Composition::Local { .. })
     }
 
-    /// Whether the view can have dimensions and center lines: it is not axonometric, not composed
-    /// of moved pieces, and shows the whole object.
+    /// Whether the view can have dimensions and center lines, that is, it is not axonometric, has
+    /// no moved pieces, and shows the whole object.
     pub(super) fn takes_measures(&self) -> bool {
         let is_axonometric = matches!(self.view.name, ViewName::Named(_)) && !self.is_along_axis();
         let is_broken = matches!(self.composition, Composition::Broken(_));
@@ -373,12 +377,12 @@ impl PlannedView {
         }
     }
 
-    /// Returns the view before a part of it was omitted.
+    /// Returns the view as it was before a part was omitted.
     pub(super) fn drawn_view(&self) -> SheetView {
         self.view.with_size(self.view.size + self.left_out())
     }
 
-    /// Returns the lengths across and up omitted from the view, in object millimeters.
+    /// Returns the horizontal and vertical lengths omitted from the view, in object millimeters.
     fn left_out(&self) -> DVec2 {
         match &self.composition {
             Composition::Broken(part) => part.length(),
@@ -413,7 +417,7 @@ impl PlannedView {
         for (layer, caption) in self.captions(scale) {
             add_caption(&mut annotations, layer, &caption, object, letters);
         }
-        // If the view does not fit, there is no need to search for positions, which would be many.
+        // If the view does not fit, a search through its many positions is pointless.
         let paper = DVec2::new(sheet.paper.width(), sheet.paper.height());
         if (half * 2.0).cmple(paper).all() {
             self.overlays.annotate(&mut annotations, &mark_settings);
@@ -449,7 +453,8 @@ impl PlannedView {
         captions
     }
 
-    /// Like [`annotate`](Self::annotate), with a note of the scale if it differs from the sheet's.
+    /// Returns the annotations like [`annotate`](Self::annotate), with a note of the view's scale,
+    /// which differs from the sheet's.
     pub(super) fn annotate_with_scale(
         &self,
         sheet: &Sheet,
@@ -466,7 +471,7 @@ impl PlannedView {
         annotations
     }
 
-    /// Draws the view, composed of its parts.
+    /// Draws the view from its parts.
     pub(super) fn draw(
         &self,
         surfaces: &mut SurfaceCache<'_>,

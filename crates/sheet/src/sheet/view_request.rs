@@ -1,4 +1,4 @@
-//! View requests: additional views of a sheet beyond front, top, side and axonometric views, and
+//! View requests: views in addition to the front, top, side and axonometric views of a sheet, and
 //! changes to views.
 
 use camera::NamedView;
@@ -9,21 +9,22 @@ use viewport::DrawingScale;
 /// The position, scale and caption of a view on its sheet.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct ViewPlace {
-    /// The center of the view, in millimeters from the upper left corner of the paper, or `None`
-    /// for the position given by the projection angle, or for free space.
+    /// The center of the view, in millimeters from the upper left corner of the paper, or `None` to
+    /// place it according to the projection angle or in free space.
     pub at: Option<DVec2>,
-    /// The scale, or `None` for the sheet's scale, or a smaller one in free space if necessary.
+    /// The scale. `None` means the sheet's scale, or a smaller scale in free space if necessary.
     pub scale: Option<DrawingScale>,
-    /// The text below the view, or `None` for none, or for letter and scale.
+    /// The text below the view. `None` means no text, or the letter and scale for views that have
+    /// them.
     pub caption: Option<String>,
 }
 
-/// A side of a view, on the paper.
+/// A side of a view, as seen on paper.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ViewSide {
-    /// The half to the left.
+    /// The left half.
     Left,
-    /// The half to the right.
+    /// The right half.
     Right,
     /// The upper half.
     Top,
@@ -31,10 +32,10 @@ pub enum ViewSide {
     Bottom,
 }
 
-/// A view of a sheet, or a change to one of its views.
+/// A view on a sheet, or a change to one of its views.
 ///
-/// Without a request for a [`Named`](Self::Named) view, a sheet has front, top, side and
-/// axonometric views in addition to the requested ones.
+/// If no [`Named`](Self::Named) view is requested, a sheet has front, top, side and axonometric
+/// views in addition to the requested views.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum ViewRequest {
@@ -45,7 +46,7 @@ pub enum ViewRequest {
         /// Its place.
         place: ViewPlace,
     },
-    /// A part of a view at a larger scale, within a circle that the view shows with a letter.
+    /// Part of a view at a larger scale. The view marks it with a circle and a letter.
     Detail {
         /// The view that is enlarged.
         of: NamedView,
@@ -53,22 +54,22 @@ pub enum ViewRequest {
         center: Point<World>,
         /// The radius of the circle, in scene units.
         radius: f64,
-        /// Its place. By default its scale is two to five times the scale of the view.
+        /// Its place. By default, the scale is two to five times the scale of the view.
         place: ViewPlace,
     },
     /// A section along parallel planes joined by steps (ISO 128-3, 5.4).
     Stepped {
         /// The direction of the removed part.
         removed: Vector<World>,
-        /// The corners of the cut line: pieces perpendicular to `removed` alternate with steps
-        /// along it, beginning and ending with a piece.
+        /// The corners of the cut line. Pieces perpendicular to `removed` alternate with steps
+        /// along it; the line begins and ends with a piece.
         corners: Vec<Point<World>>,
         /// Its place.
         place: ViewPlace,
     },
-    /// A view onto a face oblique to the views along the axes, with an arrow and a letter.
+    /// A view of a face that is oblique to the views along the axes, with an arrow and a letter.
     Auxiliary {
-        /// The direction that the face points in: toward the viewer.
+        /// The direction in which the face points, toward the viewer.
         facing: Vector<World>,
         /// Its place.
         place: ViewPlace,
@@ -83,24 +84,24 @@ pub enum ViewRequest {
         /// The half that is cut.
         side: ViewSide,
     },
-    /// A view cut around a point, up to a freehand line (ISO 128-3, 5.6).
+    /// A view that is cut around a point, within a freehand line (ISO 128-3, 5.6).
     LocalSection {
         /// The view.
         of: NamedView,
-        /// The center: a point in the section plane.
+        /// The center, a point in the section plane.
         center: Point<World>,
         /// The mean distance of the freehand line from the center, in scene units.
         radius: f64,
     },
-    /// A view without a part of its length (ISO 128-3, 4.4.7); dimensions remain true.
+    /// A view from which part of the length is omitted (ISO 128-3, 4.4.7). Dimensions remain true.
     Broken {
         /// The view, or `None` for all views along the axes that show the length.
         of: Option<NamedView>,
         /// The axis of the length: 0 for x, 1 for y, 2 for z.
         axis: usize,
-        /// The start of the omitted part on this axis.
+        /// The start of the omitted part along this axis.
         from: f64,
-        /// Its end.
+        /// The end of the omitted part.
         to: f64,
     },
 }

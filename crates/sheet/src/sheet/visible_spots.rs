@@ -1,9 +1,9 @@
 //! Visible spots of parts in a parallel view, where the leaders of balloons end.
 //!
 //! ```text
-//!   ┌─────────┐      a z-buffer of the parts' numbers, one sample in the middle of a pixel;
-//!   │ 1 1 2 2 │      the spot of a part is the sample that is farthest from every other part,
-//!   │ 1 1 2 ● │      from the paper and from the border
+//!   ┌─────────┐      a z-buffer of part numbers, with one sample in the middle of each pixel;
+//!   │ 1 1 2 2 │      the spot of a part is the sample farthest from all other parts,
+//!   │ 1 1 2 ● │      the paper and the border
 //!   └─────────┘
 //! ```
 
@@ -16,7 +16,7 @@ use model::ModelInstance;
 use std::collections::BTreeMap;
 use viewport::DrawingScale;
 
-/// The number of pixels on the longer side of the view.
+/// The number of pixels along the longer side of the view.
 const LONG_SIDE: f64 = 1200.0;
 
 /// The index of 1:1 among the standard scales.
@@ -30,7 +30,8 @@ const NO_PART: u32 = u32::MAX;
 pub(super) struct VisibleSpot {
     /// The position from the center of the view, to the right and down, in scene units.
     pub(super) at: DVec2,
-    /// Half the side of a square around it in which only this part is visible, in scene units.
+    /// Half the side of a square around the position in which only this part is visible, in scene
+    /// units.
     pub(super) clearance: f64,
 }
 
@@ -38,11 +39,11 @@ pub(super) struct VisibleSpot {
 pub(super) struct MovedParts<'a> {
     pub(super) parts: &'a [Part],
     pub(super) models: &'a [ModelInstance],
-    /// One move for each part.
+    /// The move of each part.
     pub(super) moves: &'a [DVec3],
 }
 
-/// For each part, the spot of a view that shows it best, or `None` for parts that are hidden or
+/// Finds the spot in a view that shows each part best, or `None` for parts that are hidden or
 /// narrower than a pixel.
 pub(super) fn find_visible_spots(
     moved: &MovedParts<'_>,
@@ -63,8 +64,8 @@ pub(super) fn find_visible_spots(
     spots
 }
 
-/// Gives parts without a spot, which are narrower than a pixel, the middle of their longest visible
-/// edge piece. `object` is the index of a part in the drawing of the view.
+/// Sets the spot of parts without one, which are narrower than a pixel, to the middle of their
+/// longest visible edge segment. `object` maps a part to its object in the drawing of the view.
 pub(super) fn add_spots_on_edges(
     spots: &mut [Option<VisibleSpot>],
     drawing: &Drawing,
@@ -97,7 +98,7 @@ struct PartImage {
     height: usize,
     pixels_per_unit: f64,
     parts: Vec<u32>,
-    /// The view-space z of the nearest part: larger is nearer.
+    /// The view-space z of the nearest part; larger is nearer.
     depths: Vec<f64>,
 }
 
@@ -133,11 +134,11 @@ impl PartImage {
         DVec2::new(self.width as f64, self.height as f64) * 0.5
     }
 
-    /// Draws one triangle row by row: in each row, the pixel centers between its sides.
+    /// Draws one triangle row by row, covering the pixel centers between its sides in each row.
     fn fill_triangle(&mut self, corners: [DVec3; 3], number: u32) {
         let [a, b, c] = corners;
         let normal = (b - a).cross(c - a);
-        // A triangle seen edge-on covers no pixel.
+        // A triangle seen edge-on covers no pixels.
         if !normal.is_finite() || normal.z == 0.0 {
             return;
         }
@@ -149,7 +150,8 @@ impl PartImage {
             let y = row as f64 + 0.5;
             let mut span = [f64::INFINITY, f64::NEG_INFINITY];
             for [from, to] in [[a, b], [b, c], [c, a]] {
-                // Half-open, so that a row through a vertex meets two sides and not three.
+                // The interval is half-open, so that a row through a vertex meets two sides, not
+                // three.
                 if (from.y <= y) != (to.y <= y) {
                     let x = from.x + (to.x - from.x) * ((y - from.y) / (to.y - from.y));
                     span = [span[0].min(x), span[1].max(x)];
@@ -170,8 +172,8 @@ impl PartImage {
         }
     }
 
-    /// For each pixel, the number of steps to a neighbor, including diagonal ones, to reach another
-    /// part, paper or the border: two passes, from above and from below.
+    /// Returns, for each pixel, the number of steps between neighbors, including diagonals, to
+    /// reach another part, the paper or the border. Uses two passes, from above and from below.
     fn distances_to_others(&self) -> Vec<u32> {
         let (width, height) = (self.width as isize, self.height as isize);
         let mut distances = vec![u32::MAX / 2; self.parts.len()];
@@ -217,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn spots_lie_on_the_nearest_part() {
+    fn spots_are_on_the_nearest_part() {
         let mut state = 11_u64;
         let mut fraction = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888);
@@ -236,7 +238,7 @@ mod tests {
         let to_view = view.camera.world_to_view();
         for (part, spot) in spots.iter().enumerate() {
             let Some(VisibleSpot { at, .. }) = spot else { continue };
-            // The nearest triangle at the spot, by barycentric coordinates.
+            // Finds the nearest triangle at the spot with barycentric coordinates.
             let depth = |number: usize| {
                 let [a, b, c] = corners[number].map(|corner| {
                     let world = DVec3::from(corner.map(f64::from)) + moves[number];

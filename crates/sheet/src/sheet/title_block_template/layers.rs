@@ -1,4 +1,4 @@
-//! A title block drawn on a sheet from its template.
+//! Draws a title block on a sheet from its template.
 
 use super::{FieldValues, TitleBlockTemplate};
 use crate::sheet::projection_symbol::projection_symbol;
@@ -21,19 +21,20 @@ impl TitleBlockTemplate {
         (most / self.size).min_element().min(1.0)
     }
 
-    /// The area of the block: the lower right corner of the frame.
+    /// Returns the area of the block, in the lower right corner of the frame.
     pub(in crate::sheet) fn area(&self, frame: Rectangle) -> Rectangle {
         let size = self.size * self.scale_within(frame);
         let high = DVec2::new(frame.x() + frame.width(), frame.y() + frame.height());
         rectangle_from_size(high.x - size.x, high.y - size.y, size.x, size.y)
     }
 
-    /// All texts with their fields filled in, to search for characters that the font lacks.
+    /// Returns all texts with their fields filled in, which are searched for characters missing
+    /// from the font.
     pub(in crate::sheet) fn contents(&self, values: &FieldValues<'_>) -> Vec<String> {
         self.texts.iter().map(|text| text.content(values)).collect()
     }
 
-    /// The lines and texts of the block, one layer for each line width.
+    /// Returns the lines and texts of the block, with one layer for each line width.
     pub(in crate::sheet) fn layers(
         &self,
         sheet: &Sheet,
@@ -47,7 +48,7 @@ impl TitleBlockTemplate {
         let factor = self.scale_within(sheet.drawing_area());
         let corner = DVec2::new(area.x(), area.y());
         let on_sheet = |point: DVec2| corner + point * factor;
-        // Widths in micrometers, so that they can be ordered.
+        // Widths are in micrometers, so that they can be ordered.
         let mut lines: BTreeMap<u32, Vec<Polyline>> = BTreeMap::new();
         let mut texts: BTreeMap<u32, Vec<Group>> = BTreeMap::new();
         let key = |width: f64| libm::round(width.max(0.0) * 1000.0) as u32;
@@ -97,7 +98,7 @@ fn pen_of_width(width: u32, ink: Ink) -> Pen {
     Pen::solid(f64::from(width) / 1000.0, ink)
 }
 
-/// Returns the id of a layer: its name, with a number from the second layer on.
+/// Returns the id of a layer, which is its name, followed by a number from the second layer on.
 fn layer_id(name: &str, index: usize) -> String {
     if index == 0 { name.to_owned() } else { format!("{name}-{}", index + 1) }
 }

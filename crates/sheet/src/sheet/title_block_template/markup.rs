@@ -1,18 +1,18 @@
-//! A reader for the XML of templates: elements, quoted attributes and texts.
+//! A reader for template XML: elements, quoted attributes and text.
 //!
-//! It reads the output of drawing programs. A document type, which could define entities, is an
-//! error.
+//! It reads the output of drawing programs. A document type declaration is an error, because it
+//! could define entities.
 
 use super::TemplateError;
 use super::path_data::parse_number;
 
-/// The maximum nesting of elements.
+/// The maximum nesting depth of elements.
 const MAX_DEPTH: usize = 64;
 
-/// An event of the document.
+/// An event while reading the document.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum Event<'a> {
-    /// A start tag, or an empty element, which is followed by its end.
+    /// A start tag, or an empty element, which is followed by an end event.
     Start(Element<'a>),
     /// The text between two tags, with references replaced.
     Text(String),
@@ -20,20 +20,20 @@ pub(super) enum Event<'a> {
     End(&'a str),
 }
 
-/// An element, by its start tag.
+/// The start tag of an element.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Element<'a> {
     pub(super) name: &'a str,
-    /// The byte of its `<`.
+    /// The byte position of its `<`.
     pub(super) at: usize,
-    /// Names, values and the bytes where the values begin.
+    /// Names, values and the byte positions where the values begin.
     attributes: Vec<(&'a str, &'a str, usize)>,
 }
 
 /// Elements whose contents do not draw anything.
 const SILENT: [&str; 4] = ["metadata", "title", "desc", "defs"];
 
-/// Attributes that change nothing, because sheets have one ink and one font.
+/// Attributes that have no effect, because sheets have one ink and one font.
 const NEUTRAL: [&str; 14] = [
     "id",
     "class",
@@ -76,13 +76,14 @@ const READ: [&str; 20] = [
 ];
 
 impl<'a> Element<'a> {
-    /// Returns the value of an attribute and the byte where it begins.
+    /// Returns the value of an attribute and the byte position where it begins.
     pub(super) fn attribute(&self, name: &str) -> Option<(&'a str, usize)> {
         let found = self.attributes.iter().find(|(own, ..)| *own == name);
         found.map(|(_, value, at)| (*value, *at))
     }
 
-    /// Returns the number in an attribute: in units of the view box, optionally with `mm` or `px`.
+    /// Parses the number in an attribute, which is in units of the view box and may end in `mm` or
+    /// `px`.
     pub(super) fn number(
         &self,
         source: &str,
@@ -97,7 +98,7 @@ impl<'a> Element<'a> {
         })
     }
 
-    /// Returns the number in an attribute that must be greater than 0.
+    /// Parses the number in an attribute, which must be greater than 0.
     pub(super) fn size(
         &self,
         source: &str,
@@ -131,12 +132,12 @@ impl<'a> Element<'a> {
     }
 }
 
-/// Reads events one after the other.
+/// Reads the document event by event.
 pub(super) struct MarkupReader<'a> {
     source: &'a str,
     at: usize,
     open: Vec<&'a str>,
-    /// The end of an empty element, not yet reported.
+    /// The pending end event of an empty element.
     pending_end: bool,
 }
 
@@ -145,7 +146,7 @@ impl<'a> MarkupReader<'a> {
         Self { source, at: 0, open: Vec::new(), pending_end: false }
     }
 
-    /// Returns the next event; `None` at the end of the document.
+    /// Returns the next event, or `None` at the end of the document.
     pub(super) fn next(&mut self) -> Result<Option<Event<'a>>, TemplateError> {
         loop {
             if core::mem::take(&mut self.pending_end) {
@@ -169,7 +170,7 @@ impl<'a> MarkupReader<'a> {
                 return self.end_tag(after).map(Some);
             } else if rest.starts_with('<') {
                 let element = self.start_tag()?;
-                // Metadata of drawing programs, such as `sodipodi:namedview`.
+                // Skips metadata of drawing programs, such as `sodipodi:namedview`.
                 if SILENT.contains(&element.name) || element.name.contains(':') {
                     self.skip_element(element.name)?;
                 } else {
@@ -186,14 +187,14 @@ impl<'a> MarkupReader<'a> {
         TemplateError::at(self.source, self.at, message)
     }
 
-    /// Skips past the end of a comment or an instruction.
+    /// Skips to the end of a comment or a processing instruction.
     fn skip_past(&mut self, rest: &str, end: &str, begun: usize) -> Result<(), TemplateError> {
         let length = rest.find(end).ok_or_else(|| self.fault(format!("missing `{end}`")))?;
         self.at += begun + length + end.len();
         Ok(())
     }
 
-    /// Skips past the end of an element that has just begun.
+    /// Skips to the end of an element that has just begun.
     fn skip_element(&mut self, name: &str) -> Result<(), TemplateError> {
         let depth = self.open.len();
         loop {
@@ -275,7 +276,7 @@ impl<'a> MarkupReader<'a> {
         Ok(())
     }
 
-    /// Reads the text up to the next tag, with white space as single blanks.
+    /// Reads the text up to the next tag, replacing runs of whitespace with single spaces.
     fn text(&mut self) -> Result<Event<'a>, TemplateError> {
         let rest = &self.source[self.at..];
         let own = &rest[..rest.find('<').unwrap_or(rest.len())];
@@ -295,7 +296,7 @@ impl<'a> MarkupReader<'a> {
     }
 }
 
-/// Returns the character of a reference.
+/// Returns the character for a reference.
 fn reference(name: &str) -> Option<char> {
     match name {
         "amp" => Some('&'),

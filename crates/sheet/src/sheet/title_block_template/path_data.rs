@@ -3,21 +3,22 @@
 use super::TemplateError;
 use glam::DVec2;
 
-/// The largest coordinate, in millimeters: far beyond any paper.
+/// The largest coordinate in millimeters, which is far beyond any paper.
 const MAX_COORDINATE: f64 = 1e5;
 
-/// Points, and whether the line through them is closed.
+/// Points, and whether the line through the points is closed.
 pub(super) type Line = (Vec<DVec2>, bool);
 
-/// Parses a finite number in the range of paper sizes.
+/// Parses a finite number up to [`MAX_COORDINATE`].
 pub(super) fn parse_number(text: &str) -> Option<f64> {
     let number: f64 = text.trim().parse().ok()?;
     (number.abs() <= MAX_COORDINATE).then_some(number)
 }
 
-/// Returns the words of a list: numbers and command letters, with the bytes where they begin.
+/// Splits a list into words, which are numbers and command letters, with the byte positions where
+/// they begin.
 ///
-/// Numbers may be separated by blanks, commas, a sign or a second decimal point, as drawing
+/// Numbers may be separated by whitespace, commas, a sign or a second decimal point, as drawing
 /// programs write them.
 fn words(text: &str, start: usize) -> Vec<(&str, usize)> {
     let mut words = Vec::new();
@@ -31,7 +32,7 @@ fn words(text: &str, start: usize) -> Vec<(&str, usize)> {
             continue;
         }
         let is_number = |c: u8| c.is_ascii_digit() || matches!(c, b'+' | b'-' | b'.');
-        // A whole character, so that slices end at character boundaries.
+        // Takes a whole character, so that slices end at character boundaries.
         at += text[at..].chars().next().map_or(1, char::len_utf8);
         if is_number(c) {
             let mut has_point = c == b'.';
@@ -52,7 +53,7 @@ fn words(text: &str, start: usize) -> Vec<(&str, usize)> {
     words
 }
 
-/// Parses the numbers in an attribute; empty without it.
+/// Parses the numbers in an attribute. Returns an empty list if the attribute is missing.
 pub(super) fn parse_numbers(
     source: &str,
     attribute: Option<(&str, usize)>,
@@ -65,7 +66,7 @@ pub(super) fn parse_numbers(
     words(text, start).into_iter().map(number).collect()
 }
 
-/// Parses the lines of the path in an attribute.
+/// Parses the path in an attribute into lines.
 pub(super) fn parse_path(
     source: &str,
     attribute: Option<(&str, usize)>,
@@ -108,12 +109,12 @@ pub(super) fn parse_path(
         };
         if letter.eq_ignore_ascii_case(&'m') {
             lines.push((vec![to], false));
-            // Further points after M are lines.
+            // Additional points after M are lines.
             command = Some(if letter == 'm' { 'l' } else { 'L' });
         } else {
             match lines.last_mut() {
                 None => return Err(fault("a path must begin with M".to_owned())),
-                // After Z, the next line begins where the last one began.
+                // After Z, the next line begins where the previous line began.
                 Some((_, true)) => lines.push((vec![pen, to], false)),
                 Some((points, false)) => points.push(to),
             }

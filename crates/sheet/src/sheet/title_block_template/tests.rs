@@ -1,4 +1,4 @@
-//! Valid templates, and the positions of errors in others.
+//! Tests of valid templates, and of error positions in invalid templates.
 
 use super::*;
 
@@ -15,7 +15,7 @@ fn points(content: &str) -> Vec<[f64; 2]> {
 }
 
 #[test]
-fn shapes_are_lines() {
+fn shapes_become_lines() {
     let square = [[1.0, 2.0], [4.0, 2.0], [4.0, 7.0], [1.0, 7.0]];
     for content in [
         "<rect x='1' y='2' width='3' height='5'/>",
@@ -103,7 +103,7 @@ fn unsupported_markup_is_reported_with_its_location() {
 }
 
 #[test]
-fn damaged_files_are_errors_and_never_more() {
+fn corrupt_files_give_errors_without_panics() {
     let good = "<svg viewBox='0 0 90 30'><!-- é --><g><path d='M0 0h5.5.5z'/></g>\
                 <text x='2' font-size='5'>{title} &amp; {{ü</text></svg>";
     let pieces =
