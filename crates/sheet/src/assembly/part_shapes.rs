@@ -2,7 +2,7 @@
 //! of a grid.
 //!
 //! ```text
-//!        ┆ column ┆              a column is the cross-section of a box, unbounded along the axis;
+//!        ┆ column ┆              a column is the cross-section of a box, without ends;
 //!   ┌────┆───┐    ┆              triangles are clipped to it, so the result is exact
 //!   │    ┆   └────┆──┐ ◄ reach
 //!   └────┆────────┆──┘

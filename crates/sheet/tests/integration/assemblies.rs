@@ -18,7 +18,7 @@ use sheet::{
 use std::sync::Arc;
 use viewport::Paper;
 
-/// An A3 sheet with every page of an assembly.
+/// Returns a sheet with every page of an assembly.
 fn assembly_sheet(paper: (Paper, &'static str)) -> Sheet {
     let assembly = AssemblyPages { parts_list: true, balloons: true, ..AssemblyPages::default() };
     Sheet { assembly, ..sheet(paper, SheetAngle::First) }
@@ -27,7 +27,7 @@ fn assembly_sheet(paper: (Paper, &'static str)) -> Sheet {
 /// The papers used in most tests.
 const PAPERS: [(Paper, &str); 2] = [(Paper::A3, "A3"), (Paper::A4, "A4")];
 
-/// All faults of pages.
+/// Returns all faults of pages.
 fn faults_of_pages(pages: &[SheetPage]) -> Vec<String> {
     let numbered = pages.iter().zip(1..);
     numbered
@@ -39,8 +39,8 @@ fn faults_of_pages(pages: &[SheetPage]) -> Vec<String> {
 }
 
 #[test]
-fn an_assembly_of_fifty_parts_has_a_right_list_and_legible_pages() {
-    // Ten kinds of parts, five of each.
+fn an_assembly_of_fifty_parts_has_a_correct_list_and_legible_pages() {
+    // There are ten kinds of parts, five of each.
     let models = [stacked_assembly(10, 5)];
     for (paper, name) in PAPERS {
         for paper in [paper, paper.rotated()] {
@@ -89,14 +89,14 @@ fn fifty_different_parts_take_three_pages() {
     assert_eq!((pages.len(), faults_of_pages(&pages)), (3, Vec::new()));
     assert_eq!(crossing_leaders(&pages[1]), [""; 0]);
     assert_eq!(texts(&pages[1], "balloon-numbers").len(), 50, "{:?}", pages[1].warnings);
-    // A heading and 50 rows, in two columns of the third page.
+    // The third page has 50 rows in two columns, each with a heading.
     assert_eq!(texts(&pages[2], "parts-list-text").len(), 2 * 4 + 50 * 4);
     assert!(layer(&pages[1], "parts-list").is_none());
 }
 
 #[test]
 fn a_thousand_parts_are_listed_and_numbered() {
-    // A thousand take a minute; `cargo xtask test units-all` sets the variable.
+    // A thousand parts take a minute. `cargo xtask test units-all` sets the variable.
     let (parts, each) =
         if std::env::var_os("THOROUGH").is_some() { (1000, 100) } else { (150, 15) };
     for (kinds, models) in [(parts, scattered_parts(parts)), (10, stacked_assembly(10, each))] {
@@ -145,7 +145,7 @@ fn masses_are_volume_times_density() {
     };
     let densities = [density("steel", 8.0), density("bar", 2.0), density("*", 1.0)];
     let list = PartsList::new(&models, &densities, 1.0);
-    // A hexagon with corner radius r has an area of 3/2 √3 r²; twice as wide because of the scale.
+    // A hexagon with circumradius r has an area of 3/2 √3 r². The scale makes it twice as wide.
     let bar = 1.5 * libm::sqrt(3.0) * 100.0 * 30.0 * 2.0 / 1000.0 * 2.0;
     let expected = [Some(6.0 * 8.0), Some(bar), None, Some(0.001)];
     for (item, expected) in list.items.iter().zip(expected) {
@@ -165,14 +165,14 @@ fn masses_are_volume_times_density() {
 }
 
 #[test]
-fn copies_count_as_one_part_and_others_do_not() {
+fn only_identical_copies_count_as_one_part() {
     let size = DVec3::new(3.0, 2.0, 1.0);
     let nodes: Vec<(String, usize, Affine<_, _>)> = vec![
         ("bolt.001".to_owned(), 0, placed(DVec3::X * 5.0, 0.0)),
-        // Rotated, and a copy of the mesh in the file.
+        // Rotated, and with a copy of the mesh in the file.
         ("bolt.002".to_owned(), 1, placed(DVec3::X * 15.0, 1.1)),
         ("bolt".to_owned(), 0, placed(DVec3::X * 25.0, 0.3)),
-        // With another size, mirrored, with another name, with another material.
+        // With a different size, mirrored, with a different name, and with a different material.
         ("bolt.003".to_owned(), 0, Affine::scale(1.1, 1.0, 1.0)),
         ("bolt.004".to_owned(), 0, Affine::scale(-1.0, 1.0, 1.0)),
         ("screw".to_owned(), 0, placed(DVec3::Z * 20.0, 0.0)),
@@ -180,7 +180,7 @@ fn copies_count_as_one_part_and_others_do_not() {
     ];
     let shared = (box_primitive(size), "steel");
     let models = [assembly(vec![shared.clone(), shared, (box_primitive(size), "brass")], nodes)];
-    // The material of the copy has the same name and color as the first.
+    // The copy's material has the same name and color as the first material.
     let list = PartsList::new(&models, &[], 1.0);
     let found: Vec<(usize, &str, &str)> = list
         .items
@@ -197,7 +197,7 @@ fn copies_count_as_one_part_and_others_do_not() {
             (1, "bolt.005", "brass"),
         ]
     );
-    // The same model twice has every part twice.
+    // If the model occurs twice, every part occurs twice.
     let twice = [models[0].clone(), models[0].clone()];
     let doubled = PartsList::new(&twice, &[], 1.0);
     assert!(doubled.items.iter().zip(&list.items).all(|(a, b)| a.quantity == 2 * b.quantity));
@@ -206,20 +206,21 @@ fn copies_count_as_one_part_and_others_do_not() {
 #[test]
 fn exploded_parts_do_not_intersect() {
     use ExplosionAxis::{All, Auto, X, Y, Z};
-    // Rotated pins through plates, so that many parts intersect in place.
+    // Rotated pins pass through plates, so that many parts intersect before they are moved.
     let models = [stacked_assembly(12, 4)];
     assert!(intersecting_parts(&part_triangles(&models)).len() > 10);
     for axis in [Auto, X, Y, Z, All] {
         let exploded = explode_models(&models, &ExplosionSettings { axis, distance: None });
         let parts = part_triangles(&exploded);
-        // The paths are the last object.
+        // The last object contains the paths.
         assert_eq!((parts.len(), intersecting_parts(&parts)), (49, Vec::new()), "{axis:?}");
     }
 }
 
 #[test]
-fn bolts_leave_on_the_side_that_is_free() {
-    // A hub on a flange, as one part, and bolts on the flange, below its middle.
+fn bolts_leave_on_the_free_side() {
+    // A hub on a flange is one part, and the bolts are on the flange, below the middle of that
+    // part.
     let mut housing = box_primitive(DVec3::new(40.0, 4.0, 40.0));
     let hub = prism_primitive(10.0, 20.0, 24);
     let first = housing.positions.len() as u32;
@@ -238,13 +239,13 @@ fn bolts_leave_on_the_side_that_is_free() {
     assert_eq!(intersecting_parts(&parts), Vec::<[usize; 2]>::new());
     for bolt in &parts[1..5] {
         let low = bolt.iter().flatten().map(|corner| corner.y).fold(f64::INFINITY, f64::min);
-        // Beside the hub, and 5 above the flange, which ends at 2.
+        // The bolts end up beside the hub, 5 above the flange, which ends at 2.
         assert!((low - 7.0).abs() < 1e-6, "{low}");
     }
 }
 
 #[test]
-fn names_from_anywhere_are_drawn_or_named() {
+fn unusual_names_are_drawn_or_reported() {
     let shape = || (box_primitive(DVec3::new(3.0, 2.0, 1.0)), "");
     let long = "a name of many words ".repeat(200);
     let names = [
@@ -268,7 +269,7 @@ fn names_from_anywhere_are_drawn_or_named() {
         .collect();
     let mut instance = assembly(primitives, nodes);
     let model = Arc::make_mut(&mut instance.model);
-    // A part below ten thousand nodes.
+    // The part is below ten thousand nodes.
     for depth in 0..10_000 {
         let index = model.nodes.len();
         let parent = (depth > 0).then(|| index - 1);
@@ -293,7 +294,7 @@ fn names_from_anywhere_are_drawn_or_named() {
 }
 
 #[test]
-fn every_item_has_a_sheet_at_its_own_scale() {
+fn every_item_has_a_sheet_at_a_suitable_scale() {
     let models = [stacked_assembly(6, 2)];
     let mut sheet = assembly_sheet((Paper::A4, "A4"));
     sheet.title_block.number = "7-100".to_owned();
@@ -304,8 +305,7 @@ fn every_item_has_a_sheet_at_its_own_scale() {
         assert_eq!(page.title, format!("part {}", letters(kind)));
         let values = texts(page, "title-block-text");
         assert!(values.contains(&format!("7-100-{}", kind + 1)), "{values:?}");
-        // Parts that are oblique in the assembly are drawn straight: 6 mm high, or 4 mm for a
-        // plate.
+        // Parts that are tilted in the assembly are drawn straight: 6 mm high, or 4 mm for a plate.
         let lengths = texts(page, "dimensions-text");
         let height = if kind % 5 == 0 { "4" } else { "6" };
         assert!(lengths.iter().any(|length| length == height), "{lengths:?}");
@@ -313,7 +313,7 @@ fn every_item_has_a_sheet_at_its_own_scale() {
 }
 
 #[test]
-fn models_without_parts_have_a_message() {
+fn models_without_parts_are_reported() {
     let mut points = box_primitive(DVec3::ONE);
     points.topology = Topology::Points;
     let models = [assembly(vec![(points, "")], vec![("cloud".to_owned(), 0, Affine::IDENTITY)])];
@@ -328,7 +328,7 @@ fn models_without_parts_have_a_message() {
 }
 
 #[test]
-fn a_sheet_without_an_assembly_has_the_page_of_draw() {
+fn a_sheet_without_an_assembly_has_only_the_page_from_draw() {
     let models = [stacked_assembly(3, 2)];
     let plain = sheet((Paper::A4, "A4"), SheetAngle::First);
     let page = plain.draw(&models, &[], 1).unwrap();

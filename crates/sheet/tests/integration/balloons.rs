@@ -1,4 +1,5 @@
-//! A lint of assembly pages: balloons are apart, contain their numbers, and nothing is over them.
+//! A lint for assembly pages: balloons do not touch each other, contain their numbers, and have
+//! nothing drawn over them.
 
 use super::lint::{Extent, layer_extent};
 use glam::DVec2;
@@ -12,14 +13,14 @@ fn circle_of(line: &Polyline) -> (DVec2, f64) {
     (center, corners().map(|corner| (corner - center).length()).fold(0.0, f64::max))
 }
 
-/// Returns the distance of a point from a segment.
+/// Returns the distance from a point to a segment.
 fn distance(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
     let along = b - a;
     let t = ((point - a).dot(along) / along.length_squared().max(1e-12)).clamp(0.0, 1.0);
     (point - a - along * t).length()
 }
 
-/// Returns the straight pieces of a line.
+/// Returns the straight segments of a line.
 fn pieces(line: &Polyline) -> impl Iterator<Item = [DVec2; 2]> {
     let count = line.points.len();
     let pieces = if line.closed { count } else { count - 1 };
@@ -54,7 +55,7 @@ pub fn balloon_faults(page: &SheetPage) -> Vec<String> {
         })
         .collect();
     if texts(page, "balloon-numbers") != circles.iter().map(|(id, ..)| *id).collect::<Vec<_>>() {
-        faults.push("the numbers are not those of the balloons".to_owned());
+        faults.push("the numbers do not match the balloons".to_owned());
     }
     for (index, (id, center, radius)) in circles.iter().enumerate() {
         for (other_id, other, other_radius) in &circles[index + 1..] {
@@ -82,7 +83,7 @@ pub fn balloon_faults(page: &SheetPage) -> Vec<String> {
     faults
 }
 
-/// Describes the leaders of a page that cross.
+/// Describes which leaders on a page cross.
 pub fn crossing_leaders(page: &SheetPage) -> Vec<String> {
     let Some(balloons) = layer(page, "balloons") else { return Vec::new() };
     let leaders: Vec<(&str, [DVec2; 2])> = balloons

@@ -1,4 +1,5 @@
-//! Boxes of random proportions on every paper, in every orientation and angle, cut or not.
+//! Boxes of random proportions on every paper size, in both orientations and projection angles, cut
+//! and uncut.
 
 use super::lint::{faults, layer_extent};
 use glam::DVec3;
@@ -21,7 +22,7 @@ pub const PAPERS: [(Paper, &str); 8] = [
     (Paper::TABLOID, "Tabloid"),
 ];
 
-/// Pseudorandom numbers (SplitMix64), the same in every run.
+/// Pseudorandom numbers (SplitMix64) that are the same in every run.
 pub struct Random(pub u64);
 
 impl Random {
@@ -34,7 +35,7 @@ impl Random {
         ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Returns a number from `low` to `high`, uniform in its logarithm.
+    /// Returns a number from `low` to `high`, with a uniform logarithm.
     pub fn by_magnitude(&mut self, low: f64, high: f64) -> f64 {
         low * libm::exp(self.fraction() * libm::log(high / low))
     }
@@ -63,7 +64,7 @@ pub fn instance_of(primitive: Primitive) -> ModelInstance {
     ModelInstance { model: Arc::new(model), model_to_world: Affine::scale(1.0, 1.0, 1.0) }
 }
 
-/// Returns the plane through a point that retains the side in a direction.
+/// Returns the plane through a point that retains the side toward a direction.
 pub fn plane(point: DVec3, retained: DVec3) -> Plane<World> {
     let [x, y, z] = retained.to_array();
     let normal = Normal::new(x, y, z).normalized().expect("a direction");
@@ -84,13 +85,13 @@ pub fn has_view(page: &SheetPage, name: &str) -> bool {
     layer_extent(page, |id| id.starts_with(&format!("{name}-"))).is_some()
 }
 
-/// Whether a view is on the sheet, or a warning mentions it.
+/// Whether a view is on the sheet, or else a warning mentions it.
 fn is_there_or_named(page: &SheetPage, prefix: &str, title: &str) -> bool {
     let named = SheetWarning::ViewLeftOut { view: title.to_owned() };
     has_view(page, prefix) != page.warnings.contains(&named)
 }
 
-/// The directions that sections retain: none, along the axes, and others along one of them.
+/// The directions that sections retain: no section, along the axes, and perpendicular to one axis.
 const SECTIONS: [Option<[f64; 3]>; 10] = [
     None,
     Some([-1.0, 0.0, 0.0]),
@@ -105,7 +106,7 @@ const SECTIONS: [Option<[f64; 3]>; 10] = [
 ];
 
 #[test]
-fn boxes_of_all_proportions_are_whole_and_legible_on_every_sheet() {
+fn boxes_of_all_proportions_are_complete_and_legible_on_every_sheet() {
     let mut random = Random(25);
     let (mut left_out, mut messages) = (0, Vec::new());
     for number in 0..960 {
@@ -137,7 +138,7 @@ fn boxes_of_all_proportions_are_whole_and_legible_on_every_sheet() {
             found.push("the isometric view is missing".to_owned());
         }
         let has_line = page.layers.iter().any(|layer| layer.id == "cut-lines");
-        // Two letters for each line, and one name below a cut view.
+        // Each section line has two letters, and a cut view has a name below it.
         let names = page.layers.iter().find(|layer| layer.id == "cut-names");
         let is_cut = names.is_some_and(|layer| layer.groups.len() % 2 == 1);
         let is_named = page.warnings.iter().any(
@@ -153,37 +154,38 @@ fn boxes_of_all_proportions_are_whole_and_legible_on_every_sheet() {
         }
     }
     assert!(messages.is_empty(), "{}: {:#?}", messages.len(), &messages[..messages.len().min(12)]);
-    // A smaller scale is used if it leaves room, so that views are hardly ever omitted.
-    assert!(left_out <= 10, "{left_out} sheets without a view");
+    // A smaller scale is used if it leaves room, so views are rarely omitted.
+    assert!(left_out <= 10, "{left_out} sheets lack a view");
 }
 
 #[test]
-fn the_isometric_view_is_as_large_as_its_sheet_allows() {
-    // A flat part leaves a strip beside its top view and the whole bottom of the sheet.
+fn the_isometric_view_is_as_large_as_the_sheet_allows() {
+    // A flat part leaves a strip beside its top view and the whole bottom of the sheet free.
     let model = [box_model(DVec3::new(250.0, 30.0, 60.0))];
     let page = sheet((Paper::A3.rotated(), "A3"), SheetAngle::First).draw(&model, &[], 1).unwrap();
     let [low, high] = layer_extent(&page, |id| id.starts_with("isometric-")).expect("a view");
-    // (250 + 60) cos 30° at 1:1 is 219 mm in space, by √⅔; at the scale of the sheet or half of it.
+    // The width is (250 + 60) cos 30°, foreshortened by √⅔, which is 219 mm at 1:1. The view is at
+    // the sheet's scale or half of it.
     let width = (250.0 + 60.0) * libm::sqrt(0.5);
     let scale = (high.x - low.x) / width;
     assert!([1.0, 0.5].iter().any(|s| (scale - s).abs() < 1e-3), "{scale}");
 }
 
 #[test]
-fn the_paper_is_turned_to_the_greater_scale() {
+fn the_paper_is_turned_to_allow_the_larger_scale() {
     let wide = [box_model(DVec3::new(743.0, 200.0, 300.0))];
     let tall = [box_model(DVec3::new(200.0, 743.0, 200.0))];
     let portrait = sheet((Paper::A4, "A4"), SheetAngle::First);
     assert!(portrait.clone().with_best_orientation(&wide, &[]).paper.width() > 290.0);
     assert_eq!(portrait.clone().with_best_orientation(&tall, &[]).paper, Paper::A4);
-    // A given scale is kept: the orientation is one in which it fits.
+    // A requested scale is kept, and the orientation is one in which it fits.
     let given = Sheet { scale: DrawingScale::new(1, 5).ok(), ..portrait };
     let turned = given.with_best_orientation(&wide, &[]);
     assert!(turned.check_layout(&wide, &[]).is_ok());
 }
 
 #[test]
-fn at_a_given_scale_a_view_without_room_is_named() {
+fn views_without_room_at_a_requested_scale_are_reported() {
     let mut random = Random(7);
     let (mut named, mut drawn) = (0, 0);
     for number in 0..300 {
@@ -192,7 +194,7 @@ fn at_a_given_scale_a_view_without_room_is_named() {
         sheet.scale = DrawingScale::new(1, 1).ok();
         let retained = [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, 2.0, 0.0]];
         let planes = retained.map(|retained| plane(DVec3::ZERO, retained.into()));
-        // Views larger than the paper are an error, which suggests a scale.
+        // Views larger than the paper are an error that suggests a scale.
         let Ok(page) = sheet.draw(&[box_model(size)], &planes, 1) else { continue };
         for (prefix, title) in [
             ("isometric", "isometric view"),
@@ -211,7 +213,7 @@ fn at_a_given_scale_a_view_without_room_is_named() {
 }
 
 #[test]
-fn what_fits_at_no_larger_scale_is_drawn_at_a_smaller_one() {
+fn models_of_extreme_sizes_fit_at_some_scale() {
     for side in [0.5, 50.0, 1000.0, 100_000.0, 300_000.0] {
         for (paper, name) in PAPERS {
             let model = [box_model(DVec3::splat(side))];
@@ -219,7 +221,7 @@ fn what_fits_at_no_larger_scale_is_drawn_at_a_smaller_one() {
             assert!(page.is_ok(), "{side} on {name}: {:?}", page.err());
         }
     }
-    // A thousand kilometers: too large, and the message says by how much.
+    // A model of a thousand kilometers is too large, and the message states the required size.
     let model = [box_model(DVec3::splat(1e9))];
     let error = sheet(PAPERS[4], SheetAngle::First).draw(&model, &[], 1).expect_err("too large");
     assert!(error.to_string().contains("at 1:10000: they need 2000"), "{error}");

@@ -1,4 +1,4 @@
-//! Circles of models, and their center lines.
+//! Tests of circles in models and their center lines.
 
 use super::boxes::{instance_of, sheet};
 use super::formats::read_svg;
@@ -42,7 +42,7 @@ pub fn cylinder(
     instance_of(Primitive { positions, indices, ..Primitive::default() })
 }
 
-/// Returns the bearing from the scenes.
+/// Returns the bearing model from the scenes folder.
 fn bearing() -> ModelInstance {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/models/bearing.glb");
     let model = Arc::new(load(&path, &ImportOptions::default()).unwrap());
@@ -50,7 +50,7 @@ fn bearing() -> ModelInstance {
 }
 
 #[test]
-fn rims_are_circles_with_center_and_radius() {
+fn rims_are_recognized_as_circles() {
     let base = DVec3::new(10.0, -4.0, 7.0);
     for axis in [DVec3::Y, DVec3::Z, DVec3::new(1.0, 2.0, 2.0) / 3.0] {
         for sides in [16, 24, 37, 180] {
@@ -65,13 +65,13 @@ fn rims_are_circles_with_center_and_radius() {
             }
         }
     }
-    // A prism with eight sides is not a cylinder.
+    // An eight-sided prism is not a cylinder.
     let models = [cylinder(base, DVec3::Y, (12.5, 40.0, 8))];
     assert_eq!(FeaturePicker::new(&models, 0.5).circles(None).count(), 0);
 }
 
 #[test]
-fn edges_faces_and_vertices_are_picked_by_their_place() {
+fn edges_faces_and_vertices_are_picked_by_position() {
     let models = [cylinder(DVec3::ZERO, DVec3::Y, (5.0, 40.0, 4))];
     let picker = FeaturePicker::new(&models, 0.5);
     let near = |x: f64, y: f64, z: f64| Point::<World>::new(x, y, z);
@@ -87,7 +87,7 @@ fn edges_faces_and_vertices_are_picked_by_their_place() {
 }
 
 #[test]
-fn a_cylinder_has_a_cross_and_an_axis_that_reach_beyond_it() {
+fn the_cross_and_axis_of_a_cylinder_extend_beyond_it() {
     let base = DVec3::new(3.0, 0.0, 5.0);
     let model = [cylinder(base, DVec3::Y, (10.0, 30.0, 36))];
     let mut sheet = sheet((Paper::A4.rotated(), "A4"), SheetAngle::First);
@@ -96,7 +96,7 @@ fn a_cylinder_has_a_cross_and_an_axis_that_reach_beyond_it() {
     let page = sheet.draw(&model, &[], 1).unwrap();
     assert_eq!(faults(&page), [""; 0]);
     let lines = read_svg(&page, "center-lines").lines;
-    // The axis in front and side views, a cross from above.
+    // The front and side views show the axis, and the top view shows a cross.
     assert_eq!(lines.len(), 4);
     let spans: Vec<DVec2> = lines.iter().map(|line| (line[1] - line[0]).abs()).collect();
     assert_eq!(

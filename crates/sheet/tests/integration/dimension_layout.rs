@@ -1,5 +1,5 @@
-//! Many dimensions on many sheets: no number touches anything, and dimensions that do not fit are
-//! reported.
+//! Many dimensions on many sheets: numbers do not touch anything, and dimensions that do not fit
+//! are reported.
 
 use super::boxes::{PAPERS, Random, box_model, plane, sheet};
 use super::dimensions::dimension;
@@ -25,7 +25,7 @@ fn measure(random: &mut Random, number: usize, size: DVec3) -> Measure {
     ][number % 4];
     let mut points: Vec<Point<World>> = (0..2 + number % 5).map(|_| within(random, size)).collect();
     if direction == LengthDirection::Aligned {
-        // In a plane along two axes, so that a view shows it at true size.
+        // The points are in a plane along two axes, so that a view shows the lengths at true size.
         let depth = points[0].raw()[number % 3];
         for point in &mut points {
             let mut moved = point.raw();
@@ -60,7 +60,7 @@ fn measure(random: &mut Random, number: usize, size: DVec3) -> Measure {
 }
 
 #[test]
-fn numbers_touch_nothing_on_sheets_of_random_dimensions() {
+fn numbers_touch_nothing_on_sheets_with_random_dimensions() {
     let mut random = Random(129);
     let (mut asked, mut left_out, mut messages) = (0, 0, Vec::new());
     for number in 0..120 {
@@ -107,6 +107,6 @@ fn numbers_touch_nothing_on_sheets_of_random_dimensions() {
         }
     }
     assert!(messages.is_empty(), "{}: {:#?}", messages.len(), &messages[..messages.len().min(12)]);
-    // Few are removed by a section or do not fit.
+    // Few dimensions do not fit.
     assert!(left_out * 20 < asked, "{left_out} of {asked}");
 }

@@ -1,4 +1,4 @@
-//! Dimensions read back from SVG, PDF and DXF: lines and numbers compared with the formula.
+//! Dimensions read back from SVG, PDF and DXF, with lines and numbers compared with the formula.
 
 use super::boxes::{box_model, sheet};
 use super::formats::{read_dxf, read_pdf, read_svg};
@@ -15,11 +15,11 @@ use sheet::{
 };
 use viewport::{DrawingScale, Paper};
 
-/// The sides of the part.
+/// The side lengths of the part.
 const SIZE: DVec3 = DVec3::new(48.0, 32.0, 24.0);
 
-/// The maximum difference between a length on paper, divided by the scale, and the formula, in
-/// millimeters.
+/// The maximum difference in millimeters between the formula and a length on paper divided by the
+/// scale.
 const EXACT: f64 = 0.0005;
 
 fn point(x: f64, y: f64, z: f64) -> Point<World> {
@@ -32,7 +32,7 @@ pub fn dimension(measure: Measure) -> Dimension {
     Dimension { measure, view, side, decimals, name: "dimension 1".to_owned() }
 }
 
-/// Twenty pairs of points from a formula, with the direction of measurement and the view; aligned
+/// Returns twenty computed pairs of points, with the direction of measurement and the view. Aligned
 /// pairs are in a plane parallel to their view.
 fn pairs() -> Vec<([Point<World>; 2], LengthDirection, NamedView)> {
     let wave = |k: usize, step: f64| libm::sin(step * (k as f64 + 1.0));
@@ -64,7 +64,7 @@ fn image(view: NamedView, point: Point<World>) -> DVec2 {
     }
 }
 
-/// Returns a sheet at a scale with one dimension, and no other lines in the layer.
+/// Draws a sheet at a scale with one dimension, and no other lines in the layer.
 fn page_of(dimension: Dimension, (scale, unit): (f64, DimensionUnit)) -> SheetPage {
     let mut sheet = sheet((Paper::A1.rotated(), "A1"), SheetAngle::First);
     sheet.dimensions = false;
@@ -76,7 +76,7 @@ fn page_of(dimension: Dimension, (scale, unit): (f64, DimensionUnit)) -> SheetPa
     page
 }
 
-/// Whether the lines of a PDF are the strokes of a text, wherever it is.
+/// Whether the lines of a PDF are the strokes of a text at any position.
 fn are_strokes_of(lines: &[Vec<DVec2>], text: &str, (height, along): (f64, DVec2)) -> bool {
     let label = Label::new(text, DVec2::new(500.0, 300.0), height).with_direction(along);
     let strokes: Vec<Polyline> = label.strokes();
@@ -92,7 +92,7 @@ fn are_strokes_of(lines: &[Vec<DVec2>], text: &str, (height, along): (f64, DVec2
 }
 
 #[test]
-fn twenty_pairs_read_back_from_every_format_are_the_formula() {
+fn lengths_read_back_from_every_format_match_the_formula() {
     for (unit, decimals) in [(DimensionUnit::Millimeter, 4), (DimensionUnit::Inch, 6)] {
         for (number, (points, direction, view)) in pairs().into_iter().enumerate() {
             let scale = 5.0;
@@ -106,7 +106,7 @@ fn twenty_pairs_read_back_from_every_format_are_the_formula() {
                 LengthDirection::Horizontal => DVec2::X,
                 LengthDirection::Vertical => DVec2::Y,
             };
-            // The formula: an aligned length is the distance in space.
+            // By the formula, an aligned length is the distance in space.
             let expected = match direction {
                 LengthDirection::Aligned => points[0].raw().distance(points[1].raw()),
                 LengthDirection::Horizontal => (b.x - a.x).abs(),
@@ -115,14 +115,14 @@ fn twenty_pairs_read_back_from_every_format_are_the_formula() {
             let (svg, dxf) = (read_svg(&page, "dimensions"), read_dxf(&page, "dimensions"));
             let pdf = read_pdf(&page, "dimensions");
             for (format, lines) in [("SVG", &svg.lines), ("PDF", &pdf), ("DXF", &dxf.lines)] {
-                // Two extension lines come first.
+                // The first two lines are the extension lines.
                 let feet = [lines[0][0], lines[1][0]].map(|foot| foot.dot(along));
                 let length = (feet[1] - feet[0]).abs() / scale;
                 assert!(
                     (length - expected).abs() < EXACT,
                     "{format} {number}: {length} {expected}"
                 );
-                // They end on the line that the arrows touch.
+                // The extension lines end on the line that the arrows touch.
                 let line = lines.last().expect("a dimension line");
                 assert!((line[1] - line[0]).perp_dot(along).abs() < 0.002, "{format} {number}");
             }
@@ -142,7 +142,7 @@ fn twenty_pairs_read_back_from_every_format_are_the_formula() {
 }
 
 #[test]
-fn chains_and_baselines_have_all_their_lengths() {
+fn chains_and_baselines_show_all_lengths() {
     let xs = [-24.0, -11.5, 3.25, 24.0];
     let points = || xs.map(|x| point(x, 16.0, 12.0)).to_vec();
     for (measure, expected) in [
@@ -157,7 +157,7 @@ fn chains_and_baselines_have_all_their_lengths() {
 }
 
 #[test]
-fn circles_and_angles_have_their_signs() {
+fn circles_and_angles_have_their_symbols() {
     let circle = WorldCircle {
         center: point(3.0, 2.0, 12.0),
         axis: Vector::Z,
@@ -173,7 +173,7 @@ fn circles_and_angles_have_their_signs() {
         let page = page_of(dimension(measure), (5.0, DimensionUnit::Millimeter));
         assert_eq!(read_svg(&page, "dimensions-text").texts, [expected]);
     }
-    // The arrow of a diameter touches the circle on a line through its center.
+    // The arrow of a diameter touches the circle and is on a line through its center.
     let page = page_of(dimension(Measure::Diameter(circle)), (5.0, DimensionUnit::Millimeter));
     let shaft = &read_svg(&page, "dimensions").lines[0];
     let front = super::lint::layer_extent(&page, |id| id.starts_with("front-visible")).unwrap();
@@ -185,7 +185,7 @@ fn circles_and_angles_have_their_signs() {
 }
 
 #[test]
-fn what_no_view_shows_true_is_named() {
+fn dimensions_without_a_true_view_are_reported() {
     let slanted = Measure::Chain(
         vec![point(-24.0, -16.0, -12.0), point(24.0, 16.0, 12.0)],
         LengthDirection::Aligned,

@@ -1,5 +1,5 @@
-//! Sheet fill: at least 45 % of the drawing area, or no larger standard scale fits in either
-//! orientation; and the choice of paper.
+//! Sheet fill and paper choice: views fill at least 45% of the drawing area, or no larger standard
+//! scale fits in either orientation.
 
 #[path = "../../../../tests/skip.rs"]
 mod skip;
@@ -32,7 +32,7 @@ fn next_scale(scale: DrawingScale) -> Option<DrawingScale> {
     DrawingScale::STANDARD.into_iter().rev().find(|s| s.ratio() > scale.ratio())
 }
 
-/// Returns the sheet in both orientations at a given scale.
+/// Returns the sheet at this scale in both orientations.
 fn both_at(sheet: &Sheet, scale: DrawingScale) -> [Sheet; 2] {
     [sheet.paper, sheet.paper.rotated()].map(|paper| Sheet {
         paper,
@@ -41,7 +41,7 @@ fn both_at(sheet: &Sheet, scale: DrawingScale) -> [Sheet; 2] {
     })
 }
 
-/// Describes the fault of a sheet that should be full, or empty if there is none.
+/// Describes why a sheet should be fuller, or returns an empty string if it is full enough.
 fn fault_of_fill(sheet: &Sheet, models: &[ModelInstance], fill: &SheetFill) -> String {
     if fill.fraction >= LEAST_FILL || fill.limit == ScaleLimit::Largest {
         return String::new();
@@ -54,12 +54,12 @@ fn fault_of_fill(sheet: &Sheet, models: &[ModelInstance], fill: &SheetFill) -> S
             if fitting { format!("{next} fits: {fill}") } else { String::new() }
         }
         ScaleLimit::NoRoom { scale, views } if *scale == next && !views.is_empty() => String::new(),
-        _ => format!("the limit is not told: {fill}"),
+        _ => format!("the limit is not reported: {fill}"),
     }
 }
 
 #[test]
-fn views_fill_their_sheet_or_the_next_standard_scale_does_not_fit() {
+fn views_fill_the_sheet_or_the_next_standard_scale_does_not_fit() {
     let mut random = Random(3);
     let (mut faulty, mut full) = (Vec::new(), 0);
     for number in 0..640 {
@@ -72,7 +72,7 @@ fn views_fill_their_sheet_or_the_next_standard_scale_does_not_fit() {
         if !fault.is_empty() {
             faulty.push(format!("{size:.0} on {} {angle:?}: {fault}", sheet.paper_name));
         }
-        // By formula: the bare objects plus 45 mm for distances and dimensions.
+        // The expected size is the bare objects plus 45 mm for distances and dimensions.
         let ScaleLimit::TooLarge { scale, .. } = fill.limit else { continue };
         let bare = DVec2::new(size.x + size.z, size.y + size.z) * scale.ratio() + 45.0;
         for paper in [sheet.paper, sheet.paper.rotated()] {
@@ -88,7 +88,7 @@ fn views_fill_their_sheet_or_the_next_standard_scale_does_not_fit() {
 
 #[test]
 fn the_fill_is_the_area_of_the_views() {
-    // Without annotations and at a given scale: by formula.
+    // Without annotations and at a requested scale, the fill follows from a formula.
     let model = [box_model(DVec3::new(80.0, 40.0, 20.0))];
     let mut sheet = sheet((Paper::A4.rotated(), "A4"), SheetAngle::First);
     sheet.scale = DrawingScale::new(1, 1).ok();
@@ -97,14 +97,14 @@ fn the_fill_is_the_area_of_the_views() {
     assert_eq!(fill.limit, ScaleLimit::Given);
     let room = 267.0 * 190.0 - 180.0 * 32.0;
     let views = 80.0 * 40.0 + 80.0 * 20.0 + 20.0 * 40.0;
-    // The scale bar takes less than 2 % of the area.
+    // The scale bar takes up less than 2% of the area.
     let fraction = views / room;
     assert!(fill.fraction > fraction && fill.fraction < 1.02 * fraction, "{fill}");
     assert!(fill.to_string().ends_with("this scale was requested"), "{fill}");
 }
 
 #[test]
-fn no_orientation_gives_a_larger_scale_than_the_one_that_is_chosen() {
+fn the_chosen_orientation_has_the_largest_scale() {
     let mut random = Random(11);
     for number in 0..400 {
         let (size, model) = random_box(&mut random, 0.02);
@@ -115,20 +115,20 @@ fn no_orientation_gives_a_larger_scale_than_the_one_that_is_chosen() {
         let chosen = portrait.clone().with_best_orientation(&model, &[]);
         let best = scale(&portrait).max(scale(&rotated));
         let has_all = |sheet: &Sheet| sheet.draw(&model, &[], 1).unwrap().warnings.is_empty();
-        // A smaller scale only if the larger one omits a view.
+        // A smaller scale is chosen only if the larger one omits a view.
         let larger = if scale(&portrait) == best { &portrait } else { &rotated };
         assert!(scale(&chosen) == best || has_all(&chosen) && !has_all(larger), "{size}");
     }
 }
 
-/// Returns a series of papers, and the sheets on them.
+/// Returns sheets on a series of papers, from the smallest to the largest.
 fn series(angle: SheetAngle) -> Vec<Sheet> {
     let papers = [4, 3, 2, 1, 0].map(|at| PAPERS[at]);
     papers.map(|paper| sheet(paper, angle)).into()
 }
 
 #[test]
-fn the_smallest_paper_holds_the_part_at_full_size() {
+fn the_smallest_paper_has_room_for_the_part_at_full_size() {
     let mut random = Random(5);
     let mut chosen = [0; 5];
     for _ in 0..200 {
@@ -156,7 +156,7 @@ fn the_smallest_paper_holds_the_part_at_full_size() {
 }
 
 #[test]
-fn the_smallest_paper_for_a_given_scale_holds_all_views() {
+fn the_smallest_paper_for_a_requested_scale_fits_all_views() {
     let model = [box_model(DVec3::new(300.0, 200.0, 100.0))];
     for (scale, name) in [((1, 5), "A4"), ((1, 2), "A3"), ((1, 1), "A2"), ((2, 1), "A0")] {
         let given = DrawingScale::new(scale.0, scale.1).ok();
@@ -168,7 +168,7 @@ fn the_smallest_paper_for_a_given_scale_holds_all_views() {
     }
 }
 
-/// Models with many proportions; the last is a scan with 130,000 triangles.
+/// Models with different proportions. The last is a scan with 130,000 triangles.
 const SHARED_MODELS: [(&str, f64); 8] = [
     ("models/cesium-milk-truck/CesiumMilkTruck.gltf", 1000.0),
     ("models/low-poly-tree/low-poly-tree.glb", 1000.0),
@@ -181,7 +181,7 @@ const SHARED_MODELS: [(&str, f64); 8] = [
 ];
 
 #[test]
-fn without_the_shared_models_that_is_reported() {
+fn missing_shared_models_are_reported() {
     let log = Path::new(env!("CARGO_TARGET_TMPDIR")).join("skips-fill");
     let _ = std::fs::remove_file(&log);
     let mut test = std::process::Command::new(std::env::current_exe().unwrap());
@@ -205,7 +205,7 @@ fn shared_models_fill_their_sheets() {
         let model_to_world = Affine::scale(1.0, 1.0, 1.0);
         models.push((name.to_owned(), unit, ModelInstance { model, model_to_world }));
     }
-    // An engine 743 mm long, with various proportions.
+    // Engine-sized boxes 743 mm long, with various proportions.
     for [y, z] in [[200.0, 300.0], [350.0, 350.0], [500.0, 300.0], [600.0, 450.0]] {
         models.push((format!("engine {y} {z}"), 1.0, box_model(DVec3::new(743.0, y, z))));
     }
@@ -226,7 +226,7 @@ fn shared_models_fill_their_sheets() {
 
 #[test]
 fn tight_sheets_are_legible() {
-    // Views that just fit: found by growing a box until the scale decreases.
+    // The views just fit. The size is found by growing a box until the scale decreases.
     for (paper, angle) in [(PAPERS[4], SheetAngle::First), (PAPERS[3], SheetAngle::Third)] {
         let at = |side: f64| {
             let model = [box_model(DVec3::new(side, side * 0.7, side * 0.5))];

@@ -1,17 +1,17 @@
-//! Readers for written sheets: the lines and texts of one layer in SVG, PDF and DXF.
+//! Readers for sheets in SVG, PDF and DXF, which return the lines and texts of one layer.
 
 use glam::DVec2;
 use page::{DxfOptions, to_pdf};
 use sheet::SheetPage;
 
-/// The straight lines of a layer in millimeters on paper, y down, and its texts.
+/// The straight lines of a layer, in millimeters on paper with y down, and its texts.
 #[derive(Debug, Default)]
 pub struct ReadLayer {
     pub lines: Vec<Vec<DVec2>>,
     pub texts: Vec<String>,
 }
 
-/// Reads the lines and texts of a layer in an SVG file. Filled areas are skipped.
+/// Reads the lines and texts of a layer in an SVG file, without its filled areas.
 pub fn read_svg(page: &SheetPage, layer: &str) -> ReadLayer {
     let svg = page.to_svg();
     let mut read = ReadLayer::default();
@@ -71,14 +71,14 @@ fn path_lines(data: &str) -> Vec<Vec<DVec2>> {
     lines
 }
 
-/// Numbers separated by spaces or by their minus signs.
+/// Parses numbers separated by spaces or by their minus signs.
 fn svg_numbers(text: &str) -> Vec<f64> {
     let spaced = text.replace('-', " -");
     spaced.split_whitespace().map(|number| number.parse().expect("a number")).collect()
 }
 
-/// Reads the lines of a layer in a PDF file, without its areas: the operators `m` and `l` up to
-/// each `S`.
+/// Reads the lines of a layer in a PDF file, without its filled areas, from the operators `m` and
+/// `l` up to each `S`.
 pub fn read_pdf(page: &SheetPage, layer: &str) -> Vec<Vec<DVec2>> {
     let index = page.layers.iter().position(|other| other.id == layer).expect("a layer");
     let bytes = to_pdf(std::slice::from_ref(page));
@@ -101,7 +101,7 @@ pub fn read_pdf(page: &SheetPage, layer: &str) -> Vec<Vec<DVec2>> {
     lines
 }
 
-/// Returns the texts of the compressed streams of a PDF file.
+/// Returns the text of the compressed streams in a PDF file.
 fn pdf_streams(bytes: &[u8]) -> Vec<String> {
     let find = |from: usize, word: &[u8]| {
         bytes[from..].windows(word.len()).position(|part| part == word).map(|at| from + at)
@@ -117,7 +117,8 @@ fn pdf_streams(bytes: &[u8]) -> Vec<String> {
     streams
 }
 
-/// Reads the lines and texts of a layer in a DXF file on paper; y is turned down again.
+/// Reads the lines and texts of a layer in a DXF file of a page, and flips y so that it points
+/// down.
 pub fn read_dxf(page: &SheetPage, layer: &str) -> ReadLayer {
     let bytes = page.to_dxf(&DxfOptions::on_paper(page));
     let text = String::from_utf8(bytes).expect("ASCII");
@@ -141,7 +142,8 @@ pub fn read_dxf(page: &SheetPage, layer: &str) -> ReadLayer {
     read
 }
 
-/// Returns the kinds of the entities between tags with code 0; the first part has none.
+/// Returns the kind of each entity, which begins at a tag with code 0. The part before the first
+/// entity has an empty kind.
 fn kinds<'a>(tags: &[(&'a str, &'a str)]) -> Vec<&'a str> {
     let kinds = tags.iter().filter(|(code, _)| *code == "0").map(|(_, kind)| *kind);
     core::iter::once("").chain(kinds).collect()

@@ -1,4 +1,4 @@
-//! A lint of sheets: no text touches another text or a line, and everything is inside the frame.
+//! A lint for sheets: text does not touch other text or lines, and everything is inside the frame.
 
 use glam::DVec2;
 use page::{Group, GroupContent, Polyline, to_millimeters};
@@ -7,7 +7,7 @@ use sheet::SheetPage;
 /// A rectangle, as its minimum and maximum corners.
 pub type Extent = [DVec2; 2];
 
-/// Returns the layers whose groups are texts.
+/// Whether the groups of a layer are texts.
 fn is_text_layer(id: &str) -> bool {
     const TEXTS: [&str; 12] = [
         "frame-zone-names",
@@ -34,20 +34,20 @@ pub fn extent<'a>(lines: impl Iterator<Item = &'a Polyline>) -> Option<Extent> {
     })
 }
 
-/// Returns the extent of the layers that a test chooses.
+/// Returns the extent of the selected layers.
 pub fn layer_extent(page: &SheetPage, wanted: impl Fn(&str) -> bool) -> Option<Extent> {
     let layers = page.layers.iter().filter(|layer| wanted(&layer.id));
     extent(layers.flat_map(|layer| &layer.groups).flat_map(|g| g.strokes.iter().chain(&g.fills)))
 }
 
-/// Returns the sides of a polyline.
+/// Returns the segments of a polyline.
 fn sides(line: &Polyline) -> impl Iterator<Item = [DVec2; 2]> {
     let count = line.points.len();
     let sides = if line.closed { count } else { count - 1 };
     (0..sides).map(move |k| [k, (k + 1) % count].map(|at| to_millimeters(line.points[at])))
 }
 
-/// Whether two convex outlines are apart, along the normal of one of their sides.
+/// Whether two convex outlines are separated along the normal of one of their sides.
 fn are_apart(a: &[DVec2], b: &[DVec2]) -> bool {
     let normals = |points: &[DVec2]| -> Vec<DVec2> {
         let sides = (0..points.len()).map(|k| points[(k + 1) % points.len()] - points[k]);
@@ -63,7 +63,8 @@ fn are_apart(a: &[DVec2], b: &[DVec2]) -> bool {
     })
 }
 
-/// Returns the corners of a rectangle around a text, with a margin; slanted if the text is.
+/// Returns the corners of a rectangle around a text, with a margin. The rectangle is slanted if the
+/// text is.
 fn text_outline(group: &Group, margin: f64) -> Option<Vec<DVec2>> {
     let [low, high] = extent(group.strokes.iter())?;
     if let GroupContent::Text(line) = &group.content {
@@ -82,7 +83,7 @@ fn text_outline(group: &Group, margin: f64) -> Option<Vec<DVec2>> {
     Some(vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)])
 }
 
-/// Describes the faults of a sheet, or empty if there are none.
+/// Describes the faults of a sheet. Returns an empty list if there are none.
 pub fn faults(page: &SheetPage) -> Vec<String> {
     let mut faults = Vec::new();
     let mut texts: Vec<(&str, Vec<DVec2>)> = Vec::new();
@@ -102,7 +103,7 @@ pub fn faults(page: &SheetPage) -> Vec<String> {
         let half = 0.5 * layer.pen.width;
         let lines = layer.groups.iter().flat_map(|group| group.strokes.iter().chain(&group.fills));
         for [a, b] in lines.flat_map(sides) {
-            // The line with its width.
+            // The outline of the line, including its width.
             let across = (b - a).perp().normalize_or_zero() * half;
             let line = [a + across, b + across, b - across, a - across];
             for (id, area) in &texts {

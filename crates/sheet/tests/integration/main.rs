@@ -1,7 +1,7 @@
-//! Drawing sheets: every view is placed or reported, and nothing is written over anything.
+//! Tests of drawing sheets: every view is placed or reported, and nothing is drawn over text.
 
-#![allow(unreachable_pub, reason = "in a test `pub` means: used by another file")]
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail by a panic")]
+#![allow(unreachable_pub, reason = "in a test, `pub` means that another file uses the item")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail with a panic")]
 
 mod assemblies;
 mod balloons;

@@ -1,4 +1,4 @@
-//! Scene overlays on sheets: labels of points and axes, clear of everything else.
+//! Scene overlays on sheets: point labels and axes, clear of everything else.
 
 use super::boxes::{Random, box_model, sheet};
 use super::lint::faults;
@@ -21,7 +21,7 @@ fn label(text: &str, at: DVec3) -> Overlay {
     })
 }
 
-/// Returns the texts of labels and axis names, in the order of the views.
+/// Returns the point labels and axis names, in the order of the views.
 fn texts(page: &SheetPage) -> Vec<&str> {
     let layer = page.layers.iter().find(|layer| layer.id == "overlay-text").expect("labels");
     layer.groups.iter().filter_map(text_of).collect()
@@ -32,7 +32,7 @@ fn text_of(group: &Group) -> Option<&str> {
 }
 
 #[test]
-fn labels_and_axes_stand_clear_in_every_view() {
+fn labels_and_axes_are_legible_in_every_view() {
     let mut random = Random(17);
     for (angle, paper) in [(SheetAngle::First, Paper::A4), (SheetAngle::Third, Paper::A4.rotated())]
     {
@@ -49,7 +49,8 @@ fn labels_and_axes_stand_clear_in_every_view() {
         assert_eq!(faults(&page), [""; 0]);
         assert_eq!(page.warnings, []);
         let texts = texts(&page);
-        // An axis along the gaze has no name: two in each principal view, three in the other.
+        // An axis along the view direction has no name, so each principal view has two names and
+        // the other view three.
         assert_eq!(texts.iter().filter(|text| text.len() == 1).count(), 3 * 2 + 3, "{texts:?}");
         for text in ["corner", "middle of the box", "foot"] {
             assert_eq!(texts.iter().filter(|other| **other == text).count(), 4, "{text}");
@@ -58,7 +59,7 @@ fn labels_and_axes_stand_clear_in_every_view() {
 }
 
 #[test]
-fn overlays_that_sheets_do_not_show_are_named() {
+fn overlays_that_sheets_do_not_show_are_reported() {
     let model = [box_model(DVec3::new(40.0, 20.0, 10.0))];
     let overlays = vec![
         Overlay::Grid(None),
@@ -77,13 +78,13 @@ fn overlays_that_sheets_do_not_show_are_named() {
     for warning in [of("grid"), of("horizon"), far("front view"), far("isometric view")] {
         assert!(warnings.contains(&warning), "{warnings:?}");
     }
-    // From the left the point is behind the box.
+    // Seen from the left, the point is behind the box.
     assert!(!warnings.contains(&far("left view")) && warnings.len() == 5, "{warnings:?}");
 }
 
 #[test]
-fn labels_of_large_models_are_placed_on_paper_and_not_beyond() {
-    // At 50:1 the model covers 50 km of paper; no positions are searched around it.
+fn labels_of_large_models_stay_on_the_paper() {
+    // At 50:1 the model would cover 50 km of paper, and positions around it are not searched.
     let model = [box_model(DVec3::new(1e6, 4e5, 6e5))];
     let overlays = vec![label("roof", DVec3::new(0.0, 2e5, 0.0))];
     let sheet = Sheet { overlays, ..sheet((Paper::A3.rotated(), "A3"), SheetAngle::First) };
@@ -93,10 +94,10 @@ fn labels_of_large_models_are_placed_on_paper_and_not_beyond() {
 }
 
 #[test]
-fn labels_after_the_hundredth_of_a_view_are_named() {
+fn more_than_a_hundred_labels_in_a_view_are_reported() {
     let model = [box_model(DVec3::new(400.0, 200.0, 300.0))];
     let overlays = (0..103).map(|k| label(&format!("{k}"), DVec3::ZERO)).collect();
-    // A given scale, so that the labels are placed once.
+    // The scale is fixed, so that the labels are placed only once.
     let scale = DrawingScale::new(1, 10).ok();
     let sheet = Sheet { overlays, scale, ..sheet((Paper::A4, "A4"), SheetAngle::First) };
     let warnings = sheet.draw(&model, &[], 1).unwrap().warnings;

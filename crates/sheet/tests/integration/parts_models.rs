@@ -1,4 +1,4 @@
-//! Assemblies made for tests: known parts, copies and places.
+//! Assemblies generated for tests, with known parts, copies and placements.
 
 use super::boxes::{Random, box_model};
 use glam::{DQuat, DVec3};
@@ -6,20 +6,20 @@ use homog::{Affine, Model as ModelSpace, Vector};
 use model::{Material, Mesh, Model, ModelInstance, Node, Primitive};
 use std::sync::Arc;
 
-/// Returns the place of a part: a rotation around an axis, then a translation.
+/// Returns the transform of a part: a rotation around an axis, then a translation.
 pub fn placed(at: DVec3, turn: f64) -> Affine<ModelSpace, ModelSpace> {
     let turn = DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), turn);
     let turn = Affine::<ModelSpace, ModelSpace>::from_quaternion(turn.to_array());
     turn.expect("a turn").then(Affine::translation(Vector::from_raw(at)))
 }
 
-/// Returns the primitive of a box with these sides around the origin, with welded corners.
+/// Returns a box primitive with these sides around the origin, with shared vertices.
 pub fn box_primitive(size: DVec3) -> Primitive {
     let model = box_model(size);
     model.model.meshes[0].primitives[0].clone()
 }
 
-/// Returns a prism over a circle with `corners` corners, along y, around the origin.
+/// Returns a prism around the origin, along y, with `corners` corners on a circle.
 pub fn prism_primitive(radius: f64, height: f64, corners: u32) -> Primitive {
     let mut positions = Vec::new();
     for y in [-0.5, 0.5] {
@@ -40,7 +40,7 @@ pub fn prism_primitive(radius: f64, height: f64, corners: u32) -> Primitive {
     Primitive { positions, indices, ..Primitive::default() }
 }
 
-/// Returns a model of nodes with these names, meshes and places.
+/// Returns a model of nodes with these names, meshes and transforms.
 pub fn assembly(
     primitives: Vec<(Primitive, &str)>,
     nodes: Vec<(String, usize, Affine<ModelSpace, ModelSpace>)>,
@@ -66,7 +66,7 @@ pub fn assembly(
 }
 
 /// Returns an assembly of `kinds` different parts, each `copies` times, in stacked layers: each
-/// layer has a plate and pins through it.
+/// layer has a plate with pins through it.
 pub fn stacked_assembly(kinds: usize, copies: usize) -> ModelInstance {
     let mut random = Random(kinds as u64 * 1000 + copies as u64);
     let mut primitives = Vec::new();
@@ -94,7 +94,7 @@ pub fn stacked_assembly(kinds: usize, copies: usize) -> ModelInstance {
     assembly(primitives, nodes)
 }
 
-/// `count` different parts side by side in a square.
+/// Returns an assembly of `count` different parts side by side in a square.
 pub fn scattered_parts(count: usize) -> ModelInstance {
     let columns = libm::ceil(libm::sqrt(count as f64)) as usize;
     let mut primitives = Vec::new();
@@ -109,7 +109,7 @@ pub fn scattered_parts(count: usize) -> ModelInstance {
     assembly(primitives, nodes)
 }
 
-/// Returns a number as letters, so that kind names do not end in digits.
+/// Converts a number to letters, so that the names of kinds do not end in digits.
 pub fn letters(number: usize) -> String {
     let letter = |digit: usize| char::from(b'a' + digit as u8);
     [number / 676 % 26, number / 26 % 26, number % 26].map(letter).iter().collect()

@@ -1,4 +1,4 @@
-//! Sections on sheets: each has a line and a view, or a warning.
+//! Sections on sheets: each has either a section line and a view, or a warning.
 
 use super::boxes::{box_model, has_view, plane, sheet};
 use super::lint::{faults, layer_extent};
@@ -13,13 +13,13 @@ use std::path::Path;
 use std::sync::Arc;
 use viewport::Paper;
 
-/// An A3 sheet in landscape.
+/// Returns an A3 sheet in landscape.
 fn a3(angle: SheetAngle) -> Sheet {
     sheet((Paper::A3.rotated(), "A3"), angle)
 }
 
 #[test]
-fn a_section_across_x_is_cut_in_the_side_view_that_looks_onto_it() {
+fn a_section_across_x_cuts_the_side_view_that_faces_it() {
     let model = [box_model(DVec3::new(100.0, 50.0, 30.0))];
     for (angle, retained, side) in [
         (SheetAngle::First, -1.0, "right"),
@@ -37,7 +37,7 @@ fn a_section_across_x_is_cut_in_the_side_view_that_looks_onto_it() {
 }
 
 #[test]
-fn planes_that_no_view_faces_get_a_view_of_their_own() {
+fn planes_that_no_view_faces_get_separate_views() {
     let model = [box_model(DVec3::new(100.0, 50.0, 30.0))];
     for retained in [DVec3::Z, DVec3::Y, DVec3::new(-1.0, -1.0, 0.0), DVec3::new(0.0, 1.0, -2.0)] {
         let page = a3(SheetAngle::First).draw(&model, &[plane(DVec3::ZERO, retained)], 1).unwrap();
@@ -45,7 +45,7 @@ fn planes_that_no_view_faces_get_a_view_of_their_own() {
         assert!(page.layers.iter().any(|layer| layer.id == "cut-lines"), "{retained}");
         assert_eq!(faults(&page), [""; 0], "{retained}");
     }
-    // Two planes with the same viewing direction: a view can be cut by only one of them.
+    // The two planes have the same viewing direction, but only one of them can cut the view.
     let planes = [5.0, -5.0].map(|z| plane(DVec3::Z * z, -DVec3::Z));
     let page = a3(SheetAngle::First).draw(&model, &planes, 1).unwrap();
     assert!(has_view(&page, "front") && has_view(&page, "section-b"));
@@ -53,7 +53,7 @@ fn planes_that_no_view_faces_get_a_view_of_their_own() {
 }
 
 #[test]
-fn a_plane_oblique_to_all_views_has_its_line_in_an_auxiliary_view() {
+fn an_auxiliary_view_shows_the_line_of_an_oblique_plane() {
     let model = [box_model(DVec3::new(100.0, 50.0, 30.0))];
     let oblique = plane(DVec3::ZERO, DVec3::new(-1.0, -1.0, -1.0));
     let page = a3(SheetAngle::First).draw(&model, &[oblique], 1).unwrap();
@@ -62,7 +62,7 @@ fn a_plane_oblique_to_all_views_has_its_line_in_an_auxiliary_view() {
         assert!(has_view(&page, name), "{name}");
     }
     assert!(page.layers.iter().any(|layer| layer.id == "isometric-visible-section"));
-    // The line is in the auxiliary view, which sees the plane from the side, through its middle.
+    // The line passes through the middle of the auxiliary view, which sees the plane edge-on.
     let [low, high] = layer_extent(&page, |id| id == "cut-lines").expect("a line");
     let view = layer_extent(&page, |id| id.starts_with("auxiliary-b-")).expect("a view");
     let middle = |[low, high]: [DVec2; 2]| (low + high) * 0.5;
@@ -70,7 +70,7 @@ fn a_plane_oblique_to_all_views_has_its_line_in_an_auxiliary_view() {
 }
 
 #[test]
-fn planes_beside_the_part_cut_nothing_and_are_named() {
+fn planes_beside_the_part_are_reported() {
     let model = [box_model(DVec3::new(100.0, 50.0, 30.0))];
     for (z, retained, warning) in [
         (16.0, -DVec3::Z, Lines::SectionMisses { number: 1 }.into()),
@@ -86,20 +86,20 @@ fn planes_beside_the_part_cut_nothing_and_are_named() {
 }
 
 #[test]
-fn the_axonometric_view_frames_what_a_section_leaves() {
+fn the_axonometric_view_frames_the_retained_part() {
     let model = [box_model(DVec3::new(2000.0, 50.0, 50.0))];
     let scale = |planes: &[_]| {
         let page = a3(SheetAngle::First).draw(&model, planes, 1).unwrap();
         let [low, high] = layer_extent(&page, |id| id.starts_with("isometric-")).expect("a view");
         high.y - low.y
     };
-    // A tenth of the length: at the scale of the sheet it is shorter, and never truncated.
+    // A tenth of the length remains, so the view is smaller at the sheet's scale.
     let cut = plane(DVec3::X * -800.0, -DVec3::X);
     assert!(scale(&[cut]) < 0.5 * scale(&[]), "{} {}", scale(&[cut]), scale(&[]));
 }
 
 #[test]
-fn the_models_of_the_scenes_are_legible_with_three_sections() {
+fn scene_models_are_legible_with_three_sections() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/models");
     for name in ["bearing.glb", "house.glb", "lamp.glb", "table.glb", "tower.glb", "vase.glb"] {
         let model = Arc::new(load(&folder.join(name), &ImportOptions::default()).unwrap());
@@ -124,7 +124,7 @@ fn shafts_and_bolts_are_neither_cut_nor_hatched() {
     let model = Arc::new(load(&path, &ImportOptions::default()).unwrap());
     let models = [ModelInstance { model, model_to_world: Affine::scale(1.0, 1.0, 1.0) }];
     let cut = plane(DVec3::ZERO, -DVec3::Z);
-    // The fourth object is the shaft; bolts follow.
+    // The fourth object is the shaft, followed by the bolts.
     let hatched = |uncut: &[u32]| -> Vec<String> {
         let sheet = Sheet { uncut: uncut.to_vec(), ..a3(SheetAngle::First) };
         let page = sheet.draw(&models, &[cut], 1).unwrap();
@@ -134,7 +134,7 @@ fn shafts_and_bolts_are_neither_cut_nor_hatched() {
     let parts = ["housing", "bush", "ring", "shaft", "bolt 1", "bolt 2"];
     assert_eq!(hatched(&[]), parts);
     assert_eq!(hatched(&[3, 4, 5, 6, 7]), parts[..3]);
-    // Uncut parts extend out of cut ones: all of the shaft is visible from the front.
+    // Uncut parts protrude from cut parts, so the shaft is visible from the front.
     let sheet = Sheet { uncut: vec![3], ..a3(SheetAngle::First) };
     let page = sheet.draw(&models, &[cut], 1).unwrap();
     let shaft = |layer: &page::Layer| -> f64 {

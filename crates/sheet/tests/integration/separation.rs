@@ -1,4 +1,4 @@
-//! Tests whether parts intersect, by their triangles.
+//! Tests for intersections between the triangles of parts.
 
 use glam::DVec3;
 use model::{ModelInstance, Topology};
@@ -49,8 +49,8 @@ fn boxes_meet(a: &Corners, b: &Corners) -> bool {
     a[0].cmple(b[1]).all() && b[0].cmple(a[1]).all()
 }
 
-/// Returns the pairs of parts with triangles that intersect; triangles are compared if the boxes of
-/// the parts meet.
+/// Returns the pairs of parts whose triangles intersect. Triangles are compared only if the boxes
+/// of the parts meet.
 pub fn intersecting_parts(parts: &[Vec<[DVec3; 3]>]) -> Vec<[usize; 2]> {
     let boxes: Vec<Corners> = parts.iter().map(|part| corners_of(part)).collect();
     let mut found = Vec::new();
@@ -78,8 +78,8 @@ fn triangles_intersect(a: &[[DVec3; 3]], b: &[[DVec3; 3]]) -> bool {
     })
 }
 
-/// Whether an axis separates two triangles: their normals, the products of their sides and, for
-/// coplanar triangles, the normals of their sides in the plane.
+/// Whether an axis separates two triangles. The candidates are their normals, the cross products of
+/// their edges and, for coplanar triangles, the normals of their edges in the plane.
 fn are_separate(a: [DVec3; 3], b: [DVec3; 3]) -> bool {
     let sides = |[p, q, r]: [DVec3; 3]| [q - p, r - q, p - r];
     let (a_sides, b_sides) = (sides(a), sides(b));

@@ -1,4 +1,4 @@
-//! Units, characters and styles of sheets.
+//! Units, missing characters and styles on sheets.
 
 use super::boxes::{box_model, sheet};
 use super::lint::faults;
@@ -10,7 +10,7 @@ use sheet::{DimensionUnit, Sheet, SheetWarning};
 use viewport::Paper;
 
 #[test]
-fn inches_are_written_as_inches() {
+fn lengths_are_written_in_inches() {
     let model = [box_model(DVec3::new(4.0, 2.0, 1.0))];
     let with_unit = |unit: DimensionUnit| {
         let mut sheet = sheet((Paper::A4, "A4"), SheetAngle::First);
@@ -29,7 +29,7 @@ fn inches_are_written_as_inches() {
 }
 
 #[test]
-fn titles_in_letters_that_the_font_lacks_are_named() {
+fn titles_with_missing_characters_are_reported() {
     let model = [box_model(DVec3::ONE)];
     let mut sheet = sheet((Paper::A4, "A4"), SheetAngle::First);
     sheet.title_block.title = "轴承 B".to_owned();
@@ -44,7 +44,7 @@ fn titles_in_letters_that_the_font_lacks_are_named() {
 }
 
 #[test]
-fn tones_lie_under_every_view() {
+fn tones_are_drawn_under_every_view() {
     let model = [box_model(DVec3::new(40.0, 20.0, 10.0))];
     let sheet = sheet((Paper::A4, "A4"), SheetAngle::First);
     let style = drawing::LineStyle { face_fill: FaceFill::Flat, ..sheet.style };
@@ -54,7 +54,7 @@ fn tones_lie_under_every_view() {
 }
 
 #[test]
-fn grays_are_areas_under_every_view() {
+fn gray_areas_are_drawn_under_every_view() {
     let model = [box_model(DVec3::new(40.0, 20.0, 10.0))];
     let sheet = sheet((Paper::A4, "A4"), SheetAngle::First);
     let style = drawing::LineStyle { face_fill: FaceFill::Gray, ..sheet.style };
@@ -66,9 +66,9 @@ fn grays_are_areas_under_every_view() {
     assert_eq!(faults(&page), [""; 0]);
 }
 
-/// In an exploded view no parts touch; they keep the hatching of their original positions.
+/// Parts do not touch in an exploded view, but they keep the hatching of their original positions.
 #[test]
-fn exploded_parts_keep_their_hatchings() {
+fn exploded_parts_keep_their_hatching() {
     let model = [super::parts_models::stacked_assembly(3, 1)];
     let mut sheet = sheet((Paper::A4, "A4"), SheetAngle::First);
     sheet.style.face_fill = FaceFill::PartHatching;

@@ -1,4 +1,4 @@
-//! Lines of symmetry: in the views along a plane of symmetry, and nowhere else.
+//! Lines of symmetry: only the views that see a symmetry plane edge-on have them.
 
 use super::boxes::{box_model, instance_of, sheet};
 use super::center_lines::cylinder;
@@ -17,7 +17,7 @@ fn symmetric_sheet() -> Sheet {
     Sheet { symmetry_lines: true, scale: DrawingScale::new(1, 1).ok(), ..sheet }
 }
 
-/// Returns the lines of symmetry on a sheet where nothing overlaps.
+/// Returns the lines of symmetry on a sheet, and checks that nothing on it overlaps.
 fn symmetry_lines(sheet: &Sheet, models: &[ModelInstance]) -> Vec<[DVec2; 2]> {
     let page = sheet.draw(models, &[], 1).unwrap();
     assert_eq!(faults(&page), [""; 0]);
@@ -28,7 +28,7 @@ fn symmetry_lines(sheet: &Sheet, models: &[ModelInstance]) -> Vec<[DVec2; 2]> {
     lines.iter().map(|line| [line[0], line[1]]).collect()
 }
 
-/// Returns the lengths of vertical and of horizontal lines.
+/// Returns the lengths of the vertical and of the horizontal lines.
 fn lengths(lines: &[[DVec2; 2]]) -> [Vec<f64>; 2] {
     [1, 0].map(|axis| {
         let spans = lines.iter().map(|[a, b]| (*b - *a).abs());
@@ -57,9 +57,9 @@ fn prism(outline: &[[f32; 2]], depth: f32) -> ModelInstance {
 }
 
 #[test]
-fn a_box_has_two_lines_in_each_view_that_reach_beyond_it() {
+fn the_two_lines_of_a_box_extend_beyond_it_in_each_view() {
     let lines = symmetry_lines(&symmetric_sheet(), &[box_model(DVec3::new(60.0, 40.0, 30.0))]);
-    // Front, side and top: 60 x 40, 30 x 40, 60 x 30, and 3 mm at each end.
+    // The front, side and top views are 60 x 40, 30 x 40 and 60 x 30, with 3 mm added at each end.
     assert_eq!(lengths(&lines), [vec![36.0, 46.0, 46.0], vec![36.0, 66.0, 66.0]]);
     let page = symmetric_sheet().draw(&[box_model(DVec3::new(60.0, 40.0, 30.0))], &[], 1).unwrap();
     let [low, high] = layer_extent(&page, |id| id.starts_with("front-")).unwrap();
@@ -69,8 +69,8 @@ fn a_box_has_two_lines_in_each_view_that_reach_beyond_it() {
 }
 
 #[test]
-fn a_part_that_is_symmetric_about_one_plane_has_its_line_in_two_views() {
-    // A T: left and right are alike, and so are front and back.
+fn each_plane_of_symmetry_has_lines_in_two_views() {
+    // A T is symmetric left to right and front to back.
     let t: [[f32; 2]; 8] = [
         [-10.0, 30.0],
         [-10.0, 0.0],
@@ -82,9 +82,10 @@ fn a_part_that_is_symmetric_about_one_plane_has_its_line_in_two_views() {
         [-30.0, 32.0],
     ];
     let lines = symmetry_lines(&symmetric_sheet(), &[prism(&t, 25.0)]);
-    // Vertical in front, from the side and from above; horizontal only from above.
+    // The front, side and top views have a vertical line, and only the top view has a horizontal
+    // line.
     assert_eq!(lengths(&lines), [vec![31.0, 56.0, 56.0], vec![66.0]]);
-    // One corner cut off by 0.1 mm: front and back are still alike.
+    // With one corner cut off by 0.1 mm, the front and back are still symmetric.
     let mut cut = t.to_vec();
     cut[5] = [29.9, 50.0];
     let lines = symmetry_lines(&symmetric_sheet(), &[prism(&cut, 25.0)]);
@@ -92,14 +93,14 @@ fn a_part_that_is_symmetric_about_one_plane_has_its_line_in_two_views() {
 }
 
 #[test]
-fn what_is_seen_as_a_line_has_no_line_of_symmetry_on_it() {
+fn flat_parts_seen_edge_on_have_no_line_of_symmetry_along_them() {
     let lines = symmetry_lines(&symmetric_sheet(), &[box_model(DVec3::new(60.0, 40.0, 0.001))]);
-    // From the side and from above, only the short lines across remain.
+    // In the side and top views, only the short lines across the part remain.
     assert_eq!(lengths(&lines), [vec![6.0, 46.0], vec![6.0, 66.0]]);
 }
 
 #[test]
-fn a_mark_on_a_face_takes_the_symmetry_away() {
+fn a_mark_on_a_face_breaks_the_symmetry() {
     let plate = box_model(DVec3::new(60.0, 40.0, 30.0));
     let knob = |x: f64| {
         let model = box_model(DVec3::new(4.0, 4.0, 4.0));
@@ -115,13 +116,13 @@ fn a_mark_on_a_face_takes_the_symmetry_away() {
 }
 
 #[test]
-fn center_lines_give_way_to_lines_of_symmetry() {
+fn lines_of_symmetry_replace_center_lines() {
     let at = |x: f64| cylinder(DVec3::new(x, 0.0, 0.0), DVec3::Y, (10.0, 30.0, 36));
     let pair = [at(-20.0), at(20.0)];
     let sheet = Sheet { center_lines: true, ..symmetric_sheet() };
-    // The pair is symmetric about three planes. The remaining lines are the axes in front, and the
-    // vertical arms of the crosses from above; from the side, the axes coincide with the line of
-    // symmetry.
+    // The pair is symmetric about three planes. The remaining lines are the axes in the front view
+    // and the vertical arms of the crosses in the top view. In the side view, the axes coincide
+    // with the line of symmetry.
     assert_eq!(lengths(&symmetry_lines(&sheet, &pair))[0], [26.0, 36.0, 36.0]);
     let page = sheet.draw(&pair, &[], 1).unwrap();
     let lines = read_svg(&page, "center-lines").lines;

@@ -1,4 +1,4 @@
-//! Title blocks, zones and number formats: every text is there and touches nothing.
+//! Title blocks, zones and number formats: all text is present and touches nothing.
 
 use super::boxes::{PAPERS, box_model, sheet};
 use super::lint::{faults, layer_extent};
@@ -12,7 +12,7 @@ use sheet::{
 };
 use viewport::Paper;
 
-/// All texts of a page.
+/// Returns all texts on a page.
 fn texts(page: &SheetPage) -> Vec<&str> {
     let groups = page.layers.iter().flat_map(|layer| &layer.groups);
     let texts = groups.filter_map(|group| match &group.content {
@@ -22,7 +22,7 @@ fn texts(page: &SheetPage) -> Vec<&str> {
     texts.filter(|text| !text.is_empty()).collect()
 }
 
-/// Returns the texts of all fields.
+/// Returns a title block text with every field set.
 fn all_fields(language: TitleBlockLanguage) -> TitleBlockText {
     TitleBlockText {
         title: "Bearing, gyrated".to_owned(),
@@ -66,7 +66,7 @@ fn all_fields_are_legible_on_every_paper_in_every_language() {
 }
 
 #[test]
-fn the_small_block_has_the_number_of_the_sheet() {
+fn the_small_block_shows_the_sheet_number() {
     let model = [box_model(DVec3::new(80.0, 50.0, 30.0))];
     let mut own = sheet((Paper::A4, "A4"), SheetAngle::First);
     assert!(texts(&own.draw(&model, &[], 1).unwrap()).contains(&"Drawn with"));
@@ -77,7 +77,7 @@ fn the_small_block_has_the_number_of_the_sheet() {
 }
 
 #[test]
-fn zones_and_trimming_marks_are_outside_of_the_frame() {
+fn zones_and_trimming_marks_are_outside_the_frame() {
     let model = [box_model(DVec3::new(80.0, 50.0, 30.0))];
     let mut own = sheet((Paper::A3.rotated(), "A3"), SheetAngle::First);
     own.frame = SheetFrame::Zones;
@@ -90,7 +90,7 @@ fn zones_and_trimming_marks_are_outside_of_the_frame() {
 }
 
 #[test]
-fn a_block_of_ones_own_stands_in_the_corner_with_its_fields() {
+fn custom_title_blocks_are_in_the_corner_with_fields_filled_in() {
     let svg = "<svg viewBox='0 0 120 24'><rect width='120' height='24' stroke-width='0.7'/>
         <path d='M0 12H120M60 12v12'/><text x='2' y='8' font-size='7'>{title}</text>
         <text x='2' y='20'>{scale} {unit} {sheet}/{sheets}</text>
@@ -111,7 +111,7 @@ fn a_block_of_ones_own_stands_in_the_corner_with_its_fields() {
         );
         assert_eq!(faults(&page), [""; 0], "{}", paper.1);
     }
-    // On narrow paper it shrinks; characters that the font lacks are reported.
+    // The block shrinks on narrow paper. Characters missing from the font are reported.
     let own = sheet((Paper::new(100.0, 140.0).unwrap(), "own"), SheetAngle::First);
     let mut own = Sheet { title_block_template: Some(template), ..own };
     own.title_block.title = "轴承".to_owned();
@@ -125,7 +125,7 @@ fn a_block_of_ones_own_stands_in_the_corner_with_its_fields() {
 }
 
 #[test]
-fn lengths_have_the_form_that_is_asked_for() {
+fn lengths_have_the_requested_format() {
     let model = [box_model(DVec3::new(1803.4, 412.75, 61.1))];
     let dimensions = |unit, decimals, decimal_mark| {
         let mut own = sheet((Paper::A3.rotated(), "A3"), SheetAngle::First);

@@ -1,5 +1,5 @@
 //! Requested views: details, stepped, half and local sections, auxiliary and broken views, and
-//! views at given positions.
+//! views at requested positions.
 
 use super::boxes::{Random, box_model, has_view, plane, sheet};
 use super::lint::{Extent, faults, layer_extent};
@@ -13,10 +13,10 @@ use projection::SheetAngle;
 use sheet::{Sheet, SheetError, SheetPage, SheetWarning, ViewPlace, ViewRequest, ViewSide};
 use viewport::{DrawingScale, Paper};
 
-/// Twice the grid step of a page, in millimeters: two ends are rounded.
+/// Twice the grid step of a page, in millimeters, because two ends are rounded.
 const GRID: f64 = 0.002;
 
-/// An A3 sheet in landscape with these requests.
+/// Returns an A3 sheet in landscape with these requests.
 fn a3(views: Vec<ViewRequest>) -> Sheet {
     Sheet { views, ..sheet((Paper::A3.rotated(), "A3"), SheetAngle::First) }
 }
@@ -47,7 +47,7 @@ fn detail(center: Point<World>, radius: f64) -> ViewRequest {
     ViewRequest::Detail { of: NamedView::Front, center, radius, place: ViewPlace::default() }
 }
 
-/// All texts of a page.
+/// Returns all texts on a page.
 fn texts(page: &SheetPage) -> Vec<&str> {
     let groups = page.layers.iter().flat_map(|layer| &layer.groups);
     groups
@@ -70,7 +70,7 @@ fn view_extent(page: &SheetPage, name: &str) -> Extent {
     layer_extent(page, |id| id.starts_with(&prefix)).expect("a view")
 }
 
-/// Returns the front view at the top left of a sheet's views, at 1:1.
+/// Returns an A3 sheet in landscape with these requests, at 1:1.
 fn at_one_to_one(views: Vec<ViewRequest>) -> Sheet {
     Sheet { scale: scale(1, 1), ..a3(views) }
 }
@@ -82,7 +82,7 @@ fn a_detail_is_the_part_within_its_circle() {
     sheet.dimensions = false;
     let page = sheet.draw(&model, &[], 1).unwrap();
     assert_eq!((page.warnings.as_slice(), faults(&page)), (&[][..], Vec::new()));
-    // The largest enlargement, up to five times.
+    // The detail has the largest standard enlargement up to five times.
     assert!(texts(&page).contains(&"A (5:1)"), "{:?}", texts(&page));
     let circles: Vec<Extent> = strokes(&page, "view-marks")
         .iter()
@@ -95,7 +95,7 @@ fn a_detail_is_the_part_within_its_circle() {
     assert!(((mother[0] + mother[1]) * 0.5 - corner).length() < GRID);
     assert!((mother[1] - mother[0] - 10.0).length() < GRID, "{mother:?}");
     assert!((border[1] - border[0] - 50.0).length() < GRID, "{border:?}");
-    // Two edges meet at the center: 5 mm each, at 5:1, up to the circle.
+    // Two edges meet at the center. Each is 5 mm long up to the circle, at 5:1.
     let center = (border[0] + border[1]) * 0.5;
     let lines: Vec<&Polyline> = page
         .layers
@@ -119,12 +119,12 @@ fn a_detail_of_a_cut_view_has_its_hatching() {
     assert_eq!((page.warnings.as_slice(), faults(&page)), (&[][..], Vec::new()));
     let [low, high] =
         layer_extent(&page, |id| id == "detail-b-visible-hatching").expect("hatching");
-    // A quarter of the disc.
+    // The hatching covers a quarter of the disc.
     assert!((high - low).max_element() <= 25.0 + GRID, "{low} {high}");
     assert!((high - low).min_element() > 20.0, "{low} {high}");
 }
 
-/// Two boxes side by side, the right one closer to the viewer of the front view.
+/// Returns two boxes side by side. In the front view, the right box is closer to the viewer.
 fn two_depths() -> [ModelInstance; 2] {
     [
         box_at(DVec3::new(50.0, 40.0, 20.0), DVec3::new(-25.0, 0.0, 0.0)),
@@ -132,7 +132,7 @@ fn two_depths() -> [ModelInstance; 2] {
     ]
 }
 
-/// Returns a stepped section through the middles of the two boxes.
+/// Returns a stepped section through the middle of both boxes.
 fn stepped(place: ViewPlace) -> ViewRequest {
     let corners = [[-20.0, 0.0], [0.0, 0.0], [0.0, 20.0], [30.0, 20.0]];
     let corners = corners.map(|[x, z]| point(x, 0.0, z)).to_vec();
@@ -140,31 +140,32 @@ fn stepped(place: ViewPlace) -> ViewRequest {
 }
 
 #[test]
-fn a_stepped_section_cuts_each_strip_by_its_plane() {
+fn a_stepped_section_cuts_each_strip_with_its_plane() {
     let page = at_one_to_one(vec![stepped(ViewPlace::default())]);
     let page = page.draw(&two_depths(), &[], 1).unwrap();
     assert_eq!((page.warnings.as_slice(), faults(&page)), (&[][..], Vec::new()));
     assert!(texts(&page).contains(&"A-A"));
-    // Both boxes are hatched over their whole 50 mm.
+    // Both boxes are hatched over their full 50 mm.
     let [low, high] = layer_extent(&page, |id| id == "front-visible-hatching").expect("hatching");
     assert!(high.x - low.x > 97.0 && high.x - low.x < 100.0 + GRID, "{low} {high}");
-    // The line in the top view: across both boxes with the step, plus 4 mm at both ends.
+    // In the top view the line runs across both boxes with the step, plus 4 mm at each end.
     let lines = strokes(&page, "cut-lines");
     let [line] = lines.as_slice() else { panic!("{lines:?}") };
     assert_eq!((line.points.len(), line.closed), (4, false));
     assert!((line.length() - (100.0 + 20.0 + 2.0 * 4.0)).abs() < 3.0 * GRID, "{}", line.length());
-    // Wide ends and wide corners: two for each of the three parts.
+    // The ends and corners are wide, which makes two wide lines for each of the three pieces.
     assert_eq!(strokes(&page, "cut-ends").len(), 6);
     let top = view_extent(&page, "top");
     let middle = (top[0] + top[1]) * 0.5;
     let step = [line.points[1], line.points[2]].map(to_millimeters);
     assert!(step.iter().all(|point| (point.x - middle.x).abs() < GRID));
-    // In the top view z points down the sheet: the second plane is 20 mm closer to the viewer.
+    // In the top view, z points down the sheet. The second plane is 20 mm closer to the viewer of
+    // the front view.
     assert!((step[1].y - step[0].y - 20.0).abs() < GRID, "{step:?}");
 }
 
 #[test]
-fn a_stepped_section_with_a_place_stands_there() {
+fn a_stepped_section_can_be_placed_at_a_position() {
     let place = ViewPlace { at: Some(DVec2::new(330.0, 200.0)), ..ViewPlace::default() };
     let page = at_one_to_one(vec![stepped(place)]).draw(&two_depths(), &[], 1).unwrap();
     assert_eq!((page.warnings.as_slice(), faults(&page)), (&[][..], Vec::new()));
@@ -174,14 +175,14 @@ fn a_stepped_section_with_a_place_stands_there() {
 }
 
 #[test]
-fn the_line_of_a_stepped_section_needs_a_view_along_the_steps() {
+fn stepped_sections_without_a_view_along_the_steps_are_reported() {
     let views = vec![named(NamedView::Front), stepped(ViewPlace::default())];
     let page = at_one_to_one(views).draw(&two_depths(), &[], 1).unwrap();
     assert_eq!(page.warnings, [SheetWarning::CutLineNotShown { section: "A-A".to_owned() }]);
 }
 
 #[test]
-fn a_half_section_cuts_the_half_that_was_asked_for() {
+fn a_half_section_cuts_the_requested_half() {
     let model = [box_model(DVec3::new(100.0, 50.0, 30.0))];
     for (side, axis, is_upper) in [
         (ViewSide::Left, 0, false),
@@ -200,7 +201,7 @@ fn a_half_section_cuts_the_half_that_was_asked_for() {
         } else {
             (middle[axis] - hatching[1][axis], hatching[0][axis] - front[0][axis])
         };
-        // Hatch lines begin within a spacing of 2 mm of the border.
+        // Hatch lines begin within one spacing, 2 mm, of the border.
         assert!((-GRID..3.0).contains(&near) && (-GRID..3.0).contains(&far), "{side:?}");
         let center = strokes(&page, "symmetry-lines");
         let [line] = center.as_slice() else { panic!("{center:?}") };
@@ -225,7 +226,7 @@ fn a_local_section_is_cut_within_its_freehand_line() {
         let most = points.map(|p| p.distance(center)).fold(0.0_f64, f64::max);
         assert!(most > 11.0 && most < 12.0 * 1.08 + GRID, "{id}: {most}");
     }
-    // The same line in every drawing.
+    // The freehand line is the same in every drawing.
     let again = at_one_to_one(vec![local(point(10.0, 5.0, 0.0))]).draw(&model, &[], 2).unwrap();
     assert!(page == again);
     // At the border, the freehand line ends at the outline.
@@ -239,7 +240,7 @@ fn a_local_section_is_cut_within_its_freehand_line() {
 }
 
 #[test]
-fn a_broken_view_is_shorter_and_its_dimension_true() {
+fn a_broken_view_is_shorter_with_true_dimensions() {
     let model = [box_model(DVec3::new(1000.0, 40.0, 30.0))];
     let broken = ViewRequest::Broken { of: None, axis: 0, from: -400.0, to: 350.0 };
     let whole = a3(Vec::new()).draw(&model, &[], 1).unwrap();
@@ -250,12 +251,12 @@ fn a_broken_view_is_shorter_and_its_dimension_true() {
         let [low, high] = view_extent(page, "front");
         (high.y - low.y) / 40.0
     };
-    // Whole at 1:5; without 750 mm there is room for 1:1.
+    // The whole object fits at 1:5. Without 750 mm there is room for 1:1.
     assert!((height(&whole) - 0.2).abs() < 1e-4 && (height(&page) - 1.0).abs() < 1e-4);
     for name in ["front", "top"] {
         let [low, high] = view_extent(&page, name);
         assert!((high.x - low.x - 250.0).abs() < GRID, "{name}: {low} {high}");
-        // A gap of 3 mm between two freehand lines from edge to edge.
+        // There is a gap of 3 mm between two freehand lines that run from edge to edge.
         let lines = strokes(&page, &format!("{name}-break-lines"));
         assert_eq!(lines.len(), 2, "{name}");
         let tall = if name == "front" { 40.0 } else { 30.0 };
@@ -268,7 +269,7 @@ fn a_broken_view_is_shorter_and_its_dimension_true() {
 }
 
 #[test]
-fn sections_and_details_know_what_a_broken_view_leaves_out() {
+fn sections_and_details_account_for_the_omitted_part() {
     let model = [box_model(DVec3::new(1000.0, 40.0, 30.0))];
     let broken = ViewRequest::Broken { of: None, axis: 0, from: -400.0, to: 350.0 };
     let views = vec![broken.clone(), detail(point(500.0, 20.0, 15.0), 10.0)];
@@ -277,7 +278,7 @@ fn sections_and_details_know_what_a_broken_view_leaves_out() {
     assert_eq!((page.warnings.as_slice(), faults(&page)), (&[][..], Vec::new()));
     let [low, high] = view_extent(&page, "front");
     let scale = (high.y - low.y) / 40.0;
-    // 100 mm before the right end.
+    // The cut is 100 mm from the right end.
     let line = to_millimeters(strokes(&page, "cut-lines")[0].points[0]);
     assert!((high.x - line.x - 100.0 * scale).abs() < GRID, "{line} {high}");
     let views = vec![broken, detail(point(0.0, 20.0, 15.0), 10.0)];
@@ -287,8 +288,8 @@ fn sections_and_details_know_what_a_broken_view_leaves_out() {
 }
 
 #[test]
-fn an_auxiliary_view_shows_an_oblique_face_in_its_true_size() {
-    // A plate of 80 by 30 at 30° to the front.
+fn an_auxiliary_view_shows_an_oblique_face_at_true_size() {
+    // The plate is 80 by 30 mm, at 30° to the front.
     let turn = Affine::rotation_y(30.0_f64.to_radians());
     let plate = box_model(DVec3::new(80.0, 30.0, 4.0));
     let plate = [ModelInstance { model_to_world: turn, ..plate }];
@@ -299,7 +300,7 @@ fn an_auxiliary_view_shows_an_oblique_face_in_its_true_size() {
     assert_eq!((page.warnings.as_slice(), faults(&page)), (&[][..], Vec::new()));
     let [low, high] = view_extent(&page, "auxiliary-a");
     assert!((high - low - DVec2::new(80.0, 30.0)).length() < 2.0 * GRID, "{low} {high}");
-    // The letter at the arrow and below the view.
+    // The letter appears at the arrow and below the view.
     assert_eq!(texts(&page).iter().filter(|text| **text == "A").count(), 2);
     let [low, high] = view_extent(&page, "front");
     let width = 80.0 * libm::cos(30.0_f64.to_radians()) + 4.0 * libm::sin(30.0_f64.to_radians());
@@ -307,7 +308,7 @@ fn an_auxiliary_view_shows_an_oblique_face_in_its_true_size() {
 }
 
 #[test]
-fn views_stand_in_columns_and_rows_about_the_front_view() {
+fn views_form_columns_and_rows_around_the_front_view() {
     let model = [box_model(DVec3::new(40.0, 30.0, 20.0))];
     for angle in [SheetAngle::First, SheetAngle::Third] {
         let mut sheet = a3(NamedView::PRINCIPAL.map(named).to_vec());
@@ -336,7 +337,7 @@ fn views_stand_in_columns_and_rows_about_the_front_view() {
 }
 
 #[test]
-fn views_have_places_scales_and_captions_of_their_own() {
+fn views_can_have_individual_positions_scales_and_captions() {
     let model = [box_model(DVec3::new(40.0, 30.0, 20.0))];
     let at = DVec2::new(300.0, 80.0);
     let place = ViewPlace { at: Some(at), scale: scale(2, 1), caption: Some("Plan".to_owned()) };
@@ -350,7 +351,7 @@ fn views_have_places_scales_and_captions_of_their_own() {
 }
 
 #[test]
-fn misplaced_views_are_named() {
+fn misplaced_views_are_reported() {
     let model = [box_model(DVec3::new(40.0, 30.0, 20.0))];
     let draw = |at: [f64; 2]| {
         let place = ViewPlace { at: Some(at.into()), ..ViewPlace::default() };
@@ -373,7 +374,7 @@ fn misplaced_views_are_named() {
 }
 
 #[test]
-fn requests_that_make_no_sense_are_errors_that_name_them() {
+fn invalid_requests_are_rejected() {
     let model = [box_model(DVec3::new(40.0, 30.0, 20.0))];
     let broken = |from, to| ViewRequest::Broken { of: None, axis: 0, from, to };
     let half = |of| ViewRequest::HalfSection { of, point: None, side: ViewSide::Right };
@@ -449,7 +450,7 @@ fn sheets_with_random_requests_are_legible() {
                 left_out += page.warnings.len();
                 messages.extend(faults(&page).iter().map(|fault| format!("{number}: {fault}")));
             }
-            // Two requests for one view.
+            // Two requests may be for the same view.
             Err(SheetError::Request { .. }) => {}
             Err(error) => panic!("{number}: {error}"),
         }
