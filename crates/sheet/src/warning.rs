@@ -13,7 +13,7 @@ use files::visible_excerpt;
 /// An element that is missing from a sheet or could not be computed. Its `Display` text gives the
 /// reason.
 ///
-/// Warnings are sorted and reported once each; see [`Warning`].
+/// Warnings are sorted, and each is reported once; see [`Warning`].
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum SheetWarning {
@@ -103,7 +103,7 @@ impl SheetWarning {
         }
     }
 
-    /// Returns the order of two warnings of the same kind.
+    /// Compares two warnings of the same kind.
     fn compare_values(&self, other: &Self) -> Ordering {
         match (self, other) {
             (Self::Drawing(a), Self::Drawing(b)) => a.cmp(b),
@@ -177,7 +177,7 @@ impl fmt::Display for SheetWarning {
             }
             Self::CutLineNotShown { section } => write!(
                 f,
-                "no view of the sheet looks along the steps of section {section}, so its cut line \
+                "no view on the sheet looks along the steps of section {section}, so its cut line \
                  is not shown"
             ),
             Self::ViewOverlaps { view, other } => write!(

@@ -55,7 +55,7 @@ pub struct ExplosionSettings {
 }
 
 impl ExplosionSettings {
-    /// Returns the move of each part, which is zero for the largest.
+    /// Returns the move of each part, which is zero for the largest part.
     pub(crate) fn moves(&self, shapes: &PartShapes) -> Vec<DVec3> {
         let boxes = &shapes.boxes;
         let whole = boxes.iter().copied().reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
@@ -154,7 +154,7 @@ impl Direction {
     }
 }
 
-/// Returns the part with the largest box; the first of several equally large parts.
+/// Returns the part with the largest box, or the first such part in a tie.
 fn largest(boxes: &[Corners]) -> usize {
     let size = |[low, high]: Corners| {
         let sides = high - low;

@@ -1,4 +1,4 @@
-//! Parts: the nodes of models that have a mesh, with their names, places and bounding boxes.
+//! Parts: the nodes of models that have a mesh, with their names, transforms and bounding boxes.
 
 use glam::{DMat3, DVec3};
 use homog::{Affine, Bounds, Model as ModelSpace, Point, World};

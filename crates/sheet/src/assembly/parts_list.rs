@@ -7,7 +7,7 @@ use crate::{AssemblyWarning, SheetWarning};
 use model::ModelInstance;
 use std::collections::BTreeMap;
 
-/// The density of a material, or of the parts with a given name.
+/// The density of a material, or of the parts with a certain name.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PartDensity {
     /// The name of a material or a part, or `*` for all parts without a more specific density.
@@ -16,7 +16,7 @@ pub struct PartDensity {
     pub grams_per_cubic_centimeter: f64,
 }
 
-/// A parts list of models.
+/// A list of the parts in models.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct PartsList {
     /// The items, numbered from 1, in the order of their first nodes in the models.
@@ -170,8 +170,7 @@ fn csv_field(text: &str) -> String {
     if needs_quotes { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
-/// Returns the density of a part: the density for its name, for its only material, or the default
-/// for all parts.
+/// Returns the density specified for a part's name, for its only material, or for all parts.
 fn find_density<'a>(
     densities: &'a [PartDensity],
     name: &str,

@@ -24,7 +24,7 @@ const PAIR_VISITS: usize = 300;
 /// A direction along an axis: 0 is negative, 1 is positive.
 type AxisSide = usize;
 
-/// Which parts prevent others from leaving.
+/// The parts that prevent others from leaving.
 #[derive(Debug)]
 struct Hindrances {
     /// For each part, the parts that it hinders, each with the side and the fraction of cells it

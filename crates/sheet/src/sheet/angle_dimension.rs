@@ -46,7 +46,7 @@ impl DimensionBoard {
         let ViewMeasure::Angle { vertex, ends } = &dimension.measure else { return None };
         let ratio = self.settings.scale.ratio();
         let (vertex, mut ends) = (*vertex * ratio, ends.map(|end| end * ratio));
-        // Sorted so that the sweep is the angle below 180°.
+        // The ends are sorted so that the sweep is the angle below 180°.
         if (ends[0] - vertex).perp_dot(ends[1] - vertex) < 0.0 {
             ends.swap(0, 1);
         }
@@ -123,7 +123,7 @@ impl AngleArc<'_> {
         let width = Label::new(self.text, DVec2::ZERO, self.letters).width();
         let margin = 2.0 * TEXT_GAP * self.letters;
         let half = DVec2::new(0.5 * width, 0.5 * self.letters);
-        // Far enough out that no corner of the text is inside the arc.
+        // Moves the text outward until none of its corners is inside the arc.
         let mut distance = self.radius + margin;
         let is_inside = |distance: f64| {
             let center = out * distance;

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   ┌ ─ ─ ─ ─ ─ ─ ─ ┐
-//!      ◄── 150 ──►         all coordinates are in millimeters on paper from the center of the view;
+//!      ◄── 150 ──►         coordinates are in millimeters on paper from the center of the view;
 //!   │  ┌─────────┐  │      a layout must keep the extent of the object and annotations free
 //!      │    +    │
 //!   │  └─────────┘  │
@@ -87,12 +87,12 @@ pub(super) struct ViewAnnotations {
     dimensions: Vec<PlacedDimension>,
     /// The names of dimensions for which there was no room.
     pub(super) left_out: Vec<String>,
-    /// The texts of missing labels, with the reasons.
+    /// The text of missing labels, with the reasons.
     pub(super) labels_left_out: Vec<(String, SheetLabelFault)>,
 }
 
 /// A shape with its layer and bounding rectangle. The rectangle is stored because each text
-/// position is compared with every shape, and the rectangle of a text depends on all its strokes.
+/// position is compared with every shape, and the rectangle of text depends on all its strokes.
 #[derive(Clone, PartialEq, Debug)]
 struct PlacedShape {
     layer: AnnotationLayer,
@@ -109,7 +109,7 @@ pub(super) struct PlacedDimension {
 }
 
 impl AnnotationText {
-    /// Returns a text centered on a point.
+    /// Returns text centered on a point.
     pub(super) fn centered(text: impl Into<String>, middle: DVec2, height: f64) -> Self {
         let anchor = middle + DVec2::Y * (0.5 * height);
         let align = TextAlign::Middle;
@@ -184,8 +184,8 @@ impl ViewAnnotations {
         self.push(layer, AnnotationShape::Line(ends));
     }
 
-    /// Adds the first of these texts that touches neither another annotation nor the object, or the
-    /// first text if all of them do.
+    /// Adds the first candidate that touches neither another annotation nor the object, or the
+    /// first of all if every candidate touches something.
     pub(super) fn push_first_free_text(
         &mut self,
         layer: AnnotationLayer,
@@ -202,7 +202,7 @@ impl ViewAnnotations {
         first.into_iter().for_each(|text| self.push(layer, AnnotationShape::Text(text)));
     }
 
-    /// Whether a text touches neither another annotation nor the object.
+    /// Whether text touches neither another annotation nor the object.
     pub(super) fn is_free(&self, text: &AnnotationText, object: Extent) -> bool {
         let clearance = 0.25 * text.height;
         AnnotationShape::Text(text.clone()).extent().is_some_and(|[low, high]| {
@@ -330,7 +330,7 @@ impl AnnotationLayer {
                 page::Join::Miter,
             )
         };
-        // ISO 3098, type B: lines are a tenth of the character height wide.
+        // In ISO 3098 type B, lines are a tenth of the character height wide.
         let lettering = || Pen::solid(letters * 0.1, ink);
         let (id, title, pen) = match self {
             Self::CenterLines => ("center-lines", "center lines", chain()),

@@ -21,8 +21,8 @@ use glam::DVec2;
 use page::{Group, Ink, Label, Layer, Pen, Polyline, TextAlign};
 use viewport::{DrawingScale, Rectangle};
 
-/// The distance from the view or its balloons to the frame, in millimeters, which is larger than
-/// the centering marks.
+/// The distance from the view or its balloons to the frame, in millimeters, enough to clear the
+/// centering marks.
 const BORDER_GAP: f64 = 6.0;
 
 /// The distance from the view to the balloons, in millimeters.
@@ -67,7 +67,7 @@ pub(super) struct BalloonTarget<'a> {
 
 impl AssemblyLayout {
     /// Returns the layout with the largest scale next to the title block and parts list, or `None`
-    /// if the view fits at no standard scale.
+    /// if the view does not fit at any standard scale.
     ///
     /// `count` is the maximum number of balloons; 0 means none.
     pub(super) fn arrange(

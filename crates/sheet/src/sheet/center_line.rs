@@ -9,8 +9,8 @@
 //!        │
 //! ```
 //!
-//! Circles on one axis share one line along it. In a view along the axis they share one cross,
-//! large enough for the largest of them. A circle gets a cross if at least half of it exists. An
+//! Circles on one axis share one line along it. In a view along the axis, they share one cross that
+//! is large enough for the largest circle. A circle gets a cross if at least half of it exists. An
 //! axis gets a line if there are two circles on it, as in a cylinder or a cone.
 
 use super::annotation::{AnnotationLayer, ViewAnnotations};
@@ -37,7 +37,7 @@ const SAME: f64 = 1e-4;
 /// the view.
 const MAX_LINES: usize = 300;
 
-/// The center lines of a view, in object millimeters from its center, y down.
+/// The center lines of a view, in object millimeters from its center, with y down.
 #[derive(Clone, Debug, Default)]
 pub(super) struct CenterLines {
     /// Circles seen face-on: centers and radii.
@@ -126,8 +126,8 @@ fn merge_crosses(mut crosses: Vec<(DVec2, f64)>, same: f64) -> Vec<(DVec2, f64)>
     merged
 }
 
-/// Merges axes that share a line into one from the first to the last point. Each axis is a list of
-/// points and a direction.
+/// Merges axes on the same line into one segment from the first to the last point. Each axis is a
+/// point and a direction.
 fn merge_axes(sides: Vec<(DVec2, DVec2)>, same: f64) -> Vec<[DVec2; 2]> {
     let mut lines: Vec<(DVec2, DVec2, [f64; 2])> = Vec::new();
     for (center, along) in sides {

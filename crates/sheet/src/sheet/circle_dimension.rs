@@ -58,7 +58,7 @@ impl DimensionBoard {
         best.map(|(_, candidate)| candidate)
     }
 
-    /// Returns the length of the part of a ray from a point that is inside the hull of the part.
+    /// Returns the distance along a ray from a point to where it leaves the hull of the part.
     fn exit_distance(&self, from: DVec2, along: DVec2) -> f64 {
         let hull = &self.hull;
         let crossings = hull.iter().enumerate().filter_map(|(at, &a)| {

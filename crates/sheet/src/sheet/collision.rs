@@ -1,7 +1,8 @@
 //! Collision tests of annotations, by separating axes between convex outlines.
 //!
-//! Texts, arrowheads and lines are convex, so the separating axis theorem applies: two shapes are
-//! disjoint if they are separated along the normal of one of their sides (Gottschalk 1996).
+//! Text outlines, arrowheads and lines are convex, so the separating axis theorem applies: two
+//! shapes are disjoint if they are separated along the normal of one of their sides (Gottschalk
+//! 1996).
 
 use super::annotation::{AnnotationShape, AnnotationText};
 use glam::DVec2;
@@ -10,7 +11,7 @@ use page::Label;
 /// The largest overlap, in millimeters, that counts as mere contact.
 const CONTACT: f64 = 1e-6;
 
-/// Returns the corners of a text, with a margin around it.
+/// Returns the corners of the rectangle around text, with a margin.
 pub(super) fn text_outline(text: &AnnotationText, margin: f64) -> [DVec2; 4] {
     let width = Label::new(&text.text, DVec2::ZERO, text.height).width();
     let part = match text.align {

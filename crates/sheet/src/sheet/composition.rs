@@ -126,7 +126,7 @@ impl Composition {
 }
 
 impl ComposedDrawing {
-    /// Returns the part of the drawing within a radius of its center, in pixels.
+    /// Returns the part of the drawing within a radius, in pixels, around its center.
     pub(super) fn within_disc(self, radius: f64) -> Self {
         let area = ClipArea::Disc { center: self.drawing.size * 0.5, radius };
         let parts = |line: &Vec<DVec2>| {

@@ -13,10 +13,10 @@ use super::dimension::DimensionSettings;
 use super::measure::{ViewDimension, ViewMeasure};
 use glam::DVec2;
 
-/// The margin around texts, in character heights.
+/// The margin around text, in character heights.
 const TEXT_MARGIN: f64 = 0.2;
 
-/// The margin between texts and the lines of the same dimension, in character heights.
+/// The margin between text and the lines of the same dimension, in character heights.
 const OWN_MARGIN: f64 = 0.15;
 
 /// The minimum distance between parallel dimension lines, in character heights.
@@ -41,14 +41,14 @@ pub(super) struct DimensionBoard {
     pub(super) settings: DimensionSettings,
     /// The convex parts of lines and arrowheads.
     lines: Vec<Vec<DVec2>>,
-    /// The convex parts of texts, with their margin.
+    /// The convex outlines of text, with their margin.
     texts: Vec<Vec<DVec2>>,
     /// The dimension lines.
     spans: Vec<[DVec2; 2]>,
 }
 
 impl Candidate {
-    /// Whether the candidate's texts are clear of its lines and of each other.
+    /// Whether the candidate's numbers are clear of its lines and of each other.
     fn is_legible(&self, margin: f64) -> bool {
         let parts: Vec<(bool, Vec<DVec2>)> = self
             .shapes
@@ -92,7 +92,7 @@ impl DimensionBoard {
         board
     }
 
-    /// Returns the margin around texts in millimeters.
+    /// Returns the margin around text in millimeters.
     fn text_margin(&self) -> f64 {
         TEXT_MARGIN * self.settings.letters
     }

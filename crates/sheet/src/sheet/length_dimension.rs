@@ -223,7 +223,8 @@ impl LengthRow<'_> {
         is_inside && (self.is_narrow(at - 1) || self.is_narrow(at))
     }
 
-    /// Returns all lines and texts, or `None` if no level has room for the numbers above the line.
+    /// Returns all lines and numbers, or `None` if no level has room for the numbers above the
+    /// line.
     fn candidate(&self) -> Option<Candidate> {
         let mut candidate = Candidate::default();
         self.add_extension_lines(&mut candidate);

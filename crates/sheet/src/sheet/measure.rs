@@ -78,7 +78,8 @@ pub enum DimensionSide {
     Right,
 }
 
-/// The image of a measure in a view, in object millimeters from the center of the view, y down.
+/// The image of a measure in a view, in object millimeters from the center of the view, with y
+/// down.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum ViewMeasure {
     /// Lengths between the images of points along a unit vector that points to the right or upward.
@@ -114,7 +115,8 @@ impl DimensionSide {
 }
 
 impl SheetView {
-    /// Returns the image of a point, in object millimeters from the center of the view, y down.
+    /// Returns the image of a point, in object millimeters from the center of the view, with y
+    /// down.
     pub(super) fn image_of(&self, point: Point<World>) -> DVec2 {
         let seen = self.camera.world_to_view().transform_point(point).raw();
         DVec2::new(seen.x, -seen.y) * self.millimeters_per_unit

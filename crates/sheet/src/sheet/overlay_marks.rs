@@ -52,7 +52,7 @@ const FARTHEST: f64 = 0.25;
 /// The length of an axis as a fraction of the models' diagonal, the same as in pictures.
 const AXIS_LENGTH: f64 = 0.6;
 
-/// The overlays of a view, in object millimeters from its center, y down.
+/// The overlays of a view, in object millimeters from its center, with y down.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ViewOverlays {
     /// Points with their labels.
@@ -62,7 +62,7 @@ pub(super) struct ViewOverlays {
 }
 
 impl ViewPlan {
-    /// Adds labels and axes to all views except details and broken ones, and warns about overlays
+    /// Adds labels and axes to all views except details and broken views, and warns about overlays
     /// that sheets do not show.
     pub(super) fn add_overlays(&mut self, sheet: &Sheet, models: &[ModelInstance]) {
         if sheet.overlays.is_empty() {
@@ -96,7 +96,7 @@ fn overlay_warning(overlay: &Overlay) -> Option<SheetWarning> {
         Overlay::Label(label) => {
             return missing_glyph_warning(&label.text).map(SheetWarning::from);
         }
-        // Sheets draw edges anyway.
+        // Sheets always draw edges.
         Overlay::Axes(_) | Overlay::Edges => return None,
     };
     Some(SheetWarning::OverlayNotOnSheets { overlay: overlay.to_owned() })

@@ -9,7 +9,7 @@
 //!   │ title block                     │
 //! ```
 //!
-//! On a separate page it is read downward, column by column.
+//! On a separate page, the list is read downward, column by column.
 
 use super::frame::rectangle_outline;
 use super::{Sheet, rectangle_from_size};
@@ -25,12 +25,12 @@ const ROW_HEIGHT: f64 = 2.3;
 /// The distance from the border of a cell to its text, in millimeters.
 const INSET: f64 = 1.2;
 
-/// The smallest fraction to which the height of text wider than its cell is reduced before the text
-/// is truncated.
+/// The minimum factor by which the height of text that is wider than its cell is reduced. Text that
+/// is still too wide is truncated.
 const LEAST_REDUCTION: f64 = 0.7;
 
 /// The distance from a table on a separate page to the frame and to the title block, in
-/// millimeters, which is larger than the centering marks.
+/// millimeters, enough to clear the centering marks.
 const GAP: f64 = 6.0;
 
 /// The layout of a parts list on a sheet.
@@ -123,7 +123,7 @@ impl<'a> PartsTable<'a> {
         rectangle_from_size(x, y, column.width, self.height(column.rows.len()))
     }
 
-    /// Returns the cell borders, and the texts in the cells.
+    /// Returns the layers with the cell borders and the text in the cells.
     pub(super) fn layers(&self, columns: &[TableColumn], ink: Ink) -> [Layer; 2] {
         let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(0.18, ink) };
         let mut borders = Layer::new("parts-list", "parts list", pen);
@@ -190,7 +190,7 @@ impl<'a> PartsTable<'a> {
         if masses.fold(0.0, f64::max) >= 1000.0 { ("kg", 1000.0) } else { ("g", 1.0) }
     }
 
-    /// Returns the cell texts of an item. An unknown mass is left blank.
+    /// Returns the cell contents of an item. An unknown mass is left blank.
     fn texts_of_item(&self, item: &PartsListItem) -> Vec<String> {
         let mut texts = vec![
             item.number.to_string(),
@@ -205,7 +205,7 @@ impl<'a> PartsTable<'a> {
         texts
     }
 
-    /// Adds the texts of a row, with counts centered and masses right-aligned.
+    /// Adds the text of a row, with counts centered and masses right-aligned.
     fn add_row(&self, layer: &mut Layer, column: &TableColumn, row: usize, texts: &[String]) {
         let foot = (ROW_HEIGHT - 1.0) * 0.5 * self.letters;
         let y = column.corner.y + self.row_height() * (row + 1) as f64 - foot;
@@ -250,7 +250,7 @@ fn cut_to_width(text: &str, height: f64, room: f64) -> String {
     cut(low)
 }
 
-/// Returns a mass with four significant digits, or as an integer, without trailing zeros.
+/// Formats a mass with four significant digits, or as an integer, without trailing zeros.
 fn format_mass(mass: f64) -> String {
     let decimals = match mass {
         mass if mass >= 999.95 => 0,

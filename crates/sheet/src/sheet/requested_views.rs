@@ -1,4 +1,4 @@
-//! Requested views: turns the requests of a sheet into its planned views.
+//! Requested views: turns the requests for a sheet into planned views.
 //!
 //! | request | result |
 //! | --- | --- |
@@ -161,7 +161,7 @@ impl RequestPlanner<'_> {
         })
     }
 
-    /// Returns the index of a view along an axis that is not yet composed of parts.
+    /// Returns the index of a view along an axis that is not yet broken or partly cut.
     fn index_of_whole(&self, name: NamedView) -> Result<usize, Fault> {
         let index = self.index_of(name)?;
         let one = &self.views[index];
@@ -223,7 +223,7 @@ impl RequestPlanner<'_> {
         let auxiliary = self.subject.auxiliary_view(gaze, letter)?.with_lines_of(&self.views);
         let marked = mark_direction(&mut self.views, gaze, letter);
         if !marked {
-            return Err(fault("no view of the sheet shows its direction from the side"));
+            return Err(fault("no view on the sheet shows its direction from the side"));
         }
         self.views.push(PlannedView { place: place.clone(), ..auxiliary });
         Ok(())

@@ -55,7 +55,7 @@ impl fmt::Display for ViewName {
     }
 }
 
-/// A parallel view of the object, in a named direction or onto a section plane.
+/// A parallel view of the object, from a named direction or straight at a section plane.
 #[derive(Clone, Debug)]
 pub(super) struct SheetView {
     pub(super) name: ViewName,
@@ -83,7 +83,7 @@ impl SheetView {
         Self::frame_from(points, ViewName::Named(name), name.basis(), unit)
     }
 
-    /// Creates the view that looks straight at a section plane, of the points that the plane
+    /// Creates the view that looks straight at a section plane and frames the points that the plane
     /// retains.
     ///
     /// # Errors
@@ -138,7 +138,7 @@ impl SheetView {
         Ok(Self { name, camera, size, ..self.clone() })
     }
 
-    /// Returns a world direction as foreshortened in the view, to the right and down.
+    /// Returns a world direction as it appears foreshortened in the view, to the right and down.
     pub(super) fn direction_of(&self, direction: Vector<World>) -> DVec2 {
         let seen = self.camera.rotation().transform_vector(direction).raw();
         DVec2::new(seen.x, -seen.y)
@@ -166,12 +166,12 @@ impl SheetView {
         Self { sections, ..self }
     }
 
-    /// Returns the view with another size, in object millimeters.
+    /// Returns the view with a different size, in object millimeters.
     pub(super) fn with_size(&self, size: DVec2) -> Self {
         Self { size, ..self.clone() }
     }
 
-    /// Returns the view of these points with a camera of this orientation.
+    /// Creates the view of these points with a camera of this orientation.
     fn frame_from(
         points: &[Point<World>],
         name: ViewName,

@@ -28,7 +28,8 @@ pub(super) struct SteppedLine<'a> {
 }
 
 impl SteppedLine<'_> {
-    /// Marks the line in a view if it looks along the edges of the steps. Returns whether it does.
+    /// Marks the line in a view if the view looks along the edges of the steps. Returns whether it
+    /// does.
     pub(super) fn mark(&self, one: &mut PlannedView) -> bool {
         let sees = one.view.camera.gaze().dot(self.across).abs() > 1.0 - PARALLEL_TOLERANCE;
         if !sees || !one.is_along_axis() {

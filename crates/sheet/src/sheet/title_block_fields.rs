@@ -57,7 +57,7 @@ impl TitleBlockText {
         texts.into_iter().any(|text| !text.is_empty())
     }
 
-    /// Returns all texts, which are searched for characters missing from the font.
+    /// Returns all field values, to check for characters missing from the font.
     pub(super) fn texts(&self) -> [&str; 9] {
         [
             &self.title,

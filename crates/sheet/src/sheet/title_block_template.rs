@@ -77,7 +77,7 @@ pub(super) struct TemplateText {
     pub(super) most_width: Option<f64>,
 }
 
-/// Part of a text.
+/// A piece of text or a field.
 #[derive(Clone, PartialEq, Debug)]
 enum TextPart {
     Fixed(String),
@@ -165,7 +165,7 @@ impl TitleBlockTemplate {
     /// Returns an error if the text is not an SVG file, or contains unsupported shapes, transforms,
     /// styles or unknown fields.
     pub fn parse(svg: &str) -> Result<Self, TemplateError> {
-        // A limit on the size limits the time and memory of everything below.
+        // Limiting the size also limits the time and memory of everything below.
         if svg.len() > MAX_LENGTH {
             let message = format!("a title block can have at most {MAX_LENGTH} bytes");
             return Err(TemplateError::at(svg, 0, message));
@@ -333,7 +333,7 @@ impl FieldValues<'_> {
     }
 }
 
-/// Splits a text into its parts. `{name}` is a field, and `{{` is a brace.
+/// Splits text into parts. `{name}` is a field, and `{{` is a brace.
 fn text_parts(content: &str) -> Result<Vec<TextPart>, String> {
     let (mut parts, mut rest) = (Vec::new(), content);
     while let Some((before, after)) = rest.split_once('{') {

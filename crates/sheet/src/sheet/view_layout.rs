@@ -53,7 +53,7 @@ pub(super) const LEAST_VIEW_SIZE: f64 = 8.0;
 #[derive(Clone, Debug)]
 pub(super) struct PlacedView<'a> {
     pub(super) planned: &'a PlannedView,
-    /// The center of the view on the sheet, in millimeters: a point on the micrometer grid.
+    /// The center of the view on the sheet, in millimeters, rounded to the micrometer grid.
     pub(super) center: DVec2,
     pub(super) scale: DrawingScale,
     pub(super) annotations: ViewAnnotations,
@@ -286,8 +286,8 @@ impl<'a> ViewLayout<'a> {
     }
 }
 
-/// Returns the cell of a view at the largest scale at which it fits a free rectangle, up to the
-/// sheet's scale, and its center.
+/// Returns the cell of a view at the largest scale, up to the sheet's, at which the view fits into
+/// a free rectangle, with its center.
 fn fit_into<'a>(
     sheet: &Sheet,
     planned: &'a PlannedView,

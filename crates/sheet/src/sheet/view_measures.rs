@@ -23,7 +23,8 @@ const FAR: f64 = 200.0;
 pub(super) struct ViewMeasures {
     center_lines: CenterLines,
     dimensions: Vec<ViewDimension>,
-    /// The convex hull of the object, in object millimeters from the center of the view, y down.
+    /// The convex hull of the object, in object millimeters from the center of the view, with y
+    /// down.
     hull: Vec<DVec2>,
 }
 

@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | faces the front, top or side view | that view, which is cut; the others show its line |
 //! | edge-on in one of them | a separate view of the plane; the others show its line |
-//! | oblique to all three | a separate view; an auxiliary view, marked by an arrow, shows its line |
+//! | oblique to all three | a separate view; an auxiliary view with an arrow shows its line |
 //! | beside the object | no view, with a warning |
 //!
 //! Separate views and the axonometric view have no fixed position and are placed in free space.
@@ -437,7 +437,7 @@ impl PlannedView {
         lines.filter_map(shortened).collect()
     }
 
-    /// Returns the texts below the view.
+    /// Returns the lines of text below the view.
     fn captions(&self, scale: DrawingScale) -> Vec<(AnnotationLayer, String)> {
         let mut captions = Vec::new();
         if let Some(letter) = self.letter {

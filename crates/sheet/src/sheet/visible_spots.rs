@@ -64,8 +64,8 @@ pub(super) fn find_visible_spots(
     spots
 }
 
-/// Sets the spot of parts without one, which are narrower than a pixel, to the middle of their
-/// longest visible edge segment. `object` maps a part to its object in the drawing of the view.
+/// Finds spots for parts that are narrower than a pixel and have none: the middle of their longest
+/// visible edge segment. `object` maps a part to its object in the drawing of the view.
 pub(super) fn add_spots_on_edges(
     spots: &mut [Option<VisibleSpot>],
     drawing: &Drawing,

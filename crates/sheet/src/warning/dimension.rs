@@ -9,14 +9,14 @@ use core::fmt;
 pub enum DimensionFault {
     /// The requested view is not on the sheet.
     NoSuchView(NamedView),
-    /// The requested view foreshortens it; another view of the sheet may show it at true size.
+    /// The requested view foreshortens it; another view on the sheet may show it at true size.
     Foreshortened {
         /// The requested view.
         view: NamedView,
         /// A view that shows it at true size.
         shown_in: Option<NamedView>,
     },
-    /// No view of the sheet shows it at true size.
+    /// No view on the sheet shows it at true size.
     NowhereTrue,
     /// A section removes the measured points.
     CutAway,
@@ -37,7 +37,7 @@ impl fmt::Display for DimensionFault {
                     None => f.write_str(", and no other view does"),
                 }
             }
-            Self::NowhereTrue => f.write_str("no view of the sheet shows its true size"),
+            Self::NowhereTrue => f.write_str("no view on the sheet shows its true size"),
             Self::CutAway => f.write_str("a section removes the points it measures"),
             Self::NoExtent => f.write_str("there is nothing to measure between its points"),
             Self::NoRoom => f.write_str("there is no room for its number"),

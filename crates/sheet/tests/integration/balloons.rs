@@ -32,7 +32,7 @@ pub fn layer<'a>(page: &'a SheetPage, id: &str) -> Option<&'a Layer> {
     page.layers.iter().find(|layer| layer.id == id)
 }
 
-/// Returns the texts of a layer.
+/// Returns the text of a layer.
 pub fn texts(page: &SheetPage, id: &str) -> Vec<String> {
     let groups = layer(page, id).into_iter().flat_map(|layer| &layer.groups);
     let text = |content: &GroupContent| match content {

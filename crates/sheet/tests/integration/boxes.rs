@@ -35,7 +35,7 @@ impl Random {
         ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Returns a number from `low` to `high`, with a uniform logarithm.
+    /// Returns a number from `low` to `high` whose logarithm is uniformly distributed.
     pub fn by_magnitude(&mut self, low: f64, high: f64) -> f64 {
         low * libm::exp(self.fraction() * libm::log(high / low))
     }
@@ -64,7 +64,7 @@ pub fn instance_of(primitive: Primitive) -> ModelInstance {
     ModelInstance { model: Arc::new(model), model_to_world: Affine::scale(1.0, 1.0, 1.0) }
 }
 
-/// Returns the plane through a point that retains the side toward a direction.
+/// Returns the plane through a point that retains the side in a direction.
 pub fn plane(point: DVec3, retained: DVec3) -> Plane<World> {
     let [x, y, z] = retained.to_array();
     let normal = Normal::new(x, y, z).normalized().expect("a direction");
@@ -85,7 +85,7 @@ pub fn has_view(page: &SheetPage, name: &str) -> bool {
     layer_extent(page, |id| id.starts_with(&format!("{name}-"))).is_some()
 }
 
-/// Whether a view is on the sheet, or else a warning mentions it.
+/// Whether either the view is on the sheet or a warning reports it.
 fn is_there_or_named(page: &SheetPage, prefix: &str, title: &str) -> bool {
     let named = SheetWarning::ViewLeftOut { view: title.to_owned() };
     has_view(page, prefix) != page.warnings.contains(&named)

@@ -1,4 +1,4 @@
-//! Tests of circles in models and their center lines.
+//! Tests for circles in models and their center lines.
 
 use super::boxes::{instance_of, sheet};
 use super::formats::read_svg;

@@ -76,7 +76,7 @@ fn page_of(dimension: Dimension, (scale, unit): (f64, DimensionUnit)) -> SheetPa
     page
 }
 
-/// Whether the lines of a PDF are the strokes of a text at any position.
+/// Whether the lines of a PDF are the strokes of this text, at any position.
 fn are_strokes_of(lines: &[Vec<DVec2>], text: &str, (height, along): (f64, DVec2)) -> bool {
     let label = Label::new(text, DVec2::new(500.0, 300.0), height).with_direction(along);
     let strokes: Vec<Polyline> = label.strokes();

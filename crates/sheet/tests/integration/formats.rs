@@ -1,17 +1,17 @@
-//! Readers for sheets in SVG, PDF and DXF, which return the lines and texts of one layer.
+//! Readers for sheets in SVG, PDF and DXF, which return the lines and text of one layer.
 
 use glam::DVec2;
 use page::{DxfOptions, to_pdf};
 use sheet::SheetPage;
 
-/// The straight lines of a layer, in millimeters on paper with y down, and its texts.
+/// The straight lines of a layer, in millimeters on paper with y down, and its text.
 #[derive(Debug, Default)]
 pub struct ReadLayer {
     pub lines: Vec<Vec<DVec2>>,
     pub texts: Vec<String>,
 }
 
-/// Reads the lines and texts of a layer in an SVG file, without its filled areas.
+/// Reads the lines and text of a layer in an SVG file, without its filled areas.
 pub fn read_svg(page: &SheetPage, layer: &str) -> ReadLayer {
     let svg = page.to_svg();
     let mut read = ReadLayer::default();
@@ -117,8 +117,7 @@ fn pdf_streams(bytes: &[u8]) -> Vec<String> {
     streams
 }
 
-/// Reads the lines and texts of a layer in a DXF file of a page, and flips y so that it points
-/// down.
+/// Reads the lines and text of a layer in a DXF file of a page, and flips y so that it points down.
 pub fn read_dxf(page: &SheetPage, layer: &str) -> ReadLayer {
     let bytes = page.to_dxf(&DxfOptions::on_paper(page));
     let text = String::from_utf8(bytes).expect("ASCII");

@@ -7,7 +7,7 @@ use sheet::SheetPage;
 /// A rectangle, as its minimum and maximum corners.
 pub type Extent = [DVec2; 2];
 
-/// Whether the groups of a layer are texts.
+/// Whether a layer contains text.
 fn is_text_layer(id: &str) -> bool {
     const TEXTS: [&str; 12] = [
         "frame-zone-names",
@@ -63,7 +63,7 @@ fn are_apart(a: &[DVec2], b: &[DVec2]) -> bool {
     })
 }
 
-/// Returns the corners of a rectangle around a text, with a margin. The rectangle is slanted if the
+/// Returns the corners of the rectangle around text, with a margin. The rectangle is slanted if the
 /// text is.
 fn text_outline(group: &Group, margin: f64) -> Option<Vec<DVec2>> {
     let [low, high] = extent(group.strokes.iter())?;

@@ -1,4 +1,4 @@
-//! Tests of drawing sheets: every view is placed or reported, and nothing is drawn over text.
+//! Tests for drawing sheets: every view is placed or reported, and nothing is drawn over text.
 
 #![allow(unreachable_pub, reason = "in a test, `pub` means that another file uses the item")]
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail with a panic")]

@@ -12,7 +12,7 @@ use sheet::{
 };
 use viewport::Paper;
 
-/// Returns all texts on a page.
+/// Returns all text on a page.
 fn texts(page: &SheetPage) -> Vec<&str> {
     let groups = page.layers.iter().flat_map(|layer| &layer.groups);
     let texts = groups.filter_map(|group| match &group.content {

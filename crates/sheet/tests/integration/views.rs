@@ -47,7 +47,7 @@ fn detail(center: Point<World>, radius: f64) -> ViewRequest {
     ViewRequest::Detail { of: NamedView::Front, center, radius, place: ViewPlace::default() }
 }
 
-/// Returns all texts on a page.
+/// Returns all text on a page.
 fn texts(page: &SheetPage) -> Vec<&str> {
     let groups = page.layers.iter().flat_map(|layer| &layer.groups);
     groups

@@ -28,13 +28,12 @@ impl TitleBlockTemplate {
         rectangle_from_size(high.x - size.x, high.y - size.y, size.x, size.y)
     }
 
-    /// Returns all texts with their fields filled in, which are searched for characters missing
-    /// from the font.
+    /// Returns all text with its fields filled in, to check for characters missing from the font.
     pub(in crate::sheet) fn contents(&self, values: &FieldValues<'_>) -> Vec<String> {
         self.texts.iter().map(|text| text.content(values)).collect()
     }
 
-    /// Returns the lines and texts of the block, with one layer for each line width.
+    /// Returns the lines and text of the block, with one layer for each line width.
     pub(in crate::sheet) fn layers(
         &self,
         sheet: &Sheet,

@@ -9,7 +9,7 @@ use super::path_data::parse_number;
 /// The maximum nesting depth of elements.
 const MAX_DEPTH: usize = 64;
 
-/// An event while reading the document.
+/// An event in the document.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum Event<'a> {
     /// A start tag, or an empty element, which is followed by an end event.
@@ -30,7 +30,7 @@ pub(super) struct Element<'a> {
     attributes: Vec<(&'a str, &'a str, usize)>,
 }
 
-/// Elements whose contents do not draw anything.
+/// Elements whose contents are not drawn.
 const SILENT: [&str; 4] = ["metadata", "title", "desc", "defs"];
 
 /// Attributes that have no effect, because sheets have one ink and one font.

@@ -1,4 +1,4 @@
-//! Tests of valid templates, and of error positions in invalid templates.
+//! Tests for valid templates, and for error positions in invalid templates.
 
 use super::*;
 
