@@ -1,7 +1,7 @@
 //! Dimension board: the free space around a view, in which dimensions are placed one by one.
 //!
 //! ```text
-//!        │◄── 80 ──►│          a number touches neither the part (its convex hull), nor a line, nor
+//!        │◄── 80 ──►│          a number touches neither the part (its convex hull) nor a line nor
 //!      ┌─┴──────────┴─┐        another number. Extension lines may cross the part and other lines,
 //!      │    part      │        but not numbers
 //!      └──────────────┘
