@@ -1,4 +1,4 @@
-//! A custom mesh as lines for a pen plotter: exact hidden lines, SVG on standard output.
+//! Draws a custom mesh for a pen plotter, with exact hidden lines, as SVG on standard output.
 //!
 //! ```text
 //! cargo run -p alberti-hidden-line --example plotter > house.svg
@@ -7,7 +7,7 @@
 //! A plotter moves a pen along lines and cannot paint over what should not be visible, so lines
 //! must end where faces hide them. Hidden parts go on a separate layer, for a second pen.
 
-#![allow(clippy::print_stdout, reason = "an example speaks on its standard output")]
+#![allow(clippy::print_stdout, reason = "examples write to standard output")]
 
 use camera::{Camera, ViewProjection};
 use hidden_line::{DrawOptions, EdgeSegment, Subject, draw};
@@ -17,10 +17,10 @@ use projection::{Convention, Fov, Perspective};
 use std::error::Error;
 use std::sync::Arc;
 
-/// Width and height of the drawing in pixels.
+/// The width and height of the drawing in pixels.
 const SIZE: [u32; 2] = [800, 600];
 
-/// The corners of a house, and of a chimney that pierces its roof.
+/// The corners of a house and of a chimney that pierces its roof.
 const POSITIONS: [[f32; 3]; 18] = [
     // The floor, the eaves and the ridge.
     [-2.0, 0.0, -1.5],
@@ -44,14 +44,14 @@ const POSITIONS: [[f32; 3]; 18] = [
     [0.6, 3.6, 0.8],
 ];
 
-/// The triangles of both, as index triples.
+/// The triangles of the house and the chimney, as index triples.
 const INDICES: [u32; 84] = [
     0, 1, 2, 0, 2, 3, // the floor
     0, 4, 5, 0, 5, 1, 3, 2, 6, 3, 6, 7, // the walls below the eaves
     0, 3, 7, 0, 7, 4, 4, 7, 8, 1, 5, 6, 1, 6, 2, 5, 9, 6, // the gables
     4, 8, 9, 4, 9, 5, 7, 6, 9, 7, 9, 8, // the roof
-    10, 11, 12, 10, 12, 13, 14, 17, 16, 14, 16, 15, // the chimney's ends
-    10, 14, 15, 10, 15, 11, 11, 15, 16, 11, 16, 12, // and its sides
+    10, 11, 12, 10, 12, 13, 14, 17, 16, 14, 16, 15, // the ends of the chimney
+    10, 14, 15, 10, 15, 11, 11, 15, 16, 11, 16, 12, // the sides of the chimney
     12, 16, 17, 12, 17, 13, 13, 17, 14, 13, 14, 10,
 ];
 

@@ -1,8 +1,9 @@
 //! Circles of models: chains of feature edges that follow a circle or an arc in space.
 //!
-//! The chain is mapped to its plane, on a grid of a billionth of its size, and arcs are recognized
-//! there as for DXF files: at least eight points at equal distances, less than 29.5° apart, all
-//! within the tolerance of plane and circle. A polygon with up to twelve sides is not a circle.
+//! Each chain is mapped to its plane, on a grid whose step is a billionth of the chain's size. Arcs
+//! are then recognized as for DXF files: an arc has at least eight equally spaced points, less than
+//! 29.5° apart, all within the tolerance of the plane and the circle. A polygon with twelve sides
+//! or fewer is therefore not a circle.
 
 use crate::edges::FeatureChain;
 use arcs::{ArcVertex, Circle, LineShape, recognize_arcs};
@@ -19,17 +20,17 @@ pub struct WorldCircle {
     pub axis: Vector<World>,
     /// The radius.
     pub radius: f64,
-    /// The angle of the existing arc, in radians; 2π for a full circle.
+    /// The angle that the arc spans, in radians; 2π for a full circle.
     pub sweep: f64,
 }
 
-/// The maximum distance of points from a circle, as a fraction of the models' diagonal.
+/// The maximum distance of points from their circle, as a fraction of the models' diagonal.
 pub(crate) const CIRCLE_TOLERANCE: f64 = 5e-5;
 
 /// The number of grid steps in the larger half extent of a chain.
 const GRID_STEPS: f64 = 1e9;
 
-/// The plane of a chain, with its coordinates.
+/// The plane of a chain, with a coordinate system in it.
 struct ChainPlane {
     origin: DVec3,
     axes: [DVec3; 2],
@@ -38,9 +39,9 @@ struct ChainPlane {
 }
 
 impl ChainPlane {
-    /// Finds the plane that contains all points within a tolerance; `None` if there is none.
+    /// Finds the plane that contains all points within a tolerance; `None` if no plane does.
     ///
-    /// Its normal is the normal of the area that the chain encloses (Newell).
+    /// Its normal is the area vector of the chain, normalized (Newell's method).
     fn of_chain(chain: &FeatureChain, tolerance: f64) -> Option<Self> {
         let points = &chain.points;
         let count = points.len() as f64;
@@ -96,7 +97,7 @@ pub(crate) fn circles_of_chain(chain: &FeatureChain, tolerance: f64) -> Vec<Worl
     }
 }
 
-/// Returns the circle of an arc of a polyline, and its angle; `None` for a straight side.
+/// Returns the circle and the angle of an arc of a polyline; `None` for a straight side.
 fn arc_of_bulge(from: &ArcVertex, to: DVec2) -> Option<(Circle, f64)> {
     let (bulge, chord) = (from.bulge, to - from.point);
     if bulge == 0.0 {

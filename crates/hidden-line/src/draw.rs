@@ -1,4 +1,4 @@
-//! Drawing a subject: candidate edges, hatching, hidden-line removal.
+//! Drawing of a subject: candidate edges, hatching, hidden-line removal.
 //!
 //! ```text
 //!   models, sections ─► WeldedSurface          (once, for every view)
@@ -45,17 +45,17 @@ use viewport::Viewport;
 pub struct DrawnFaces(WeldedSurface);
 
 impl DrawnFaces {
-    /// Each face with the linear color of its material; `None` for section caps.
+    /// Returns each face with the linear color of its material; `None` for section caps.
     pub fn colored(&self) -> impl Iterator<Item = ([DVec3; 3], Option<[f32; 3]>)> {
         self.0.faces_with_colors()
     }
 }
 
-/// Draws the edges of a subject with hidden-line removal. `workers` is the number of threads, which
-/// does not change the drawing, or that number with a monitor.
+/// Draws the edges of a subject with hidden-line removal. `workers` is the number of threads,
+/// optionally with a monitor; it does not change the drawing.
 ///
 /// # Errors
-/// If the image has no pixels, or if mesh copies have too many triangles.
+/// If the image has no pixels, or if the mesh instances have too many triangles.
 pub fn draw<'a>(
     subject: &Subject<'_>,
     options: &DrawOptions,
@@ -86,7 +86,7 @@ pub fn draw_hatched<'a>(
     }
     let mut surface = WeldedSurface::from_mesh(mesh, subject.sections, subject.uncut);
     let mut candidates = surface.mesh_edges(&projector, options);
-    // There is no other view, so the memory of millions of edges can be reused.
+    // There is only one view, so the memory of millions of half-edges can be freed.
     surface.forget_half_edges();
     let cover = view_cover(&surface, projector, subject.size, options);
     let hiding = cover.as_ref().map(|view| &view.cover);
@@ -104,7 +104,8 @@ pub fn draw_hatched<'a>(
 
 /// Draws a welded surface as seen by one camera, on an image of `size` pixels.
 ///
-/// A sheet draws the same surface from several directions; see [`draw_hatched`] for the rest.
+/// Use it to draw the same surface from several directions, as on a sheet. It is otherwise like
+/// [`draw_hatched`].
 ///
 /// # Errors
 /// See [`draw`].
@@ -123,7 +124,8 @@ pub fn draw_surface<'a>(
     );
     let mut candidates = surface.mesh_edges(&projector, options);
     let cover = view_cover(surface, projector, size, options);
-    // Other views need other intersections: all are found once, unless there are too many.
+    // Other views need other intersections, so all of them are found once, unless there are too
+    // many.
     let crowd = cover.as_ref().and_then(ViewCover::crowd);
     let is_cut_off = surface.add_intersections(&mut candidates, options, crowd, workers);
     let candidates = Candidates { edges: candidates, is_cut_off, cover, face_hatching };
@@ -136,18 +138,18 @@ struct Candidates<'a> {
     edges: Vec<CandidateEdge>,
     /// Whether intersections are missing.
     is_cut_off: bool,
-    /// The cover by which the surface hides itself; `None` if hidden lines do not matter.
+    /// The depths at which the surface hides itself; `None` if hidden lines do not matter.
     cover: Option<ViewCover>,
     /// The hatch lines of faces other than section caps.
     face_hatching: FaceHatching<'a>,
 }
 
-/// The number of triangles that all mesh copies may have, in addition to twice the triangles of the
-/// models.
+/// The number of triangles that all mesh instances together may have, in addition to twice the
+/// triangles of the meshes.
 const TRIANGLES_OF_COPIES: u64 = 1 << 20;
 
-/// Rejects too many copies: lines cost memory and time per triangle, and a small file may have any
-/// number of copies.
+/// Rejects too many mesh instances: every triangle costs memory and time, and a small file can
+/// contain any number of instances.
 fn refuse_many_copies(models: &[ModelInstance]) -> Result<(), DrawError> {
     let triangles = |primitive: &Primitive| match primitive.topology {
         Topology::Triangles => primitive.item_count() as u64,
@@ -167,7 +169,7 @@ fn refuse_many_copies(models: &[ModelInstance]) -> Result<(), DrawError> {
     if count > most { Err(DrawError::TooManyCopies { count, distinct, most }) } else { Ok(()) }
 }
 
-/// Draws the visible candidate edges of a surface, and its hatching.
+/// Draws the candidate edges of a surface with hidden-line removal, and its hatching.
 fn draw_candidates(
     surface: &WeldedSurface,
     Candidates { mut edges, is_cut_off, cover, face_hatching }: Candidates<'_>,
@@ -193,7 +195,7 @@ fn draw_candidates(
     let crowd = cover.as_ref().and_then(ViewCover::crowd);
     warnings.extend(crowd.map(|_| Warning::CrowdApproximated));
     if let Some(view) = &cover {
-        // Behind a crowd, hidden lines would only be black.
+        // Behind a crowd, hidden lines would merge into solid black.
         edges.retain(|edge| !view.cover.hides_segment(edge.ends));
     }
     edges.sort_by_key(|candidate| candidate.object);
@@ -214,8 +216,8 @@ fn draw_candidates(
     })
 }
 
-/// The requested outlines: of the cut faces that the viewer sees, object by object; without cuts,
-/// the one around all faces.
+/// Returns the requested outlines: one per cut face that the viewer sees, object by object, or the
+/// outline of all faces if there are no cuts.
 fn outlines(surface: &WeldedSurface, projector: &Projector, options: &DrawOptions) -> Vec<Region> {
     if !options.outlines {
         return Vec::new();
@@ -234,7 +236,7 @@ fn outlines(surface: &WeldedSurface, projector: &Projector, options: &DrawOption
     caps.map(outline).collect()
 }
 
-/// The hatching of section caps, and of all other faces if requested.
+/// Returns the hatching of section caps, and of all other faces if requested.
 fn hatch_surface(
     surface: &WeldedSurface,
     face_hatching: FaceHatching<'_>,
@@ -254,7 +256,7 @@ fn hatch_surface(
                 .map(|(vertices, object, color)| (vertices, object, luma(vertices, color)));
             hatchings.push(Hatching::hatch_faces_by_luma(faces, projector, spacing));
         }
-        // Hatching marks cuts; next to them, hatching on other faces would be misread.
+        // Hatching marks cuts; hatching on other faces next to them would be misleading.
         FaceHatching::Parts if !surface.is_cut() => {
             let faces = surface.colored_faces().map(|(vertices, object, _)| (vertices, object));
             let boxes = surface.part_boxes();
@@ -265,22 +267,23 @@ fn hatch_surface(
     hatchings
 }
 
-/// The number of faces of a wall: lines behind more are not drawn if only the first layer is.
+/// The number of faces of a wall: if only the first layer is drawn, lines behind more faces are
+/// not.
 const FACES_OF_A_WALL: u32 = 2;
 
 /// The number of comparisons always allowed per edge, on average.
 const MIN_COMPARISONS: u64 = 512;
-/// The number of comparisons always allowed for all edges together, which take at most half a
+/// The number of comparisons always allowed for all edges together; they take at most half a
 /// second.
 const ANY_COMPARISONS: u64 = 1 << 26;
 /// The number of comparisons allowed per face, so that a file twice as large takes at most twice
-/// the work. The edges of a model meet a few hundred faces; in a soup of triangles they meet all
-/// faces.
+/// the work. An edge of an ordinary model meets a few hundred faces; in a triangle soup it meets
+/// all of them.
 const COMPARISONS_PER_FACE: u64 = 4096;
 
 /// Divides edges into visible and hidden segments, using the occluders of one view.
 ///
-/// Edges are independent of each other, so this step runs on threads.
+/// Edges are independent of each other, so this step runs on several threads.
 struct EdgeDivider<'a> {
     projector: Projector,
     /// The faces of the surface; `None` if visibility is ignored.
@@ -294,11 +297,11 @@ struct EdgeDivider<'a> {
 }
 
 impl<'a> EdgeDivider<'a> {
-    /// Creates a divider with the faces of a surface as occluders, or none if visibility is
-    /// ignored.
+    /// Creates a divider that uses the faces of a surface as occluders, or no occluders if
+    /// visibility is ignored.
     ///
-    /// For outlines, faces also hide edges in front of them: the remaining edges have no face
-    /// beside them.
+    /// For outlines, faces also hide edges in front of them, so only edges that no face covers
+    /// remain.
     fn new(
         surface: &'a WeldedSurface,
         projector: Projector,
@@ -324,11 +327,11 @@ impl<'a> EdgeDivider<'a> {
         Self { projector, occluders, crowd, hidden_edges, max_comparisons }
     }
 
-    /// Returns the segments of all edges, in the order of the edges; `false` if there was too much
-    /// work.
+    /// Returns the segments of all edges, in the order of the edges, and `false` if the work limit
+    /// was reached.
     ///
-    /// The work is divided among groups of edges that do not depend on the number of threads, so
-    /// the skipped parts do not depend on it either.
+    /// The work limit is divided among groups of edges that do not depend on the number of threads,
+    /// so the skipped parts do not depend on it either.
     fn divide_edges(
         &self,
         edges: &[CandidateEdge],

@@ -1,10 +1,11 @@
-//! Face rasterization: the id of the nearest face in each pixel, by the z-buffer used for pictures.
+//! Face rasterization: the id of the nearest face in each pixel, from the z-buffer used for
+//! pictures.
 //!
 //! ```text
 //!  triangles ─► clip space ─► clip ─► divide, snap ─► Frame ─► visibility buffer of ids
 //! ```
-//! The drawing check asks which face is in front, and face fills color the ids. Each sample is at a
-//! pixel center; faces are opaque and visible from both sides.
+//! The drawing check uses the ids to find the face in front, and face fills assign colors to them.
+//! Samples are at pixel centers; faces are opaque and visible from both sides.
 
 use super::projector::Projector;
 use crate::DrawError;
@@ -13,13 +14,13 @@ use glam::DVec3;
 use homog::Point;
 use raster::{Frame, Opacity, Samples, ScreenVertex};
 
-/// Rasterizes world-space triangles and returns for each pixel, row by row, the index of the
-/// nearest one; `None` without one.
+/// Rasterizes world-space triangles and returns, for each pixel, row by row, the index of the
+/// nearest triangle, or `None` if the pixel is empty.
 ///
 /// `size` is the size of the viewport of `projector`.
 ///
 /// # Errors
-/// If the image is too large, or there are more triangles than ids.
+/// If the image is too large, or if there are more triangles than ids.
 pub fn rasterize_faces(
     triangles: impl Iterator<Item = [DVec3; 3]>,
     projector: &Projector,

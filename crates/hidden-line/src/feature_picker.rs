@@ -12,7 +12,7 @@ use std::sync::OnceLock;
 /// The features of models in world space.
 ///
 /// Objects are the nodes with a mesh, in the order of [`Model::mesh_instances`], one model after
-/// the other. `None` for objects means all of them.
+/// the other. Passing `None` for `objects` selects all of them.
 ///
 /// [`Model::mesh_instances`]: model::Model::mesh_instances
 #[derive(Debug)]
@@ -31,7 +31,7 @@ struct Features {
     circles: Vec<(WorldCircle, u32)>,
 }
 
-/// An edge or a face, with its point nearest to the picked position.
+/// A picked edge or face, with its point nearest to the given position.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct PickedFeature {
     /// The nearest point.
@@ -43,14 +43,15 @@ pub struct PickedFeature {
 }
 
 impl<'a> FeaturePicker<'a> {
-    /// Creates a picker for models; edges between faces are those sharper than an angle in radians.
+    /// Creates a picker for models. An edge between faces is a feature if it is sharper than
+    /// `crease_angle`, in radians.
     #[must_use]
     pub fn new(models: &'a [ModelInstance], crease_angle: f64) -> Self {
         let mesh = WorldMesh::from_models(models);
         Self { models, mesh, crease_angle, features: OnceLock::new() }
     }
 
-    /// The features of the welded surface, found on demand.
+    /// Returns the features of the welded surface, which are found on the first call.
     fn features(&self) -> &Features {
         self.features.get_or_init(|| {
             let surface = WeldedSurface::new(self.models, &[], &[]);
@@ -60,14 +61,14 @@ impl<'a> FeaturePicker<'a> {
         })
     }
 
-    /// Returns the bounding box of objects; `None` if they have no vertices.
+    /// Returns the bounding box of the objects; `None` if they have no vertices.
     #[must_use]
     pub fn bounds(&self, objects: Option<&[u32]>) -> Option<Bounds<World>> {
         let points = self.vertices(objects).map(Point::from_raw);
         Bounds::from_points(points)
     }
 
-    /// The vertices of the faces and lines of objects.
+    /// Returns the vertices of the objects' faces and lines.
     fn vertices(&self, objects: Option<&[u32]>) -> impl Iterator<Item = DVec3> {
         let faces = self.mesh.faces.iter().filter(move |face| is_wanted(objects, face.object));
         let lines = self.mesh.line_edges.iter().filter(move |line| is_wanted(objects, line.object));
@@ -75,7 +76,7 @@ impl<'a> FeaturePicker<'a> {
         of_faces.chain(lines.flat_map(|line| line.ends)).map(|at| self.mesh.points[at as usize])
     }
 
-    /// Returns the vertex of objects nearest to a point.
+    /// Returns the objects' vertex nearest to a point.
     #[must_use]
     pub fn nearest_vertex(
         &self,
@@ -87,7 +88,7 @@ impl<'a> FeaturePicker<'a> {
         vertices.min_by(|a, b| distance(a).total_cmp(&distance(b))).map(Point::from_raw)
     }
 
-    /// Returns the edge of objects nearest to a point: a crease or a boundary.
+    /// Returns the objects' edge nearest to a point: a crease or a boundary.
     #[must_use]
     pub fn nearest_edge(&self, to: Point<World>, objects: Option<&[u32]>) -> Option<PickedFeature> {
         let Features { surface, edges, .. } = self.features();
@@ -101,7 +102,7 @@ impl<'a> FeaturePicker<'a> {
         nearest(picked, to)
     }
 
-    /// Returns the face of objects nearest to a point: a triangle, which represents its plane.
+    /// Returns the objects' face nearest to a point: a triangle, which represents its plane.
     #[must_use]
     pub fn nearest_face(&self, to: Point<World>, objects: Option<&[u32]>) -> Option<PickedFeature> {
         let wanted = self.mesh.faces.iter().filter(|face| is_wanted(objects, face.object));
@@ -114,7 +115,7 @@ impl<'a> FeaturePicker<'a> {
         nearest(picked, to)
     }
 
-    /// Returns the circle or arc of objects whose center or line is nearest to a point.
+    /// Returns the objects' circle or arc whose center or circumference is nearest to a point.
     #[must_use]
     pub fn nearest_circle(&self, to: Point<World>, objects: Option<&[u32]>) -> Option<WorldCircle> {
         let circles = self.circles(objects);
@@ -133,7 +134,7 @@ impl<'a> FeaturePicker<'a> {
         MirrorSymmetry::new(surface, edges)
     }
 
-    /// Returns the circles and arcs of objects.
+    /// Returns the circles and arcs of the objects.
     pub fn circles(&self, objects: Option<&[u32]>) -> impl Iterator<Item = WorldCircle> {
         let circles = self.features().circles.iter();
         circles.filter(move |(_, object)| is_wanted(objects, *object)).map(|(circle, _)| *circle)
@@ -141,7 +142,7 @@ impl<'a> FeaturePicker<'a> {
 }
 
 impl WeldedSurface {
-    /// Finds the circles and arcs of feature edges, each with its object.
+    /// Finds the circles and arcs along feature edges, each with its object.
     ///
     /// Points may be off their circle by 1/20,000 of the models' diagonal.
     pub(crate) fn circles(&self, edges: &[FeatureEdge]) -> Vec<(WorldCircle, u32)> {
@@ -160,8 +161,8 @@ fn is_wanted(objects: Option<&[u32]>, object: u32) -> bool {
     objects.is_none_or(|objects| objects.contains(&object))
 }
 
-/// The feature with the nearest point, from points, directions and middles; features without a
-/// direction are ignored.
+/// Returns the feature with the nearest point. Each item holds a point, a direction and a middle;
+/// features without a direction are ignored.
 fn nearest(picked: impl Iterator<Item = [DVec3; 3]>, to: Point<World>) -> Option<PickedFeature> {
     let distance = |feature: &[DVec3; 3]| feature[0].distance_squared(to.raw());
     let [point, direction, middle] = picked
@@ -174,7 +175,8 @@ fn nearest(picked: impl Iterator<Item = [DVec3; 3]>, to: Point<World>) -> Option
     })
 }
 
-/// The nearest point of a triangle (Ericson, Real-Time Collision Detection, 5.1.5).
+/// Returns the point of a triangle nearest to `to` (Ericson, *Real-Time Collision Detection*,
+/// 5.1.5).
 pub(crate) fn nearest_point_of_triangle([a, b, c]: [DVec3; 3], to: DVec3) -> DVec3 {
     let normal = (b - a).cross(c - a);
     let is_inside = |from: DVec3, side: DVec3| side.cross(to - from).dot(normal) >= 0.0;
@@ -191,7 +193,7 @@ pub(crate) fn nearest_point_of_triangle([a, b, c]: [DVec3; 3], to: DVec3) -> DVe
     )
 }
 
-/// The nearest point of a segment.
+/// Returns the point of a segment nearest to `to`.
 pub(crate) fn nearest_point_of_segment([a, b]: [DVec3; 2], to: DVec3) -> DVec3 {
     let span = b - a;
     let length = span.length_squared();

@@ -1,5 +1,4 @@
-//! Hatching: parallel lines at equal distances on the paper, projected back onto faces (ISO
-//! 128-50).
+//! Hatching: equally spaced parallel lines on the paper, projected back onto faces (ISO 128-50).
 //!
 //! ```text
 //!    ╱╱╱╱╱╱│╲╲╲╲╲
@@ -8,12 +7,12 @@
 //! ```
 //!
 //! A line on the paper is the image of a plane through the viewer. The segment where that plane
-//! cuts a face is found in the world, by the signs of a linear function at the vertices. From then
-//! on it is an edge like any other: clipped, projected, and divided by hidden-line removal.
+//! cuts a face is found in the world, from the signs of a linear function at the vertices. It is
+//! then an edge like any other: clipped, projected, and divided by hidden-line removal.
 //!
-//! Section caps are hatched at 45°. Each part has its own direction or spacing, the same wherever
-//! it is cut, so that neighbors differ; whole parts under [`FaceHatching::Parts`] have such
-//! patterns too. Under [`FaceHatching::ByLuma`], faces are hatched by luma: the darker, the denser.
+//! Section caps are hatched at 45°. Neighboring parts differ in direction or spacing, and each part
+//! keeps its pattern in all its cuts. With [`FaceHatching::Parts`], whole parts have such patterns.
+//! With [`FaceHatching::ByLuma`], darker faces are hatched more densely.
 
 use super::edges::SectionCap;
 use super::projector::Projector;
@@ -34,8 +33,8 @@ const SPACING_FACTORS: [f64; 4] = [1.0, 1.5, 0.75, 2.0];
 /// The cosine of 30°.
 const HALF_SQRT_3: f64 = 0.866_025_403_784_438_6;
 
-/// The maximum number of parts whose hatchings are compared with their neighbors': comparisons grow
-/// with the square.
+/// The maximum number of parts whose patterns are compared with their neighbors': the number of
+/// comparisons grows with the square of the number of parts.
 const MAX_COMPARED_PARTS: usize = 1 << 13;
 
 /// The hatch lines on faces, in addition to those on section caps.
@@ -44,12 +43,12 @@ pub enum FaceHatching<'a> {
     /// No hatch lines.
     #[default]
     None,
-    /// Hatch lines on all faces of an object, at an angle and a spacing different from its
-    /// neighbors. Where section planes cut, only the cuts are hatched.
+    /// Hatch lines on all faces, with a different angle or spacing for neighboring objects. If
+    /// section planes cut the models, only the cuts are hatched.
     Parts,
-    /// Hatch lines by the luma of each face, from 0 for black to 1 for white: the darker, the
-    /// denser. The function takes the corners of a face in the world and the linear color of its
-    /// material.
+    /// Hatch lines whose density depends on the luma of each face: the darker, the denser. The
+    /// function receives the corners of a face in world space and the linear color of its material,
+    /// and returns its luma, from 0 for black to 1 for white.
     ByLuma(&'a dyn Fn([DVec3; 3], [f32; 3]) -> f64),
 }
 
@@ -73,7 +72,7 @@ pub(super) struct HatchPattern {
 }
 
 impl HatchPattern {
-    /// Lines at 45° that rise to the right, or fall.
+    /// Creates lines at 45° that rise to the right, or fall.
     pub(super) fn diagonal_lines(rises: bool, spacing: f64) -> Self {
         let normal = DVec2::new(if rises { 1.0 } else { -1.0 }, 1.0) * FRAC_1_SQRT_2;
         Self { normal, spacing }
@@ -82,8 +81,8 @@ impl HatchPattern {
     /// The number of different patterns.
     const COUNT: usize = 6 * SPACING_FACTORS.len();
 
-    /// Returns the pattern of a part by its index: first alternating directions, then other
-    /// spacings, then lines at 30° and 60°.
+    /// Returns the pattern of a part by its index: first in alternating directions, then with other
+    /// spacings, then at 30° and 60°.
     ///
     /// ```text
     ///   part      0      1      2        3        4         5         6      7
@@ -100,26 +99,27 @@ impl HatchPattern {
         Self { normal: DVec2::new(x * diagonal.normal.x.signum(), y), spacing }
     }
 
-    /// The pattern in a region of the screen.
+    /// Returns the pattern in a region of the screen.
     fn region_hatching(&self) -> RegionHatching {
         RegionHatching { direction: -self.normal.perp(), spacing: self.spacing }
     }
 
-    /// The indices of the lines between two positions along the normal; line i is at i · spacing.
+    /// Returns the indices of the lines between two positions along the normal; line i is at i ·
+    /// spacing.
     fn line_range(&self, [from, to]: [f64; 2]) -> std::ops::RangeInclusive<i64> {
         // A float-to-int cast saturates.
         libm::ceil(from / self.spacing) as i64..=libm::floor(to / self.spacing) as i64
     }
 
-    /// The linear function of homogeneous screen coordinates (x, y, z, w) that is zero on a line:
-    /// n·(x, y) − i · spacing · w.
+    /// Returns the linear function of homogeneous screen coordinates (x, y, z, w) that is zero on a
+    /// line: n·(x, y) − i · spacing · w.
     fn line_function(&self, line: i64) -> DVec4 {
         let at = line as f64 * self.spacing;
         DVec4::new(self.normal.x, self.normal.y, 0.0, -at)
     }
 }
 
-/// The hatch lines on some faces.
+/// The hatch lines on a set of faces.
 #[derive(Debug, Default)]
 pub(super) struct Hatching {
     /// Segments in the world, each with its object.
@@ -131,10 +131,10 @@ pub(super) struct Hatching {
 }
 
 impl Hatching {
-    /// Hatches section caps: triangles by object and section plane, with the caps of one object in
-    /// a row.
+    /// Hatches section caps: triangles by object and section plane. The caps of one object must be
+    /// consecutive.
     ///
-    /// Collinear segments of a cap's triangles are joined, so that the triangulation does not show.
+    /// Collinear segments from a cap's triangles are joined to hide the triangulation.
     pub(super) fn hatch_caps(
         caps: &[SectionCap],
         projector: &Projector,
@@ -166,8 +166,8 @@ impl Hatching {
         hatching
     }
 
-    /// Hatches the faces of each part with a pattern different from its neighbors, the same for
-    /// every viewer; neighbors are parts whose boxes touch.
+    /// Hatches the faces of each part with a pattern different from its neighbors', the same for
+    /// every viewer. Parts whose boxes touch are neighbors.
     pub(super) fn hatch_parts(
         faces: impl Iterator<Item = ([DVec3; 3], u32)>,
         boxes: BTreeMap<u32, Aabb>,
@@ -200,7 +200,7 @@ impl Hatching {
     }
 
     /// Hatches faces by luma, from 0 for black to 1 for white: the darker, the denser. The darkest
-    /// are hatched in both directions.
+    /// faces are hatched in both directions.
     pub(super) fn hatch_faces_by_luma(
         faces: impl Iterator<Item = ([DVec3; 3], u32, f64)>,
         projector: &Projector,
@@ -230,8 +230,8 @@ const MAX_HATCHED_LUMA: f64 = 0.88;
 /// The maximum luma of cross-hatched faces.
 const MAX_CROSS_HATCHED_LUMA: f64 = 0.4;
 
-/// The fraction of the luma limit below which a face gets a line: every fourth line comes first,
-/// then every second.
+/// Returns the fraction of the luma limit below which a line is drawn on a face. As faces get
+/// darker, every fourth line is drawn first, then every second line, then all lines.
 ///
 /// The densities are nested, so lines on adjacent faces continue each other.
 fn line_luma_factor(line: i64) -> f64 {
@@ -250,8 +250,8 @@ struct HatchedPart {
     pattern: usize,
 }
 
-/// Assigns a pattern index to each cap: greedy coloring, so that objects whose caps may touch
-/// differ.
+/// Assigns a pattern index to each cap by greedy coloring, so that objects whose caps may touch get
+/// different patterns.
 fn assign_cap_patterns(caps: &[SectionCap], touching: f64) -> Vec<usize> {
     let mut parts: Vec<HatchedPart> = Vec::new();
     for SectionCap { object, triangles, .. } in caps {
@@ -267,9 +267,9 @@ fn assign_cap_patterns(caps: &[SectionCap], touching: f64) -> Vec<usize> {
     caps.iter().map(|cap| pattern_of(cap.object).map_or(0, |part| part.pattern)).collect()
 }
 
-/// Gives each part the lowest pattern index not used by an earlier part near it.
+/// Assigns each part the lowest pattern index not used by an earlier part near it.
 ///
-/// Parts beyond [`MAX_COMPARED_PARTS`] take turns.
+/// Parts beyond [`MAX_COMPARED_PARTS`] cycle through the patterns.
 fn choose_patterns(parts: &mut [HatchedPart]) {
     for index in 0..parts.len() {
         if index >= MAX_COMPARED_PARTS {
@@ -288,11 +288,11 @@ fn choose_patterns(parts: &mut [HatchedPart]) {
     }
 }
 
-/// Calls `push` with the index and the segment in the world of each line that crosses a triangle.
+/// Calls `push` with the index and the world-space segment of each line that crosses a triangle.
 ///
 /// ```text
-///   n·p on the screen   ├── i ── i+1 ── i+2 ──┤     lines between the least and the greatest
-///                       least           greatest    position of the clipped triangle's vertices
+///   n·p on the screen   ├── i ── i+1 ── i+2 ──┤     lines between the minimum and maximum
+///                       minimum         maximum     position of the clipped triangle's vertices
 /// ```
 ///
 /// A line is the zero set of a linear function of clip coordinates, so its segment is found in the
@@ -325,8 +325,8 @@ fn hatch_triangle(
     }
 }
 
-/// The segment of a triangle where a linear function with these vertex values is zero; `None` if it
-/// is empty or a point.
+/// Returns the segment of a triangle where a linear function with these vertex values is zero;
+/// `None` if it is empty or a point.
 fn zero_segment(vertices: [DVec3; 3], heights: [f64; 3]) -> Option<[DVec3; 2]> {
     let mut ends = [None; 2];
     for k in 0..3 {
@@ -335,7 +335,8 @@ fn zero_segment(vertices: [DVec3; 3], heights: [f64; 3]) -> Option<[DVec3; 2]> {
         if (one.1 < 0.0) == (other.1 < 0.0) {
             continue;
         }
-        // Oriented alike for both faces at the side, so neighbors meet at the same bits.
+        // The orientation is the same for both faces at the side, so neighbors meet at identical
+        // bits.
         let rises = one.0.to_array() < other.0.to_array();
         let ((p, from), (q, to)) = if rises { (one, other) } else { (other, one) };
         let position = p + (q - p) * (from / (from - to));
@@ -345,8 +346,7 @@ fn zero_segment(vertices: [DVec3; 3], heights: [f64; 3]) -> Option<[DVec3; 2]> {
     (a != b && a.is_finite() && b.is_finite()).then_some([a, b])
 }
 
-/// Joins coplanar segments that continue each other on the same hatch line, up to a gap of
-/// `touching`.
+/// Joins coplanar segments on the same hatch line if the gap between them is at most `touching`.
 fn join_collinear_segments(mut by_line: Vec<(i64, [DVec3; 2])>, touching: f64) -> Vec<[DVec3; 2]> {
     by_line.sort_by_key(|(line, _)| *line);
     let mut joined = Vec::new();
@@ -356,7 +356,8 @@ fn join_collinear_segments(mut by_line: Vec<(i64, [DVec3; 2])>, touching: f64) -
     joined
 }
 
-/// Joins the segments of one hatch line: an interval union along the direction of the longest one.
+/// Joins the segments of one hatch line by interval union along the direction of the longest
+/// segment.
 fn join_on_line(on_line: &mut [(i64, [DVec3; 2])], touching: f64, joined: &mut Vec<[DVec3; 2]>) {
     let longest = |a: &DVec3, b: &DVec3| a.length_squared().total_cmp(&b.length_squared());
     let along = on_line.iter().map(|(_, [a, b])| *b - *a).max_by(longest);

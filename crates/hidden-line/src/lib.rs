@@ -7,24 +7,24 @@
 //!
 //! | module | technique |
 //! | --- | --- |
-//! | `draw` | drawing of a subject: candidate edges, divided into visible and hidden segments |
+//! | `draw` | the drawing itself: candidate edges, divided into visible and hidden segments |
 //! | `edges` | vertex welding, T-junctions, silhouettes and creases, section cuts with caps |
 //! | `visibility` | hidden-line removal by interval arithmetic over a BVH (Roberts, Appel 1967) |
-//! | `view_cover` | what a crowd of faces hides as a whole |
-//! | `hatching` | ISO 128-50 hatching of caps and of parts, hatching by luma of faces |
-//! | `region` | areas that faces cover on the screen, by winding numbers |
-//! | `feature_picker`, `circles` | vertices, edges, faces and circles by position |
+//! | `view_cover` | occlusion by a crowd of faces as a whole |
+//! | `hatching` | ISO 128-50 hatching of caps and parts, hatching of faces by luma |
+//! | `region` | areas covered by faces on the screen, by winding numbers |
+//! | `feature_picker`, `circles` | picking of vertices, edges, faces and circles by position |
 //! | `mirror_symmetry` | planes of symmetry |
-//! | `retained_points` | the points of models that section planes retain, for framing |
-//! | `face_raster`, `z_buffer_check` | faces in a z-buffer; a drawing checked against it |
+//! | `retained_points` | points of the parts that section planes retain, for framing |
+//! | `face_raster`, `z_buffer_check` | z-buffer of faces; verification of a drawing against it |
 //!
-//! [`draw`](draw()) takes a [`Subject`], which has models and a camera, and returns a
-//! [`LineDrawing`]: segments in pixels. It does not know pens or pages; the crate `drawing` turns
-//! it into pages.
+//! [`draw`](draw()) takes a [`Subject`], which consists of models and a camera, and returns a
+//! [`LineDrawing`], which consists of segments in pixels. A line drawing has no pens or pages; the
+//! crate `drawing` lays it out on pages.
 //!
-//! All geometry is f64 and runs through the same stages as pictures (`camera`, `projection`,
-//! `clip`, `viewport`), so a line drawing exactly matches a picture of the same scene. Results do
-//! not depend on the number of threads.
+//! All geometry is in f64 and passes through the same stages as a rendered picture (`camera`,
+//! `projection`, `clip`, `viewport`), so a line drawing exactly matches a rendering of the same
+//! scene. Results do not depend on the number of threads.
 
 mod circles;
 mod draw;
@@ -65,7 +65,7 @@ pub use visibility::{Aabb, EdgeParts, Occluders, Tolerance};
 pub use warning::Warning;
 pub use z_buffer_check::{Agreement, verify_with_z_buffer};
 
-/// The example of the README, compiled as a documentation test.
+/// The README example, compiled as a documentation test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -2,13 +2,13 @@
 //!
 //! ```text
 //!   edge 7   ●━━━━━━━━━━●╌╌╌╌╌╌╌●━━━━━━━●     three segments: visible, hidden, visible;
-//!            0         s₁      s₂       1     neighbors share their end points bit for bit
+//!            0         s₁      s₂       1     neighbors share their endpoints bit for bit
 //! ```
 
 use super::{Region, Warning};
 use glam::DVec2;
 
-/// The reason why an edge is drawn: the first that applies, in order of importance.
+/// The reason why an edge is drawn: the first class that applies, in order of importance.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum EdgeClass {
     /// Between a front-facing and a back-facing face.
@@ -23,7 +23,7 @@ pub enum EdgeClass {
     Section,
     /// The file marks it as an edge.
     Marked,
-    /// Two surfaces of different materials meet smoothly.
+    /// Two faces meet smoothly, with different materials or at more than the tangent angle.
     Tangent,
     /// A line primitive of the model, or a point primitive: a stroke of two pixels.
     Line,
@@ -34,7 +34,7 @@ pub enum EdgeClass {
 }
 
 impl EdgeClass {
-    /// All classes, the most important first.
+    /// All classes, in order of importance.
     pub const ALL: [Self; 10] = [
         Self::Silhouette,
         Self::Boundary,
@@ -69,17 +69,17 @@ impl EdgeClass {
 /// A segment of an edge that is either visible or hidden from end to end.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct EdgeSegment {
-    /// The ends on the screen: pixels, y down.
+    /// The ends on the screen, in pixels, y down.
     pub ends: [DVec2; 2],
     /// The depths of the ends, 0 at the far plane and 1 at the near plane.
     pub depths: [f64; 2],
     /// The reason why the edge is drawn.
     pub class: EdgeClass,
-    /// Whether no face is in front of it.
+    /// Whether the segment is visible: no face is in front of it.
     pub visible: bool,
-    /// The object it belongs to: an index into [`LineDrawing::objects`].
+    /// The object that the edge belongs to: an index into [`LineDrawing::objects`].
     pub object: u32,
-    /// The index of its edge in the drawing; all segments of an edge share it.
+    /// The index of the edge in the drawing, shared by all its segments.
     pub edge: u32,
 }
 
@@ -94,7 +94,7 @@ pub struct LineDrawing {
     pub segments: Vec<EdgeSegment>,
     /// The cut faces with their hatch lines, and the outlines if requested in the options.
     pub regions: Vec<Region>,
-    /// Warnings of the drawing, without duplicates.
+    /// Warnings about the drawing, without duplicates.
     pub warnings: Vec<Warning>,
 }
 

@@ -1,4 +1,4 @@
-//! Mirror symmetry of models, based on their surface instead of its triangles.
+//! Mirror symmetry of models, based on their surfaces rather than on their triangles.
 //!
 //! Models are symmetric about a plane if the mirror image of each vertex is on a face, and the
 //! mirror images of the ends and the middle of each feature edge are on feature edges. The
@@ -12,25 +12,25 @@ use crate::visibility::{Aabb, Bvh, TriangleMesh};
 use glam::DVec3;
 use homog::{Point, Vector, World};
 
-/// The difference from 1 below which the cosine of two directions makes them the same.
+/// The difference from 1 up to which the cosine between two directions makes them the same.
 const SAME_COSINE: f64 = 1e-12;
 
-/// The search for planes of symmetry.
+/// A search for planes of symmetry.
 #[derive(Debug)]
 pub struct MirrorSymmetry<'a> {
     surface: &'a WeldedSurface,
     edges: &'a [FeatureEdge],
     edge_bvh: Bvh,
-    /// The vertices of faces.
+    /// The vertices of the faces.
     vertices: Vec<u32>,
     /// The maximum distance of mirror images from their counterparts, in world units.
     tolerance: f64,
-    /// The directions already requested, with the answers.
+    /// The directions requested so far, with their results.
     known: Vec<(DVec3, Option<Point<World>>)>,
 }
 
 impl<'a> MirrorSymmetry<'a> {
-    /// Prepares the search on a surface with these creases and boundaries.
+    /// Prepares a search on a surface with these creases and boundaries.
     pub(crate) fn new(surface: &'a WeldedSurface, edges: &'a [FeatureEdge]) -> Self {
         let points = &surface.mesh().points;
         let ends = |edge: &FeatureEdge| edge.ends.map(|end| points[end as usize]);
@@ -48,8 +48,8 @@ impl<'a> MirrorSymmetry<'a> {
         }
     }
 
-    /// Returns a point of the plane of symmetry perpendicular to a unit vector; `None` if there is
-    /// no such plane.
+    /// Returns a point of the plane of symmetry perpendicular to a unit vector; `None` if the
+    /// models have no such plane.
     pub fn plane_across(&mut self, direction: Vector<World>) -> Option<Point<World>> {
         let direction = direction.raw();
         let is_same = |known: DVec3| known.dot(direction).abs() > 1.0 - SAME_COSINE;
@@ -62,7 +62,7 @@ impl<'a> MirrorSymmetry<'a> {
         point
     }
 
-    /// The point at the middle of the extent along a direction; `None` without faces.
+    /// Returns the point at the middle of the extent along a direction; `None` without faces.
     fn middle_along(&self, direction: DVec3) -> Option<DVec3> {
         let points = self.vertices.iter().map(|&vertex| self.surface.position(vertex));
         let by_height = |a: &DVec3, b: &DVec3| a.dot(direction).total_cmp(&b.dot(direction));
@@ -70,7 +70,8 @@ impl<'a> MirrorSymmetry<'a> {
         Some((lowest + points.max_by(by_height)?) * 0.5)
     }
 
-    /// Whether the plane through a point maps everything to its mirror image.
+    /// Whether the models are symmetric about the plane through a point, perpendicular to
+    /// `direction`.
     fn mirrors(&self, middle: DVec3, direction: DVec3) -> bool {
         let mirror = |point: DVec3| point - direction * (2.0 * (point - middle).dot(direction));
         let mut open = Vec::new();
@@ -104,7 +105,7 @@ impl<'a> MirrorSymmetry<'a> {
         is_on
     }
 
-    /// The search box around a point.
+    /// Returns the search box around a point.
     fn around(&self, point: DVec3) -> Aabb {
         Aabb::from_points([point]).expanded_by(DVec3::splat(self.tolerance))
     }

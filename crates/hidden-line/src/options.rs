@@ -1,6 +1,6 @@
-//! Options of hidden-line removal: the edge classes, hidden parts and faces included in a drawing.
+//! Options for hidden-line removal: the edge classes, hidden parts and faces included in a drawing.
 //!
-//! They control the computed lines, not pens, widths or colors.
+//! They determine which lines are computed, not their pens, widths or colors.
 
 use super::EdgeClass;
 use viewport::MILLIMETERS_PER_INCH;
@@ -8,44 +8,45 @@ use viewport::MILLIMETERS_PER_INCH;
 /// The default number of drawing pixels per inch, as in CSS.
 const PIXELS_PER_INCH: f64 = 96.0;
 
-/// The content of a line drawing.
+/// Options that determine the content of a line drawing.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct DrawOptions {
-    /// The edge classes that are drawn.
+    /// The edge classes to draw.
     pub classes: EdgeClasses,
-    /// The treatment of hidden parts.
+    /// The treatment of the hidden parts of edges.
     pub hidden_edges: HiddenEdges,
-    /// Two faces that meet at more than this angle form a crease, in radians, 0 between coplanar
-    /// faces. Default: 30 degrees.
+    /// The crease angle in radians: two faces that meet at a larger angle form a crease. The angle
+    /// between coplanar faces is 0. Default: 30 degrees.
     pub crease_angle: f64,
-    /// Two faces that meet at more than this angle, but do not form a crease, form a tangent edge,
-    /// in radians; `None` if only a change of material does. Default: `None`.
+    /// The tangent angle in radians: two faces that meet at a larger angle without forming a crease
+    /// form a tangent edge. With `None`, only a change of material makes a tangent edge. Default:
+    /// `None`.
     pub tangent_angle: Option<f64>,
-    /// Whether an edge with the same vertex normals on both sides is smooth, however sharp: scanned
-    /// and sculpted surfaces have such edges. Default: true.
+    /// Whether an edge with the same vertex normals on both sides counts as smooth, however sharp
+    /// it is. Scanned and sculpted surfaces have such edges. Default: true.
     pub asks_normals: bool,
     /// The method for silhouettes of smooth surfaces. Default: exact, from the facets.
     pub silhouettes: SilhouetteMethod,
-    /// Whether to draw only the outline of everything: edges with no face beside them, in front or
-    /// behind. Default: false.
+    /// Whether to draw only the outline of the whole scene: the edges that no face covers on the
+    /// screen, at any depth. Default: false.
     pub outline_only: bool,
     /// The distance between hatch lines in pixels, greater than 0. Default: 2 mm at 96 pixels per
     /// inch.
     pub hatch_spacing: f64,
-    /// Whether to add the outlines of the whole, or of the cuts of section planes, as regions.
-    /// Default: no.
+    /// Whether to return outlines as regions: of the section cuts if there are any, otherwise of
+    /// the whole scene. Default: false.
     pub outlines: bool,
-    /// Whether to ignore faces whose textures have cut-outs, such as leaves on rectangles: they
-    /// neither have edges nor hide any. Default: false.
+    /// Whether to ignore faces whose textures have cut-outs, such as leaves on rectangles. Ignored
+    /// faces have no edges and hide nothing. Default: false.
     pub leaves_out_cut_outs: bool,
     /// The approximate maximum number of comparisons of edges with faces and with boxes around
     /// faces. If it is reached, some hidden parts of edges are drawn as visible, with the warning
-    /// [`VisibilityIncomplete`](crate::Warning::VisibilityIncomplete). Each edge may have 512, for
-    /// any number of edges; all together have at most 2²⁶ plus 4096 per face. Default: 2³², minutes
-    /// of work.
+    /// [`VisibilityIncomplete`](crate::Warning::VisibilityIncomplete). An average of 512 per edge
+    /// is always allowed. Unless [`is_unlimited`](Self::is_unlimited) is set, the total is also
+    /// limited to 2²⁶ plus 4096 per face. Default: 2³², which takes minutes.
     pub max_comparisons: u64,
-    /// Whether to lift all other work limits: crowds of faces are drawn exactly too, and any number
-    /// of triangles, intersections and comparisons per face is allowed. Default: false.
+    /// Whether to lift all other work limits: crowds of faces are also drawn exactly, and any
+    /// number of triangles, intersections and comparisons per face is allowed. Default: false.
     pub is_unlimited: bool,
 }
 
@@ -54,11 +55,11 @@ pub struct DrawOptions {
 pub enum HiddenEdges {
     /// Not drawn.
     Removed,
-    /// Drawn as segments that are not visible, to be dashed.
+    /// Returned as segments that are not visible, usually drawn dashed.
     Retained,
-    /// Like `Retained`, if at most two faces are in front of them: the two sides of one wall.
+    /// Like `Retained`, but only behind at most two faces: the two sides of one wall.
     FirstLayer,
-    /// Not computed: all edges are visible from end to end, as in a wireframe.
+    /// Not computed: every edge is visible from end to end, as in a wireframe.
     Ignored,
 }
 
@@ -70,7 +71,7 @@ pub enum SilhouetteMethod {
     Facets,
     /// Lines across the triangles, where the interpolated normal is perpendicular to the line of
     /// sight (Hertzmann and Zorin 2000): smooth, but approximate. There can be gaps at cusps, and
-    /// with large triangles the line is beside the covered area.
+    /// with large triangles the line runs beside the covered area instead of along its border.
     Interpolated,
 }
 
@@ -84,7 +85,7 @@ impl DrawOptions {
     /// 30 degrees, in radians.
     const DEFAULT_CREASE_ANGLE: f64 = std::f64::consts::FRAC_PI_6;
 
-    /// Options for the visible edges that a draftsman would draw.
+    /// Returns options for the visible edges that a draftsman would draw.
     #[must_use]
     pub const fn hidden_edges_removed() -> Self {
         Self {
@@ -103,20 +104,20 @@ impl DrawOptions {
         }
     }
 
-    /// Options for those edges with their hidden parts.
+    /// Returns options for the same edges, including their hidden parts.
     #[must_use]
     pub const fn hidden_edges_retained() -> Self {
         Self { hidden_edges: HiddenEdges::Retained, ..Self::hidden_edges_removed() }
     }
 
-    /// Options for visible silhouettes and boundaries.
+    /// Returns options for visible silhouettes and boundaries.
     #[must_use]
     pub const fn silhouettes() -> Self {
         let classes = EdgeClasses::NONE.with(EdgeClass::Silhouette).with(EdgeClass::Boundary);
         Self { classes, ..Self::hidden_edges_removed() }
     }
 
-    /// Options for the outline of everything.
+    /// Returns options for the outline of the whole scene.
     #[must_use]
     pub const fn outline() -> Self {
         let classes = EdgeClasses::FEATURES
@@ -126,7 +127,7 @@ impl DrawOptions {
         Self { classes, outline_only: true, ..Self::hidden_edges_removed() }
     }
 
-    /// Options for every side of every face, as if surfaces were made of wire.
+    /// Returns options for every side of every face, as if surfaces were made of wire.
     #[must_use]
     pub const fn wireframe() -> Self {
         Self {
@@ -156,7 +157,7 @@ impl EdgeClasses {
     /// Every class.
     pub const ALL: Self = Self(u16::MAX);
 
-    /// All but facets.
+    /// Every class except facets.
     pub const FEATURES: Self = Self::ALL.without(EdgeClass::Facet);
 
     /// Returns the set with a class added.

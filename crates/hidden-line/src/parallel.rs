@@ -1,4 +1,4 @@
-//! Parallel map over index ranges with results in the order of the indices.
+//! Parallel map over index ranges, with results in index order.
 //!
 //! ```text
 //!   next ──► 0..512    thread A ─► results   ╮
@@ -6,23 +6,23 @@
 //!            …                               ╯
 //! ```
 //!
-//! Threads take chunks from an atomic counter, so uneven work balances itself. Chunks are then
-//! sorted by their start, so the result does not depend on the number of threads or on their
-//! timing.
+//! Threads take chunks from an atomic counter, which balances uneven work. Results are then sorted
+//! by the start of their chunk, so they do not depend on the number of threads or on timing.
 
 use raster::Workers;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The number of items that a thread takes at a time: enough that the counter is never contended.
+/// The number of items that a thread takes at a time: enough to avoid contention on the counter.
 const CHUNK_SIZE: usize = 512;
 
-/// Processes `count` items with up to `threads` threads, and concatenates the pushed results in the
-/// order of the items.
+/// Processes `count` items with several workers, and concatenates the pushed results in the order
+/// of the items.
 ///
-/// Each thread has its own scratch memory `M`, created when it starts. The calling thread works
-/// too, so one thread spawns none, and 0 counts as 1. Canceled work stops after a chunk, and the
-/// result is incomplete. A panic in `work` is raised again in the caller.
+/// Each thread has its own scratch memory `M`, created when it starts. The calling thread also
+/// works, so no thread is spawned for a count of 1, and 0 counts as 1. On cancellation, each thread
+/// stops after its current chunk, and the result is incomplete. A panic in `work` is resumed in the
+/// caller.
 pub(super) fn map_in_order<M: Default, T: Send>(
     count: usize,
     workers: Workers<'_>,
@@ -42,7 +42,7 @@ pub(super) fn map_in_order<M: Default, T: Send>(
         }
     };
     let threads = workers.threads.min(count.div_ceil(CHUNK_SIZE));
-    // WebAssembly has no threads, so their code would be dead weight.
+    // WebAssembly has no threads, so the code to spawn them would be dead weight.
     if threads <= 1 || cfg!(target_family = "wasm") {
         return take().into_iter().flat_map(|(_, results)| results).collect();
     }

@@ -1,13 +1,13 @@
-//! Projector: [`ViewTransform`] for points given as [`DVec3`], with clipping of edges.
+//! Projector: a [`ViewTransform`] for [`DVec3`] points, with clipping of edges.
 //!
 //! ```text
 //!   world ──world_to_clip──► clip space ──divide──► NDC ──ndc_to_screen──► pixels, y down; depth
 //! ```
 //!
 //! Hidden-line removal does linear algebra on plain vectors; this type keeps the steps between
-//! spaces in one place. The viewer is homogeneous, so facing tests are the same in perspective,
-//! where it is the eye, and in parallel projection, where it is a point at infinity. The vector
-//! from p to the viewer v is v.xyz − p · v.w.
+//! spaces in one place. The viewer v is a homogeneous point: the eye in perspective, and a point at
+//! infinity in parallel projection, so facing tests are the same in both. The vector from p to the
+//! viewer is v.xyz − p · v.w.
 
 use camera::{ViewProjection, ViewTransform};
 use clip::{ClippedSegment, Volume, clip_segment};
@@ -15,7 +15,7 @@ use glam::{DMat4, DVec3};
 use homog::{Clip, HPoint, Point};
 use viewport::Viewport;
 
-/// World → clip → screen, and the viewer, for points given as [`DVec3`].
+/// World → clip → screen, and the viewer, for [`DVec3`] points.
 #[derive(Clone, Copy, Debug)]
 pub struct Projector(ViewTransform);
 
@@ -32,13 +32,14 @@ impl Projector {
         self.0.project_to_clip(Point::from_raw(point))
     }
 
-    /// Perspective divide and viewport transform; `None` if there is no finite image.
+    /// Applies the perspective divide and the viewport transform; `None` if the image is not
+    /// finite.
     pub(super) fn project_to_screen(&self, point: HPoint<Clip>) -> Option<DVec3> {
         let screen = self.0.project_to_screen(point)?.raw();
         screen.is_finite().then_some(screen)
     }
 
-    /// World space to pixels and depth as one matrix, before the divide.
+    /// Returns the matrix from world space to pixels and depth, before the divide.
     pub(super) fn world_to_screen(&self) -> DMat4 {
         self.0.world_to_screen().raw()
     }

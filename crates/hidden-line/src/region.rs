@@ -2,15 +2,15 @@
 //!
 //! ```text
 //!    ┌─────┐
-//!    │╲    │     the diagonal runs both ways and cancels; a side that remains
-//!    │  ╲  │     has more faces at its one side than at the other
+//!    │╲    │     the diagonal runs both ways and cancels out; a remaining side
+//!    │  ╲  │     has more faces on one side than on the other
 //!    └─────┘
 //! ```
 //!
 //! Every triangle is oriented positively on the screen, and the directed sides of all triangles are
 //! summed. The winding number of the sum around a point is the number of triangles that cover it,
-//! even if the mesh is open, self-intersecting or inside out. Shared vertices have the same bits on
-//! the screen, and triangles are clipped at the same bits, so sides cancel exactly.
+//! even if the mesh is open, self-intersecting or inside out. Shared vertices have identical bits
+//! on the screen, and adjacent triangles are clipped to identical points, so sides cancel exactly.
 
 use super::projector::Projector;
 use clip::{Volume, clip_triangle};
@@ -20,7 +20,7 @@ use glam::{DVec2, DVec3};
 /// right, with x to the right and y up.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct RegionEdge {
-    /// The ends on the screen: pixels, y down.
+    /// The ends on the screen, in pixels, y down.
     pub ends: [DVec2; 2],
     /// The multiplicity; never 0.
     pub winding: i32,
@@ -29,11 +29,11 @@ pub struct RegionEdge {
 /// An area on the screen covered by at least one face.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Region {
-    /// The object it belongs to; `None` for the whole scene.
+    /// The object that the area belongs to; `None` for the whole scene.
     pub object: Option<u32>,
-    /// Its sides; some of them may be covered by other faces.
+    /// The sides of the covering faces that did not cancel; other faces may cover some of them.
     pub edges: Vec<RegionEdge>,
-    /// The hatch lines in it.
+    /// The hatch lines in the area.
     pub hatching: Option<RegionHatching>,
 }
 
@@ -71,7 +71,7 @@ pub fn region_edges(
     sums.filter(|edge| edge.winding != 0).collect()
 }
 
-/// Adds the sides of a convex polygon, each from its lesser end to its greater one, with a sign.
+/// Adds the sides of a convex polygon, each from its lower end to its higher end, with a sign.
 fn add_polygon(polygon: &[DVec2], sides: &mut Vec<([DVec2; 2], i32)>) {
     let Some(&first) = polygon.first() else { return };
     let fan = polygon.windows(2).map(|pair| (pair[0] - first).perp_dot(pair[1] - first));
@@ -81,7 +81,7 @@ fn add_polygon(polygon: &[DVec2], sides: &mut Vec<([DVec2; 2], i32)>) {
     }
     let turn = if area > 0.0 { 1 } else { -1 };
     for (&from, &to) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
-        // Adding 0 turns −0 into 0: equal points have equal bits.
+        // Adding 0 turns −0 into 0, so equal points have identical bits.
         let (from, to) = (from + DVec2::ZERO, to + DVec2::ZERO);
         match compare_points(from, to) {
             std::cmp::Ordering::Less => sides.push(([from, to], turn)),
@@ -91,12 +91,12 @@ fn add_polygon(polygon: &[DVec2], sides: &mut Vec<([DVec2; 2], i32)>) {
     }
 }
 
-/// The order of points by x, then by y.
+/// Orders points by x, then by y.
 fn compare_points(a: DVec2, b: DVec2) -> std::cmp::Ordering {
     a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
 }
 
-/// The order of sides by their first ends, then by their second.
+/// Orders sides by their first ends, then by their second ends.
 fn compare_ends(a: &[DVec2; 2], b: &[DVec2; 2]) -> std::cmp::Ordering {
     compare_points(a[0], b[0]).then(compare_points(a[1], b[1]))
 }
@@ -106,7 +106,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shared_sides_cancel_whatever_the_orientation() {
+    fn shared_sides_cancel_in_any_orientation() {
         let [a, b, c, d] = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]].map(DVec2::from);
         let mut sides = Vec::new();
         add_polygon(&[a, b, c], &mut sides);

@@ -1,4 +1,4 @@
-//! Retained points: the parts of models that section planes retain, as points for framing.
+//! Retained points: the points of the parts that section planes retain, for framing.
 
 use crate::Warning;
 use crate::edges::WorldMesh;
@@ -9,9 +9,10 @@ use model::ModelInstance;
 /// Distances up to this fraction of the models' diagonal count as touching.
 const TOUCHING: f64 = 1e-9;
 
-/// Returns the points of models that section planes retain: the corners of the remaining triangles
-/// and lines. Objects in `uncut`, in ascending order, are retained whole. Returns all points if
-/// nothing remains.
+/// Returns the points of the model parts that section planes retain: the corners of the remaining
+/// triangles, the ends of the remaining lines, and the remaining point primitives. The objects
+/// listed in `uncut`, in ascending order, are retained whole. If nothing remains, all points are
+/// returned.
 ///
 /// A view that frames these points shows the cut models as large as possible.
 #[must_use]
@@ -47,14 +48,14 @@ pub fn retained_points(
     if retained.is_empty() { model::world_points(models) } else { retained }
 }
 
-/// The triangles that remain after a plane cuts a triangle.
+/// Returns the triangles that remain after a plane cuts a triangle.
 fn cut_pieces(triangle: [Point<World>; 3], plane: Plane<World>) -> Vec<[Point<World>; 3]> {
     let cut = cut_triangle(triangle, plane);
     let left = cut.vertices();
     (2..left.len()).map(|k| [left[0], left[k - 1], left[k]].map(|vertex| vertex.point)).collect()
 }
 
-/// The part of a line on the positive side of a plane.
+/// Returns the part of a line on the positive side of a plane.
 fn cut_line([a, b]: [Point<World>; 2], plane: &Plane<World>) -> Option<[Point<World>; 2]> {
     let [from, to] = [a, b].map(|end| plane.evaluate(end));
     match [from >= 0.0, to >= 0.0] {
@@ -67,7 +68,7 @@ fn cut_line([a, b]: [Point<World>; 2], plane: &Plane<World>) -> Option<[Point<Wo
     }
 }
 
-/// The warnings about all sections that do not cut the models.
+/// Returns a warning for each section that does not cut the models.
 pub(crate) fn idle_section_warnings(
     models: &[ModelInstance],
     sections: &[Plane<World>],
@@ -80,8 +81,8 @@ pub(crate) fn idle_section_warnings(
     numbered.filter_map(|(plane, number)| idle_section_warning(&points, *plane, number)).collect()
 }
 
-/// Returns the warning about a section, numbered from 1, that does not cut the models: it removes
-/// nothing, or everything.
+/// Returns a warning if a section does not cut the models, because it removes nothing or
+/// everything. Sections are numbered from 1.
 pub fn idle_section_warning(
     points: &[Point<World>],
     plane: Plane<World>,

@@ -1,4 +1,4 @@
-//! Subject of a line drawing: models, camera with projection, image size and section planes.
+//! Subject of a line drawing: models, camera, projection, image size and section planes.
 
 use camera::ViewProjection;
 use homog::{ClipRange, Plane, World};
@@ -10,16 +10,17 @@ use viewport::{Viewport, ViewportError};
 pub struct Subject<'a> {
     /// The models in world space.
     pub models: &'a [ModelInstance],
-    /// Camera and projection.
+    /// The camera and the projection.
     pub view_projection: ViewProjection,
-    /// Width and height of the image in pixels.
+    /// The width and height of the image in pixels.
     pub size: [u32; 2],
-    /// The height in pixels of the caption strip at the bottom, which does not show the view; 0
-    /// without one.
+    /// The height in pixels of the caption strip at the bottom, which does not show the view; 0 for
+    /// no caption.
     pub caption_height: u32,
-    /// Section planes; the side that their unit normals point to is retained.
+    /// The section planes; each retains the side to which its unit normal points.
     pub sections: &'a [Plane<World>],
-    /// The objects that the sections do not cut: nodes with a mesh, counted over all models.
+    /// The objects that the sections do not cut, in ascending order. Objects are the nodes with a
+    /// mesh, counted over all models.
     pub uncut: &'a [u32],
 }
 

@@ -1,4 +1,4 @@
-//! Self-occlusion of a view as a whole, found before any two faces are compared.
+//! Occlusion in a view as a whole, computed before any two faces are compared.
 
 use super::edges::WeldedSurface;
 use super::options::{DrawOptions, HiddenEdges};
@@ -6,22 +6,23 @@ use super::projector::Projector;
 use super::visibility::{DepthCover, TriangleMesh};
 use glam::DVec3;
 
-/// The depths behind which nothing is visible in a view.
+/// The depths behind which nothing is visible in one view.
 pub(super) struct ViewCover {
     pub(super) cover: DepthCover,
-    /// Whether it covers all faces together, up to gaps of a few pixels, instead of single faces.
+    /// Whether all faces together form the cover, up to gaps of a few pixels, instead of single
+    /// faces.
     is_crowd: bool,
 }
 
 impl ViewCover {
-    /// The cover, if it is the cover of a crowd.
+    /// Returns the cover if it was made by a crowd of faces.
     pub(super) fn crowd(&self) -> Option<&DepthCover> {
         self.is_crowd.then_some(&self.cover)
     }
 }
 
-/// Finds the cover of a surface: by all faces together if they are a crowd, otherwise by single
-/// faces if hidden lines are not drawn.
+/// Computes the cover of a surface: from all faces together if they are a crowd, otherwise from
+/// single faces, and only if hidden lines are not drawn.
 pub(super) fn view_cover(
     surface: &WeldedSurface,
     projector: Projector,
@@ -48,8 +49,8 @@ pub(super) struct Occluding<'a> {
     pub(super) parts: Option<VisibleParts>,
 }
 
-/// The parts of triangles that a crowd does not hide: in a soup of long triangles, an edge meets
-/// few of them.
+/// The parts of triangles that a crowd does not hide. In a soup of long triangles, an edge meets
+/// only a few of these parts.
 #[derive(Clone, Debug)]
 pub(super) struct VisibleParts {
     corners: Vec<[DVec3; 3]>,

@@ -1,8 +1,8 @@
 //! Hidden-line removal: cuts each edge into visible and hidden parts (HL-1).
 //!
-//! The algorithm works in object space, edge against face, as Roberts (1963) and Appel (*The Notion
-//! of Quantitative Invisibility and the Machine Rendering of Solids*, 1967) introduced it. Nothing
-//! is sampled: every cut is the solution of a linear equation in f64.
+//! The algorithm works in object space, edge against face, as introduced by Roberts (1963) and
+//! Appel (*The Notion of Quantitative Invisibility and the Machine Rendering of Solids*, 1967).
+//! Nothing is sampled: every cut is the solution of a linear equation in f64.
 //!
 //! ```text
 //!  edge a─b in the world
@@ -20,12 +20,12 @@
 //! ```
 //!
 //! Appel counts, at each point of an edge, the faces in front of it: the *quantitative
-//! invisibility*. Most line drawings ask only whether that count is zero, so the union of the
-//! intervals hidden by single faces is enough. `covering_faces` counts them, for drawings that dash
-//! only the lines behind one wall. Two rules make the union match intuition on meshes:
+//! invisibility*. Most line drawings need only to know whether that count is zero, so the union of
+//! the intervals hidden by single faces is enough. `covering_faces` counts the faces, for drawings
+//! that dash only the lines behind one wall. Two rules make the union match intuition on meshes:
 //!
 //! - Touching does not hide. An edge in a face, or on its border, belongs to the face and stays
-//!   visible; [`Tolerance`] gives the distances below which an edge touches.
+//!   visible; [`Tolerance`] defines the distances below which an edge touches a face.
 //! - Two faces that share a side together hide a line exactly behind the side, although each face
 //!   by itself would only touch it. Such intervals are collected separately for faces on the left
 //!   and on the right of the edge, and their intersection is hidden. A crack between two objects,

@@ -1,12 +1,12 @@
-//! Warnings about missing parts of a line drawing, returned along with it.
+//! Warnings about missing or approximate parts of a line drawing, returned with the drawing.
 
 use core::fmt;
 use files::visible_excerpt;
 
-/// A part that a line drawing lacks or could not compute, with the reason in its `Display` text.
+/// A part of a line drawing that is missing or approximate; its `Display` text gives the reason.
 ///
-/// Warnings are sorted and reported once each, so their order does not depend on threads. They are
-/// part of the result and are not logged: the caller decides whether and where to print them.
+/// Warnings are sorted and free of duplicates, so their order does not depend on threads. They are
+/// part of the result and are never logged: the caller decides whether and where to print them.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 #[non_exhaustive]
 pub enum Warning {
@@ -25,14 +25,14 @@ pub enum Warning {
         /// The number of the section, from 1.
         number: usize,
     },
-    /// A section plane misses the models, which are all on the removed side.
+    /// A section plane misses the models, all of which are on the removed side.
     SectionRemovesAll {
         /// The number of the section, from 1.
         number: usize,
     },
-    /// The textures of some materials have cut-outs, but lines show their faces whole.
+    /// The textures of some materials have cut-outs, but the lines show whole faces.
     CutOutsDrawnWhole,
-    /// So many faces are behind each other that small gaps between them count as closed.
+    /// So many faces overlap on the screen that small gaps between them count as closed.
     CrowdApproximated,
     /// The search for intersection edges ended early.
     IntersectionsIncomplete,
@@ -44,7 +44,7 @@ pub enum Warning {
 
 impl Warning {
     /// Returns the position of the warning in a report: sections, then labels, then work limits.
-    /// Higher crates put theirs between these numbers.
+    /// Crates that depend on this one use the numbers in between for their own warnings.
     #[must_use]
     pub const fn report_order(&self) -> u8 {
         match self {

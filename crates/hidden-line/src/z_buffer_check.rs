@@ -1,9 +1,10 @@
 //! Verification of a line drawing against the z-buffer image of the same scene.
 //!
-//! The two share the welded surface and the stages up to clip space, and nothing after that. One
-//! side rounds to a grid, samples coverage and stores a depth for each pixel; the other intersects
-//! lines. Where a segment is drawn as visible, the z-buffer must show, within half a pixel,
-//! something that is not in front of it: the face at the edge, one behind it, or nothing.
+//! The two share the welded surface and the stages up to clip space, but nothing after that. The
+//! z-buffer rounds to a grid, samples coverage and stores a depth for each pixel; the drawing
+//! intersects lines with faces. Where a segment is drawn as visible, the z-buffer must show, within
+//! half a pixel, something that is not in front of it: the face at the edge, one behind it, or
+//! nothing.
 //!
 //! ```text
 //!   drawing       ●───────●───────●   points half a pixel apart
@@ -19,27 +20,27 @@ use glam::{DMat4, DVec2, DVec3};
 use homog::{ClipRange, Point};
 use viewport::Viewport;
 
-/// The longest side of the z-buffer image in pixels.
+/// The maximum side of the z-buffer image in pixels.
 const MAX_Z_BUFFER_SIDE: u32 = 8192;
 
-/// Z-buffer image pixels per drawing pixel, if its side allows it.
+/// Z-buffer pixels per drawing pixel, if the maximum side allows it.
 const SUPERSAMPLING: u32 = 4;
 
-/// The distance from a point at which the z-buffer may show it, in pixels of the drawing.
+/// The distance from a point within which the z-buffer may show it, in drawing pixels.
 const SEARCH_RADIUS: f64 = 0.5;
 
 /// The agreement of a drawing with the z-buffer image, as lengths on the screen in pixels.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Agreement {
-    /// The length of all visible segments.
+    /// The length of all visible segments of the drawing.
     pub visible_length: f64,
-    /// The length of visible segments that the z-buffer hides.
+    /// The length of the visible segments that the z-buffer hides.
     pub denied_length: f64,
     /// The length of all hidden segments of the drawing.
     pub hidden_length: f64,
-    /// The length of hidden segments that the z-buffer shows.
+    /// The length of the hidden segments that the z-buffer shows.
     pub contradicted_length: f64,
-    /// Visible segments with a denied part: their indices, and the length of that part.
+    /// The visible segments with a denied part: their indices, and the length of the denied part.
     pub denied_segments: Vec<(usize, f64)>,
 }
 
@@ -55,12 +56,12 @@ impl Agreement {
 /// apart.
 ///
 /// Each point is unprojected with its depth and compared with the planes of the faces that the
-/// image shows within half a pixel. A visible point is denied if all of them are in front of it; a
-/// hidden one is contradicted if none of them is. Disagreement below about 0.2 % of the length is
-/// normal: the image resolves a quarter of a pixel.
+/// image shows within half a pixel. A visible point is denied if all these planes are in front of
+/// it; a hidden point is contradicted if none of them is. Disagreement below about 0.2% of the
+/// length is normal, because the image resolves a quarter of a pixel.
 ///
 /// # Errors
-/// If the image has no pixels or is larger than a z-buffer may be.
+/// If the image has no pixels or exceeds the maximum z-buffer size.
 pub fn verify_with_z_buffer(
     subject: &Subject<'_>,
     segments: &[EdgeSegment],
@@ -95,7 +96,7 @@ pub fn verify_with_z_buffer(
     Ok(agreement)
 }
 
-/// The face that is visible in each pixel, at a multiple of the drawing's resolution.
+/// An image of the face visible in each pixel, at a multiple of the drawing's resolution.
 struct ZBufferImage {
     width: i64,
     height: i64,
@@ -104,9 +105,9 @@ struct ZBufferImage {
     ids: Vec<Option<u32>>,
     /// The planes of the faces by id.
     planes: Vec<FacePlane>,
-    /// The transform from drawing points with depth to the world.
+    /// The transform from drawing points with depth to world space.
     to_world: DMat4,
-    /// The distance below which a point is in a plane, in world units.
+    /// The distance below which a point counts as in a plane, in world units.
     touching: f64,
 }
 
@@ -120,10 +121,10 @@ struct FacePlane {
 impl FacePlane {
     /// Returns the plane of a triangle, oriented toward the viewer.
     ///
-    /// The viewer's side is the one where depth grows. It is derived from the matrix instead of the
-    /// projector's viewer, which is used to cut hidden lines, so that a wrong viewer is detected.
-    /// The row vector (n, −offset) in the world is (n, −offset) · M⁻¹ on the screen; its third
-    /// component is the change with depth.
+    /// The viewer's side is the one where depth grows. It is derived from the matrix rather than
+    /// from the projector's viewer, which hidden-line removal uses, so that a wrong viewer is
+    /// detected. The row vector (n, −offset) in the world becomes (n, −offset) · M⁻¹ on the screen;
+    /// its third component is the change with depth.
     fn from_triangle([a, b, c]: [DVec3; 3], screen_to_world: &DMat4) -> Self {
         let normal = (b - a).cross(c - a).normalize_or_zero();
         let offset = normal.dot(a);
@@ -176,7 +177,7 @@ impl ZBufferImage {
         self.face_ids_near(point).any(|id| id.is_some_and(|id| self.is_face_in_front(id, at)))
     }
 
-    /// A point of the drawing with its depth in world space.
+    /// Maps a point of the drawing, with its depth, to world space.
     fn unproject_point(&self, point: DVec2, depth: f64) -> DVec3 {
         let at = self.to_world * point.extend(depth).extend(1.0);
         at.truncate() / at.w
@@ -188,8 +189,8 @@ impl ZBufferImage {
         normal.dot(at) - offset < -self.touching
     }
 
-    /// The ids in the pixels within [`SEARCH_RADIUS`] of a point of the drawing; `None` without a
-    /// face.
+    /// Returns the ids of the pixels within [`SEARCH_RADIUS`] of a point of the drawing; `None` for
+    /// pixels without a face.
     fn face_ids_near(&self, point: DVec2) -> impl Iterator<Item = Option<u32>> {
         let at = point * self.scale;
         let radius = SEARCH_RADIUS * self.scale;

@@ -94,7 +94,7 @@ fn read_oblique(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     Some((meaning, cost))
 }
 
-/// A rotated ground plan with heights added to y' (`Planometric`). Heights are y, as in the
+/// Returns a rotated ground plan with heights added to y' (`Planometric`). Heights are y, as in the
 /// library, or z, as on a map.
 fn read_planometric(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     let [x, y, z, _] = m;
@@ -150,7 +150,7 @@ fn equalize_lengths(normal: DVec3, error: f64) -> DVec3 {
     lengths.into()
 }
 
-/// The identity, or the identity with z dropped, above (p, q, r, 1).
+/// Returns the identity, or the identity with z dropped, above (p, q, r, 1).
 fn read_n_point(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     let (kept, flat) = (is_unit_row(&m[2], 2), is_zero_row(&m[2]));
     if !(is_unit_row(&m[0], 0) && is_unit_row(&m[1], 1) && (kept || flat)) {

@@ -28,7 +28,8 @@ pub(crate) const CONVENTIONS: [(Convention, u32); 16] = [
     (Convention::CHAPTER.left_handed().with_ndc_y(DOWN), 10),
 ];
 
-/// The conventions for a camera in the world: all that look along −z, and those along +z with y up.
+/// Returns the conventions for a camera in the world: all that look along −z, and those along +z
+/// with y up.
 ///
 /// A view space that looks along +z with y down is a right-handed one rotated about x, so such a
 /// product is also one that looks along −z.
@@ -38,7 +39,7 @@ pub(crate) fn placed_conventions() -> impl Iterator<Item = (Convention, u32)> {
         .filter(|(convention, _)| convention.ahead() < 0.0 || convention.top() > 0.0)
 }
 
-/// The conventions whose view space looks in this direction: −1 or +1.
+/// Returns the conventions whose view space looks in this direction: −1 or +1.
 pub(crate) fn conventions_looking(ahead: f64) -> impl Iterator<Item = (Convention, u32)> {
     CONVENTIONS.into_iter().filter(move |(convention, _)| convention.ahead() == ahead)
 }

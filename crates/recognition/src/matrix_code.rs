@@ -30,7 +30,7 @@ pub enum CodeLanguage {
 }
 
 impl CodeLanguage {
-    /// The matrix with these rows as a statement, or as a formula in LaTeX.
+    /// Returns the matrix with these rows as a statement, or as a formula in LaTeX.
     ///
     /// ```
     /// use recognition::CodeLanguage;
@@ -68,7 +68,7 @@ impl CodeLanguage {
     }
 }
 
-/// A number with a point or an exponent, which every language reads as floating point.
+/// Returns a number with a point or an exponent, which every language reads as floating point.
 fn number(x: f64) -> String {
     format!("{:?}", x + 0.0)
 }

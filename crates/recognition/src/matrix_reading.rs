@@ -41,7 +41,7 @@ pub struct Recognition {
 }
 
 impl Recognition {
-    /// The most likely reading.
+    /// Returns the most likely reading.
     #[must_use]
     pub fn first(&self) -> MatrixReading {
         self.readings.first().copied().unwrap_or(MatrixReading {
@@ -51,13 +51,13 @@ impl Recognition {
         })
     }
 
-    /// The other readings that are as likely as the first.
+    /// Returns the other readings that are as likely as the first.
     pub fn equal_readings(&self) -> impl Iterator<Item = &MatrixReading> {
         let most = self.first().cost + EQUAL;
         self.readings.iter().skip(1).filter(move |reading| reading.cost <= most)
     }
 
-    /// The misprint, if reading the matrix as one is clearly better.
+    /// Returns the misprint, if reading the matrix as one is clearly better.
     #[must_use]
     pub fn misprint(&self) -> Option<&Suspicion> {
         self.suspicions.iter().find(|found| found.strength == SuspicionStrength::Likely)
@@ -104,7 +104,7 @@ pub fn recognize(rows: [[f64; 4]; 4]) -> Recognition {
     Recognition { readings, suspicions }
 }
 
-/// The cost of the most likely reading, including readings for row vectors.
+/// Returns the cost of the most likely reading, including readings for row vectors.
 pub(crate) fn least_cost(entries: &Entries<4>) -> u32 {
     let cost = |entries| readings_of(entries).first().map_or(UNNAMED, |first| first.cost);
     cost(entries).min(cost(&transpose(entries)) + suspicion::SLIP)
@@ -115,7 +115,7 @@ pub(crate) fn transpose(entries: &Entries<4>) -> Entries<4> {
     [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| entries[j][i]))
 }
 
-/// All readings, the most likely first.
+/// Returns all readings, the most likely first.
 pub(crate) fn readings_of(entries: &Entries<4>) -> Vec<MatrixReading> {
     let mut found = Vec::new();
     let moderate = entries.as_flattened().iter().all(|entry| is_moderate(entry.value));
@@ -154,7 +154,7 @@ pub(crate) fn is_moderate(entry: f64) -> bool {
     entry == 0.0 || (1e-40..1e40).contains(&entry.abs())
 }
 
-/// An unnamed affine or projective map.
+/// Returns an unnamed affine or projective map.
 fn unnamed_reading(entries: &Entries<4>) -> MatrixReading {
     let affine = (0..3).all(|j| entries[3][j].is_zero()) && !entries[3][3].is_zero();
     let (meaning, cost) = if affine {
@@ -165,7 +165,7 @@ fn unnamed_reading(entries: &Entries<4>) -> MatrixReading {
     MatrixReading { meaning, factor: 1.0, cost }
 }
 
-/// The cost of a common factor: none for 1.
+/// Returns the cost of a common factor: none for 1.
 pub(crate) fn factor_cost(factor: Rounded) -> u32 {
     if factor.is(1.0) { 0 } else { 2 + 2 * factor.digits() }
 }

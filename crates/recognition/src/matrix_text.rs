@@ -104,7 +104,7 @@ fn is_code(text: &str) -> bool {
     signs.iter().any(|sign| text.contains(sign))
 }
 
-/// The text without C, Rust and Python comments.
+/// Returns the text without C, Rust and Python comments.
 fn without_comments(text: &str) -> String {
     let mut kept = String::new();
     let mut rest = text;
@@ -125,7 +125,7 @@ fn split_words(text: &str) -> Vec<&str> {
     text.split(between).filter(|word| !word.is_empty()).collect()
 }
 
-/// A number in source code without its type suffix: `1.0f`, `1_f64`.
+/// Returns a number in source code without its type suffix: `1.0f`, `1_f64`.
 fn without_suffix(word: &str) -> &str {
     let suffixes = ["_f32", "_f64", "f32", "f64", "lf", "LF", "f", "F"];
     suffixes.iter().find_map(|suffix| word.strip_suffix(suffix)).unwrap_or(word)
@@ -141,7 +141,7 @@ fn matrix_of(words: &[&str], columns: bool) -> Result<GivenMatrix, MatrixTextErr
     }
 }
 
-/// The rows of N × N numbers listed by rows, or by columns.
+/// Returns the rows of N × N numbers listed by rows, or by columns.
 fn arrange<const N: usize>(listed: &[f64], columns: bool) -> [[f64; N]; N] {
     let at = |row: usize, column: usize| if columns { N * column + row } else { N * row + column };
     core::array::from_fn(|row| core::array::from_fn(|column| listed[at(row, column)]))

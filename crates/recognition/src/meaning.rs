@@ -251,7 +251,7 @@ impl MatrixMeaning {
         !matches!(self, Self::Affine | Self::Projective)
     }
 
-    /// The convention for the parameters, if the meaning has one.
+    /// Returns the convention for the parameters, if the meaning has one.
     #[must_use]
     pub const fn convention(&self) -> Option<Convention> {
         match self {

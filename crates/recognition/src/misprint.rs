@@ -94,7 +94,7 @@ impl Misprint {
         }
     }
 
-    /// The error, in one sentence.
+    /// Returns the error, in one sentence.
     #[must_use]
     pub const fn description(self) -> &'static str {
         match self {
@@ -130,7 +130,7 @@ impl Misprint {
         }
     }
 
-    /// The remedy, in one sentence.
+    /// Returns the remedy, in one sentence.
     #[must_use]
     pub const fn remedy(self) -> &'static str {
         match self {
@@ -156,7 +156,7 @@ impl Misprint {
         }
     }
 
-    /// The intended matrix with this misprint; `None` if the misprint does not apply.
+    /// Returns the intended matrix with this misprint; `None` if the misprint does not apply.
     #[must_use]
     pub fn misprinted_matrix(self, wanted: IntendedProjection) -> Option<Projective<View, Clip>> {
         self.misprint(wanted.correct_matrix().raw(), wanted).map(Projective::from_raw)
@@ -201,7 +201,7 @@ impl Misprint {
 }
 
 impl IntendedProjection {
-    /// The correct matrix, in OpenGL's convention.
+    /// Returns the correct matrix, in OpenGL's convention.
     #[must_use]
     pub fn correct_matrix(self) -> Projective<View, Clip> {
         let c = Convention::OPENGL;
@@ -254,9 +254,9 @@ fn apex_moved(frustum: Frustum) -> Option<DMat4> {
     Some(lesson.view_to_clip(Convention::OPENGL).raw())
 }
 
-/// The misprint that turns the intended matrix into `matrix`; `None` if the matrix is correct up to
-/// a positive factor, or wrong in an unknown way. Entries may differ by one part in a million, as
-/// in f32 programs.
+/// Returns the misprint that turns the intended matrix into `matrix`; `None` if the matrix is
+/// correct up to a positive factor, or wrong in an unknown way. Entries may differ by one part in a
+/// million, as in f32 programs.
 ///
 /// ```
 /// use projection::Orthographic;

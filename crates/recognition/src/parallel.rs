@@ -88,8 +88,8 @@ fn pair_cost(low: Rounded, high: Rounded) -> u32 {
     2 * (high.digits() + second)
 }
 
-/// The cost of near and far in addition to their digits: they should be in front of the eye and in
-/// order.
+/// Returns the cost of near and far in addition to their digits: they should be in front of the eye
+/// and in order.
 fn order_cost(near: Rounded, far: Rounded) -> u32 {
     match (near.value, far.value) {
         (near, far) if near > far => MIRRORED,
@@ -99,8 +99,8 @@ fn order_cost(near: Rounded, far: Rounded) -> u32 {
     }
 }
 
-/// The oblique projection with x' = x + slant z, y' likewise, onto z = `plane_z`: by length and
-/// angle if these have fewer digits.
+/// Returns the oblique projection with x' = x + slant z, y' likewise, onto z = `plane_z`: by length
+/// and angle if these have fewer digits.
 pub(crate) fn oblique_by_slants(x: Rounded, y: Rounded, plane_z: f64) -> Option<Oblique> {
     let (length, phi) = length_and_angle(x, y);
     let direction = if length.digits() + phi.digits() < x.digits() + y.digits() {
@@ -112,7 +112,7 @@ pub(crate) fn oblique_by_slants(x: Rounded, y: Rounded, plane_z: f64) -> Option<
     Oblique::by_direction(homog::Vector::new(direction[0], direction[1], -1.0), plane_z).ok()
 }
 
-/// The drawn length of a unit of depth, and its angle in degrees.
+/// Returns the drawn length of a unit of depth, and its angle in degrees.
 fn length_and_angle(x: Rounded, y: Rounded) -> (Rounded, Rounded) {
     let length = (x * x + y * y).sqrt();
     let value = libm::atan2(y.value, x.value).to_degrees();

@@ -36,7 +36,7 @@ pub(crate) fn read_frusta(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     }
 }
 
-/// The frustum of a matrix with the bottom row (0, 0, ±1, 0).
+/// Returns the frustum of a matrix with the bottom row (0, 0, ±1, 0).
 fn frustum_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixMeaning, u32)> {
     let [x, y, z, w] = unit;
     let ahead = Rounded::exact(w[2].value.signum());
@@ -75,7 +75,7 @@ fn frustum_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixM
     Some((meaning, cost + usual + 2 * digits))
 }
 
-/// The frustum, or the lesson's frustum if the apex is not at the origin.
+/// Returns the frustum, or the lesson's frustum if the apex is not at the origin.
 fn named_frustum(
     window: [Rounded; 4],
     near: Rounded,
@@ -97,7 +97,7 @@ fn named_frustum(
     Some(MatrixMeaning::ApexMoved { frustum, convention })
 }
 
-/// The angles, aspect ratio and focal lengths of a window at a distance.
+/// Returns the angles, aspect ratio and focal lengths of a window at a distance.
 pub(crate) fn read_lens([l, r, b, t]: [Rounded; 4], near: Rounded) -> Lens {
     let angle = |low: Rounded, high: Rounded| {
         ((high / near).atan_degrees() - (low / near).atan_degrees()).simplest()
@@ -111,7 +111,7 @@ pub(crate) fn read_lens([l, r, b, t]: [Rounded; 4], near: Rounded) -> Lens {
     }
 }
 
-/// The fewest digits that describe the lens: by its window, by its two scales, or, if it is
+/// Returns the fewest digits that describe the lens: by its window, by its two scales, or, if it is
 /// centered, by an angle and an aspect ratio.
 pub(crate) fn lens_digits(
     window: [Rounded; 4],
@@ -130,8 +130,8 @@ pub(crate) fn lens_digits(
     by_angle.min(r.digits() + t.digits()).min(scale_y.digits() + scale_x.digits())
 }
 
-/// The distances at which factor + offset/D equals the near and far depths, if 0 < near < far; no
-/// far plane if rounding may hide it.
+/// Returns the distances at which factor + offset/D equals the near and far depths, if 0 < near <
+/// far; no far plane if rounding may hide it.
 pub(crate) fn depth_planes(
     factor: Rounded,
     offset: Rounded,
@@ -205,7 +205,7 @@ fn p_reading(
     Some(MatrixReading { meaning, factor: factor.simplest(), cost })
 }
 
-/// The zeros of the inverse of a frustum's matrix (IV-1).
+/// Returns the zeros of the inverse of a frustum's matrix (IV-1).
 fn is_inverse_shaped(m: &Entries<4>) -> bool {
     let zeros = [m[0][1], m[0][2], m[1][0], m[1][2], m[2][0], m[2][1], m[2][2], m[3][0], m[3][1]];
     let needed = [m[0][0], m[1][1], m[2][3], m[3][2]];

@@ -63,7 +63,7 @@ fn without_viewport(m: &Entries<4>, pixels: &Pixels) -> Entries<4> {
     [row(0, pixels.size[0], 1.0), row(1, pixels.size[1], sign), m[2], m[3]]
 }
 
-/// The most likely remaining perspective with a window centered on the line of sight.
+/// Returns the most likely remaining perspective with a window centered on the line of sight.
 fn best_reading(clip: &Entries<4>, pixels: Pixels, cost: u32) -> Option<MatrixReading> {
     let mut left = Vec::new();
     read_frusta(clip, &mut left);

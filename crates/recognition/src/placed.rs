@@ -192,8 +192,8 @@ impl PlacedFrame {
     }
 }
 
-/// The cost of an upside-down camera whose numbers may describe one that is right side up in another
-/// convention.
+/// Returns the cost of an upside-down camera whose numbers may describe one that is right side up
+/// in another convention.
 ///
 /// Up is y, or z for a camera whose right axis is level only then.
 fn posture_cost(camera: &CameraReading) -> u32 {

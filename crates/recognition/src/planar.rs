@@ -88,8 +88,8 @@ fn planar_readings(entries: &Entries<3>) -> Vec<PlanarReading> {
     found
 }
 
-/// The identity above (p, q, 1): a correct matrix for column vectors, just as a translation is for
-/// row vectors.
+/// Returns the identity above (p, q, 1): a correct matrix for column vectors, just as a translation
+/// is for row vectors.
 fn is_simple_homography([x, y, w]: &Entries<3>) -> Option<u32> {
     let identity = x[0].is(1.0) && y[1].is(1.0) && w[2].is(1.0);
     let zeros = [x[1], x[2], y[0], y[2]].into_iter().all(Rounded::is_zero);

@@ -29,12 +29,12 @@ pub(crate) fn is_square_frame(axes: &[[Rounded; 3]; 3]) -> bool {
     square(0, 1) && square(1, 2) && square(2, 0)
 }
 
-/// The largest error of any entry; ±1 may be rounded too.
+/// Returns the largest error of any entry; ±1 may be rounded too.
 pub(crate) fn largest_error(rows: &[[Rounded; 3]; 3]) -> f64 {
     rows.as_flattened().iter().fold(0.0, |error: f64, entry| error.max(entry.error))
 }
 
-/// The rows of a 3×3 matrix, made exactly orthonormal; `None` unless they nearly are.
+/// Returns the rows of a 3×3 matrix, made exactly orthonormal; `None` unless they nearly are.
 pub(crate) fn orthonormal_rows(rows: &[[Rounded; 3]; 3]) -> Option<[DVec3; 3]> {
     let unit = rows.iter().all(|[x, y, z]| {
         let square = *x * *x + *y * *y + *z * *z;
@@ -111,8 +111,9 @@ pub(crate) fn read_rigid(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     push(MatrixMeaning::CameraPose(pose), 8 + roll_cost(&pose) + 2 * digits(offset));
 }
 
-/// The cost of a rotation in a model transform: a coordinate axis and few digits of the angle are
-/// common, most of all the z axis of two-dimensional pictures, about which cameras seldom roll.
+/// Returns the cost of a rotation in a model transform: a coordinate axis and few digits of the
+/// angle are common, most of all the z axis of two-dimensional pictures, about which cameras seldom
+/// roll.
 fn turn_cost(axis: [f64; 3], angle: Rounded) -> u32 {
     match axis.map(|x| x == 0.0) {
         [true, true, false] => 2 + 2 * angle.digits(),
@@ -121,7 +122,7 @@ fn turn_cost(axis: [f64; 3], angle: Rounded) -> u32 {
     }
 }
 
-/// A component of a unit vector, without digits below its rounding error.
+/// Returns a component of a unit vector, without digits below its rounding error.
 pub(crate) fn shorten(value: f64, error: f64) -> f64 {
     Rounded { value, error: error.max(1e-13) }.simplest()
 }
@@ -155,8 +156,8 @@ fn reflection(rows: &[[Rounded; 3]; 3], offset: [Rounded; 3]) -> Option<(MatrixM
     along.then_some((MatrixMeaning::Reflection { normal, distance }, cost))
 }
 
-/// The axis, with length 1, and the angle in degrees, 0 to 180, of a rotation whose entries have
-/// this error (Shoemake 1994, by the largest component of the quaternion).
+/// Returns the axis, with length 1, and the angle in degrees, 0 to 180, of a rotation whose entries
+/// have this error (Shoemake 1994, by the largest component of the quaternion).
 pub(crate) fn axis_angle(rotation: DMat3, error: f64) -> ([f64; 3], f64) {
     let m = |i: usize, j: usize| rotation.col(j)[i];
     let trace = m(0, 0) + m(1, 1) + m(2, 2);

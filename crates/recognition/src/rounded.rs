@@ -27,7 +27,7 @@ impl Rounded {
         Self { value, error: 0.0 }
     }
 
-    /// A function of this number with the given value and derivative.
+    /// Returns a function of this number with the given value and derivative.
     pub(crate) fn mapped(self, value: f64, derivative: f64) -> Self {
         Self { value, error: self.error * derivative.abs() + 4.0 * f64::EPSILON * value.abs() }
     }
@@ -51,19 +51,20 @@ impl Rounded {
         self.is(0.0)
     }
 
-    /// The square root; 0 for negative numbers.
+    /// Returns the square root; 0 for negative numbers.
     pub(crate) fn sqrt(self) -> Self {
         let root = libm::sqrt(self.value.max(0.0));
         self.mapped(root, 0.5 / root.max(f64::MIN_POSITIVE))
     }
 
-    /// The angle with this tangent, in degrees.
+    /// Returns the angle with this tangent, in degrees.
     pub(crate) fn atan_degrees(self) -> Self {
         let slope = (1.0 / (1.0 + self.value * self.value)).to_degrees();
         self.mapped(libm::atan(self.value).to_degrees(), slope)
     }
 
-    /// The shortest decimal within the error; the number itself if none has up to seven digits.
+    /// Returns the shortest decimal within the error; the number itself if none has up to seven
+    /// digits.
     pub(crate) fn simplest(self) -> f64 {
         if self.is_zero() {
             return 0.0;
@@ -81,8 +82,8 @@ impl Rounded {
         simplest == if exponent < 0 { 1.0 / power } else { power }
     }
 
-    /// The significant digits of the shortest decimal within the error, or of the terms of a small
-    /// fraction such as 16/9; 0 for zero, 8 if neither exists.
+    /// Returns the significant digits of the shortest decimal within the error, or of the terms of
+    /// a small fraction such as 16/9; 0 for zero, 8 if neither exists.
     pub(crate) fn digits(self) -> u32 {
         if self.is_zero() || !self.value.is_finite() {
             return 0;
@@ -100,7 +101,7 @@ impl Rounded {
     }
 }
 
-/// The decimal with this many significant digits nearest to x.
+/// Returns the decimal with this many significant digits nearest to x.
 fn round_to_digits(x: f64, digits: u32) -> f64 {
     let exponent = libm::floor(libm::log10(x.abs())) as i32;
     let decimals = digits as i32 - 1 - exponent;
@@ -112,7 +113,7 @@ fn power_of_ten(exponent: u32) -> f64 {
     (0..exponent.min(300)).fold(1.0, |power, _| power * 10.0)
 }
 
-/// The entries, with the error due to their decimals, f32 or f64 arithmetic.
+/// Returns the entries, with the error due to their decimals, f32 or f64 arithmetic.
 ///
 /// | entries | error |
 /// | --- | --- |
@@ -139,8 +140,8 @@ pub(crate) fn measure_entries<const N: usize>(rows: [[f64; N]; N]) -> Entries<N>
     })
 }
 
-/// All entries with the precision of the coarser ones, for matrices assembled from numbers of
-/// different precision; finer precisions first.
+/// Returns all entries with the precision of the coarser ones, for matrices assembled from numbers
+/// of different precision; finer precisions first.
 ///
 /// At least three entries, and two thirds of those with more than two decimals, must have at most
 /// the assumed number of decimals. Entries with more keep their own precision.
@@ -171,7 +172,7 @@ fn has_decimals(x: f64, decimals: u32) -> bool {
     (shifted - libm::round(shifted)).abs() <= 4.0 * f64::EPSILON * shifted.abs()
 }
 
-/// All entries divided by a number.
+/// Returns all entries divided by a number.
 pub(crate) fn divide_entries<const N: usize>(entries: &Entries<N>, by: Rounded) -> Entries<N> {
     entries.map(|row| row.map(|entry| entry / by))
 }

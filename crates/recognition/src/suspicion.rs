@@ -47,7 +47,7 @@ struct Remedy {
     remedied: Option<[[f64; 4]; 4]>,
 }
 
-/// The possible misprints in a matrix with these readings, the most certain first.
+/// Returns the possible misprints in a matrix with these readings, the most certain first.
 pub(crate) fn suspicions_of(m: &Entries<4>, readings: &[MatrixReading]) -> Vec<Suspicion> {
     if !m.as_flattened().iter().all(|entry| is_moderate(entry.value)) {
         return Vec::new();
@@ -86,7 +86,7 @@ fn matrix_of(m: &Entries<4>) -> [[f64; 4]; 4] {
     m.map(|row| row.map(|entry| entry.value))
 }
 
-/// The best reading of the corrected entries with an accepted meaning, and its cost.
+/// Returns the best reading of the corrected entries with an accepted meaning, and its cost.
 fn remedy(
     misprint: Misprint,
     remedied: &Entries<4>,
@@ -175,7 +175,7 @@ fn undo_ortho_offset_sign(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
     Some(Remedy { cost: found.cost + 2, ..found })
 }
 
-/// The scales of x and y of a centered perspective, if the matrix is one in every respect.
+/// Returns the scales of x and y of a centered perspective, if the matrix is one in every respect.
 fn centered_scales(m: &Entries<4>) -> Option<[Rounded; 2]> {
     let central = !m[3][2].is_zero() && m[3][3].is_zero();
     let centered = m[0][2].is_zero() && m[1][2].is_zero() && m[0][3].is_zero();
@@ -213,7 +213,8 @@ fn undo_degrees(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     remedy(Misprint::Degrees, &with_scale_y(m, [x, y], scale), is_central)
 }
 
-/// The last row (0, 0, 1, 0) below the depth row of a camera that looks along −z, or vice versa.
+/// Returns the last row (0, 0, 1, 0) below the depth row of a camera that looks along −z, or vice
+/// versa.
 fn undo_last_row_sign(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let bare = m[3][0].is_zero() && m[3][1].is_zero() && m[3][3].is_zero();
     // Upside down and seen from behind, it is a camera at the origin.
@@ -226,7 +227,7 @@ fn undo_last_row_sign(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     remedy(Misprint::LastRowNegated, &remedied, is_central)
 }
 
-/// A rotation or a camera, except for the sign of one entry.
+/// Returns a rotation or a camera, except for the sign of one entry.
 fn undo_wrong_sign(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let affine = m[3][..3].iter().all(|entry| entry.is_zero()) && m[3][3].is(1.0);
     if best.meaning.is_named() || !affine {

@@ -78,8 +78,8 @@ pub(crate) fn read_viewport(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     }
 }
 
-/// The intrinsics from a matrix with the rows (fx, skew, cx), (0, fy, cy), (0, 0, 1), up to a
-/// factor.
+/// Returns the intrinsics from a matrix with the rows (fx, skew, cx), (0, fy, cy), (0, 0, 1), up to
+/// a factor.
 ///
 /// If scales are below 20, or the principal point is not right of and below the first pixel, the
 /// matrix is another map. The caller distinguishes viewports, whose offsets equal their scales.

@@ -29,7 +29,7 @@ impl DepthRange {
     /// −z: from the textbook's volume to OpenGL's and back, the matrix diag(1, 1, −1, 1).
     pub const NEGATED: Self = Self { scale: -1.0, offset: 0.0 };
 
-    /// The map from the two depths `ndc` to the two depths `screen`, in this order (LI-1).
+    /// Returns the map from the two depths `ndc` to the two depths `screen`, in this order (LI-1).
     ///
     /// `glDepthRange(n, f)` is `DepthRange::new([-1.0, 1.0], [n, f])`; Direct3D's `MinDepth` and
     /// `MaxDepth` are `DepthRange::new([0.0, 1.0], [min, max])`.
@@ -47,25 +47,25 @@ impl DepthRange {
         Ok(Self { scale, offset })
     }
 
-    /// The factor of z, never 0.
+    /// Returns the factor of z, never 0.
     #[must_use]
     pub const fn scale(self) -> f64 {
         self.scale
     }
 
-    /// The offset, added after scaling.
+    /// Returns the offset, added after scaling.
     #[must_use]
     pub const fn offset(self) -> f64 {
         self.offset
     }
 
-    /// The depth of z.
+    /// Returns the depth of z.
     #[must_use]
     pub fn ndc_to_depth(self, z: f64) -> f64 {
         self.scale * z + self.offset
     }
 
-    /// The z that has this depth.
+    /// Returns the z that has this depth.
     #[must_use]
     pub fn depth_to_ndc(self, depth: f64) -> f64 {
         (depth - self.offset) / self.scale

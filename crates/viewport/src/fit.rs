@@ -36,8 +36,8 @@ pub enum FitPolicy {
 }
 
 impl FitPolicy {
-    /// The rectangle on which to draw a picture of this size to fit `place`. Only the shape of the
-    /// picture matters.
+    /// Returns the rectangle on which to draw a picture of this size to fit `place`. Only the shape
+    /// of the picture matters.
     ///
     /// `align` distributes the spare room, as fractions of it on x and y: `[0.5, 0.5]` centers,
     /// `[0.0, 0.0]` puts the picture at the corner of minimum coordinates. The excess cropped by
@@ -75,8 +75,8 @@ impl FitPolicy {
         Rectangle::new(x, y, width, height)
     }
 
-    /// The other way to fit: changes the window instead of the place, so its picture fills `place`
-    /// without distortion. Give the camera's window this size instead of `window`.
+    /// Returns the other way to fit: changes the window instead of the place, so its picture fills
+    /// `place` without distortion. Give the camera's window this size instead of `window`.
     ///
     /// [`FitPolicy::Contain`] shows more of the scene instead of margins, and [`FitPolicy::Cover`]
     /// shows less instead of cropping.
@@ -105,7 +105,7 @@ impl FitPolicy {
     }
 }
 
-/// The factors from the width and height of the picture to those of the rectangle.
+/// Returns the factors from the width and height of the picture to those of the rectangle.
 fn scale_factors(picture: [f64; 2], place: Rectangle) -> Result<(f64, f64), ViewportError> {
     let sx = place.width() / check_positive("picture width", picture[0])?;
     let sy = place.height() / check_positive("picture height", picture[1])?;

@@ -15,7 +15,7 @@ use crate::error::{check_finite, check_positive};
 use crate::{Rectangle, ViewportError};
 
 impl Rectangle {
-    /// The rectangle reduced by a margin on all four sides; a negative margin enlarges it.
+    /// Returns the rectangle reduced by a margin on all four sides; a negative margin enlarges it.
     ///
     /// # Errors
     /// Returns an error if the margin is not finite or leaves nothing.
@@ -25,8 +25,8 @@ impl Rectangle {
         Self::new(self.x() + margin, self.y() + margin, width, height)
     }
 
-    /// The cells of a grid with a gap between neighbors, row by row from the corner of minimum
-    /// coordinates.
+    /// Returns the cells of a grid with a gap between neighbors, row by row from the corner of
+    /// minimum coordinates.
     ///
     /// Without a gap, neighbors share their borders exactly, so the cells cover the rectangle
     /// without a seam.
@@ -54,9 +54,9 @@ impl Rectangle {
         }))
     }
 
-    /// A rectangle with a fraction of the width and height, at the fractions `at` of the remaining
-    /// room. `inset_rectangle(0.25, [1.0, 1.0])` is a quarter of each side in the corner of maximum
-    /// coordinates.
+    /// Returns a rectangle with a fraction of the width and height, at the fractions `at` of the
+    /// remaining room. `inset_rectangle(0.25, [1.0, 1.0])` is a quarter of each side in the corner
+    /// of maximum coordinates.
     ///
     /// # Errors
     /// Returns an error if a number is not finite or the fraction is not greater than 0.
@@ -66,8 +66,8 @@ impl Rectangle {
         Self::new(x, self.y() + (self.height() - height) * at[1], width, height)
     }
 
-    /// The rectangle with its borders rounded to whole pixels. Rectangles that shared a border
-    /// still do.
+    /// Returns the rectangle with its borders rounded to whole pixels. Rectangles that shared a
+    /// border still do.
     ///
     /// # Errors
     /// Returns an error if nothing is left of it.
@@ -109,8 +109,8 @@ impl AxisDivision {
         Ok(Self { count, gap, start, length })
     }
 
-    /// The start and length of part `i`. Borders are computed rather than sizes, so neighbors agree
-    /// on them.
+    /// Returns the start and length of part `i`. Borders are computed rather than sizes, so
+    /// neighbors agree on them.
     fn nth_part(self, i: u32) -> (f64, f64) {
         let border = |i: f64| self.start + (self.length + self.gap) * i / self.count;
         let (start, end) = (border(f64::from(i)), border(f64::from(i) + 1.0) - self.gap);

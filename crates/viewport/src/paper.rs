@@ -14,7 +14,7 @@ pub struct Resolution {
 }
 
 impl Resolution {
-    /// The resolution of `dpi` dots per inch.
+    /// Returns the resolution of `dpi` dots per inch.
     ///
     /// # Errors
     /// Returns an error if it is not finite or not greater than 0.
@@ -86,26 +86,26 @@ impl Paper {
         Self { width: self.height, height: self.width }
     }
 
-    /// The width in millimeters.
+    /// Returns the width in millimeters.
     #[must_use]
     pub const fn width(self) -> f64 {
         self.width
     }
 
-    /// The height in millimeters.
+    /// Returns the height in millimeters.
     #[must_use]
     pub const fn height(self) -> f64 {
         self.height
     }
 
-    /// The sheet as a rectangle in millimeters with its corner at the origin.
+    /// Returns the sheet as a rectangle in millimeters with its corner at the origin.
     #[must_use]
     pub fn to_rectangle(self) -> Rectangle {
         Rectangle::new_unchecked(0.0, 0.0, self.width, self.height)
     }
 
-    /// The size of the sheet rounded to whole pixels, at least one; `None` if there are too many to
-    /// count.
+    /// Returns the size of the sheet rounded to whole pixels, at least one; `None` if there are too
+    /// many to count.
     #[must_use]
     pub fn pixel_size(self, resolution: Resolution) -> Option<[u32; 2]> {
         let count = |millimetres: f64| {
@@ -159,7 +159,7 @@ impl DrawingScale {
         Self { paper, thing }
     }
 
-    /// The scale `paper`:`thing`.
+    /// Returns the scale `paper`:`thing`.
     ///
     /// # Errors
     /// Returns an error if either is 0.
@@ -169,8 +169,8 @@ impl DrawingScale {
         Ok(Self { paper, thing })
     }
 
-    /// The largest standard scale at which an object of this size fits into this room, both in the
-    /// same unit; `None` if it is too large for all of them or a size is not finite.
+    /// Returns the largest standard scale at which an object of this size fits into this room, both
+    /// in the same unit; `None` if it is too large for all of them or a size is not finite.
     #[must_use]
     pub fn largest_standard(thing: [f64; 2], room: [f64; 2]) -> Option<Self> {
         let fits = |scale: &&Self| {
@@ -179,7 +179,7 @@ impl DrawingScale {
         Self::STANDARD.iter().find(fits).copied()
     }
 
-    /// The ratio of lengths on paper to real lengths.
+    /// Returns the ratio of lengths on paper to real lengths.
     #[must_use]
     pub fn ratio(self) -> f64 {
         f64::from(self.paper) / f64::from(self.thing)

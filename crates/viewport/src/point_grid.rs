@@ -28,7 +28,7 @@ pub struct PointGrid {
 }
 
 impl PointGrid {
-    /// The grid with the given number of points in each direction.
+    /// Returns the grid with the given number of points in each direction.
     ///
     /// # Errors
     /// Returns an error if there are fewer than two rows or columns.
@@ -42,27 +42,27 @@ impl PointGrid {
         Ok(Self { rows, columns })
     }
 
-    /// The number of rows, at least 2.
+    /// Returns the number of rows, at least 2.
     #[must_use]
     pub const fn rows(&self) -> usize {
         self.rows
     }
 
-    /// The number of columns, at least 2.
+    /// Returns the number of columns, at least 2.
     #[must_use]
     pub const fn columns(&self) -> usize {
         self.columns
     }
 
-    /// The point at an index: x = 2·row/(rows − 1) − 1, z = 2·column/(columns − 1) − 1; `None`
-    /// beyond the last index.
+    /// Returns the point at an index: x = 2·row/(rows − 1) − 1, z = 2·column/(columns − 1) − 1;
+    /// `None` beyond the last index.
     #[must_use]
     pub fn xz(&self, row: usize, column: usize) -> Option<[f64; 2]> {
         let inside = row < self.rows && column < self.columns;
         inside.then(|| [grid_coordinate(row, self.rows), grid_coordinate(column, self.columns)])
     }
 
-    /// All points, row by row.
+    /// Returns all points, row by row.
     pub fn points(&self) -> impl Iterator<Item = [f64; 2]> + use<> {
         let Self { rows, columns } = *self;
         (0..rows).flat_map(move |row| {

@@ -20,7 +20,7 @@ const MAX_EXTENT: f64 = 1e100;
 const MIN_EXTENT: f64 = 1e-100;
 
 impl Rectangle {
-    /// The rectangle [x, x + width] × [y, y + height].
+    /// Returns the rectangle [x, x + width] × [y, y + height].
     ///
     /// # Errors
     /// Returns an error if a number is not finite or too large, or a size is not greater than 0 or
@@ -39,7 +39,7 @@ impl Rectangle {
         Ok(Self { x, y, width, height })
     }
 
-    /// The rectangle of this size with its corner at the origin.
+    /// Returns the rectangle of this size with its corner at the origin.
     ///
     /// # Errors
     /// Returns an error if a size is not finite or not greater than 0.
@@ -47,30 +47,30 @@ impl Rectangle {
         Self::new(0.0, 0.0, width, height)
     }
 
-    /// A rectangle of numbers that are known to be valid.
+    /// Returns a rectangle of numbers that are known to be valid.
     pub(crate) const fn new_unchecked(x: f64, y: f64, width: f64, height: f64) -> Self {
         Self { x, y, width, height }
     }
 
-    /// The minimum x.
+    /// Returns the minimum x.
     #[must_use]
     pub const fn x(&self) -> f64 {
         self.x
     }
 
-    /// The minimum y.
+    /// Returns the minimum y.
     #[must_use]
     pub const fn y(&self) -> f64 {
         self.y
     }
 
-    /// The extent along x, greater than 0.
+    /// Returns the extent along x, greater than 0.
     #[must_use]
     pub const fn width(&self) -> f64 {
         self.width
     }
 
-    /// The extent along y, greater than 0.
+    /// Returns the extent along y, greater than 0.
     #[must_use]
     pub const fn height(&self) -> f64 {
         self.height
@@ -82,7 +82,7 @@ impl Rectangle {
         self.width / self.height
     }
 
-    /// The center.
+    /// Returns the center.
     #[must_use]
     pub fn center(&self) -> [f64; 2] {
         [self.x + self.width / 2.0, self.y + self.height / 2.0]

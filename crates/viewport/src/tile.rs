@@ -4,8 +4,8 @@ use crate::{Rectangle, Viewport, ViewportError};
 use homog::{PixelConvention, PixelRect};
 
 impl From<PixelRect> for Rectangle {
-    /// The borders of the pixels, in whole pixels from the corner of the image. An empty rectangle
-    /// becomes one pixel wide or high.
+    /// Returns the borders of the pixels, in whole pixels from the corner of the image. An empty
+    /// rectangle becomes one pixel wide or high.
     fn from(pixels: PixelRect) -> Self {
         let PixelRect { x, y, width, height } = pixels;
         let [x, y, width, height] = [x, y, width.max(1), height.max(1)].map(f64::from);
@@ -13,7 +13,7 @@ impl From<PixelRect> for Rectangle {
     }
 }
 
-/// The tiles of an image, row by row: each pixel is in exactly one tile.
+/// Returns the tiles of an image, row by row: each pixel is in exactly one tile.
 ///
 /// ```
 /// use viewport::tiles;
@@ -56,7 +56,7 @@ impl Viewport {
         Self::new(moved, self.convention(), self.range(), self.depth())
     }
 
-    /// The tile's borders in the coordinates of this viewport's convention, for
+    /// Returns the tile's borders in the coordinates of this viewport's convention, for
     /// [`Self::pick_matrix`].
     #[must_use]
     pub fn tile_area(&self, tile: PixelRect) -> Rectangle {

@@ -47,7 +47,7 @@ pub struct PickRay<S: Space> {
 }
 
 impl Viewport {
-    /// The complete chain from a space to the screen, M_vp · M (PL-1), not divided.
+    /// Returns the complete chain from a space to the screen, M_vp · M (PL-1), not divided.
     #[must_use]
     pub fn source_to_screen<S: Space>(
         &self,
@@ -56,15 +56,15 @@ impl Viewport {
         Projective::from_raw(self.ndc_to_screen().raw() * source_to_clip.raw())
     }
 
-    /// The way back, given the inverse of the chain up to clip space. The closed-form inverses of
-    /// camera and projection lose the fewest digits.
+    /// Returns the way back, given the inverse of the chain up to clip space. The closed-form
+    /// inverses of camera and projection lose the fewest digits.
     #[must_use]
     pub fn unprojector<S: Space>(&self, clip_to_source: Projective<Clip, S>) -> Unprojector<S> {
         let raw = clip_to_source.raw() * self.screen_to_ndc().raw();
         Unprojector { viewport: *self, screen_to_source: Projective::from_raw(raw) }
     }
 
-    /// The map to apply after the projection to make `area`, in pixels of this viewport's
+    /// Returns the map to apply after the projection to make `area`, in pixels of this viewport's
     /// convention, fill the whole view: a pick matrix like the one from gluPickMatrix, or the
     /// sub-view of a tile. Everything outside the area is then outside the volume.
     ///
@@ -93,27 +93,28 @@ impl Viewport {
 }
 
 impl<S: Space> Unprojector<S> {
-    /// The map M⁻¹ (UN-1), not divided.
+    /// Returns the map M⁻¹ (UN-1), not divided.
     #[must_use]
     pub const fn screen_to_source(&self) -> Projective<Screen, S> {
         self.screen_to_source
     }
 
-    /// The point whose image is at this position and depth (UN-1); `None` if it is at infinity.
+    /// Returns the point whose image is at this position and depth (UN-1); `None` if it is at
+    /// infinity.
     #[must_use]
     pub fn unproject_point(&self, screen: Point<Screen>) -> Option<Point<S>> {
         divide_point(self.screen_to_source.transform_point(screen))
     }
 
-    /// The center of projection. With w = 0 it is at infinity: the projection is parallel along
-    /// this direction.
+    /// Returns the center of projection. With w = 0 it is at infinity: the projection is parallel
+    /// along this direction.
     #[must_use]
     pub fn center_of_projection(&self) -> HPoint<S> {
         self.screen_to_source.transform_direction(Vector::Z)
     }
 
-    /// The ray through a position in the picture (UN-2), from the near to the far plane of the
-    /// viewport's clip range.
+    /// Returns the ray through a position in the picture (UN-2), from the near to the far plane of
+    /// the viewport's clip range.
     ///
     /// `None` if there is no such ray: the map is singular or a number is not finite.
     #[must_use]

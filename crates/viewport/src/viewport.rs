@@ -21,7 +21,7 @@ pub struct Viewport {
 }
 
 impl Viewport {
-    /// The viewport on `area`, for points in clip space with the given `range`.
+    /// Returns the viewport on `area`, for points in clip space with the given `range`.
     #[must_use]
     pub const fn new(
         area: Rectangle,
@@ -32,9 +32,9 @@ impl Viewport {
         Self { area, convention, range, depth }
     }
 
-    /// A whole image with the pipeline's convention: half-integer centers, y down, depth 1 at the
-    /// near plane and 0 at the far plane. `range` belongs to the projection: a [`ClipRange`] or a
-    /// `projection::Convention`.
+    /// Returns a whole image with the pipeline's convention: half-integer centers, y down, depth 1
+    /// at the near plane and 0 at the far plane. `range` belongs to the projection: a [`ClipRange`]
+    /// or a `projection::Convention`.
     ///
     /// ```
     /// use homog::{ClipRange, Point};
@@ -62,8 +62,8 @@ impl Viewport {
         Ok(Self::new(area, PixelConvention::IMAGE, range, depth))
     }
 
-    /// A whole image of `nx` by `ny` pixels with the convention of the textbook (Shirley and
-    /// Marschner, ch. 8): integer centers, y up, z kept (VP-1).
+    /// Returns a whole image of `nx` by `ny` pixels with the convention of the textbook (Shirley
+    /// and Marschner, ch. 8): integer centers, y up, z kept (VP-1).
     ///
     /// # Errors
     /// Returns an error if the image has no pixels.
@@ -95,31 +95,31 @@ impl Viewport {
         Self { depth, ..self }
     }
 
-    /// The rectangle, in whole pixels from the corner of the image.
+    /// Returns the rectangle, in whole pixels from the corner of the image.
     #[must_use]
     pub const fn area(&self) -> Rectangle {
         self.area
     }
 
-    /// The pixel convention.
+    /// Returns the pixel convention.
     #[must_use]
     pub const fn convention(&self) -> PixelConvention {
         self.convention
     }
 
-    /// The range of the clip space that it accepts.
+    /// Returns the range of the clip space that it accepts.
     #[must_use]
     pub const fn range(&self) -> ClipRange {
         self.range
     }
 
-    /// The depth range.
+    /// Returns the depth range.
     #[must_use]
     pub const fn depth(&self) -> DepthRange {
         self.depth
     }
 
-    /// The map M_vp (VP-1 to VP-3, DP-1).
+    /// Returns the map M_vp (VP-1 to VP-3, DP-1).
     ///
     /// ```text
     /// [ w/2   0   0  x + w/2 + c ]      c = −½ for integer centers, 0 for half-integer ones;
@@ -139,7 +139,8 @@ impl Viewport {
         )
     }
 
-    /// The inverse map in closed form (WV-3): from pixels and depth to the canonical volume.
+    /// Returns the inverse map in closed form (WV-3): from pixels and depth to the canonical
+    /// volume.
     #[must_use]
     pub fn screen_to_ndc(&self) -> Affine<Screen, Ndc> {
         let [sx, sy] = self.pixel_scale();

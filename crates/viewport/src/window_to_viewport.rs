@@ -43,7 +43,7 @@ pub struct WindowToViewport {
 }
 
 impl WindowToViewport {
-    /// The map that takes the sides of `window` to the sides of `viewport`.
+    /// Returns the map that takes the sides of `window` to the sides of `viewport`.
     ///
     /// # Errors
     /// Returns an error if a limit is not finite, the window or the viewport has no width or no
@@ -62,7 +62,7 @@ impl WindowToViewport {
         Ok(map)
     }
 
-    /// The factors (sx, sy).
+    /// Returns the factors (sx, sy).
     #[must_use]
     pub fn scale_factors(&self) -> [f64; 2] {
         let factor = |window: [f64; 2], viewport: [f64; 2]| {
@@ -78,8 +78,8 @@ impl WindowToViewport {
         (sx - sy).abs() <= 1e-14 * sx.max(sy)
     }
 
-    /// The image of a point by equal ratios (WV-1): (xv − xv min)/(xv max − xv min) = (xw − xw
-    /// min)/(xw max − xw min). Points outside the window map outside the viewport by the same
+    /// Returns the image of a point by equal ratios (WV-1): (xv − xv min)/(xv max − xv min) = (xw −
+    /// xw min)/(xw max − xw min). Points outside the window map outside the viewport by the same
     /// ratio.
     #[must_use]
     pub fn map_by_ratio(&self, [x, y]: [f64; 2]) -> [f64; 2] {
@@ -90,14 +90,14 @@ impl WindowToViewport {
         [image(x, self.window.x, self.viewport.x), image(y, self.window.y, self.viewport.y)]
     }
 
-    /// The image of a point by the matrix of the chain (WV-2): the same up to rounding.
+    /// Returns the image of a point by the matrix of the chain (WV-2): the same up to rounding.
     #[must_use]
     pub fn map_by_chain(&self, point: [f64; 2]) -> [f64; 2] {
         self.homography().raw().transform_point2(point.into()).into()
     }
 
-    /// The three factors of the chain, in the order in which a point passes through them: T(−xw
-    /// min, −yw min) to the origin, S(sx, sy), T(xv min, yv min) to the target position.
+    /// Returns the three factors of the chain, in the order in which a point passes through them:
+    /// T(−xw min, −yw min) to the origin, S(sx, sy), T(xv min, yv min) to the target position.
     ///
     /// Both signs in the first factor are minus; one source prints T(−xw min, +yw min) (misprint
     /// M18).
@@ -112,14 +112,14 @@ impl WindowToViewport {
         .map(Homography::from_raw)
     }
 
-    /// The product of the chain, for column vectors (x, y, 1).
+    /// Returns the product of the chain, for column vectors (x, y, 1).
     #[must_use]
     pub fn homography(&self) -> Homography {
         let [to_origin, scale, to_place] = self.factor_chain();
         to_origin.then(scale).then(to_place)
     }
 
-    /// The inverse map.
+    /// Returns the inverse map.
     #[must_use]
     pub fn inverse(&self) -> Self {
         Self { window: self.viewport, viewport: self.window }

@@ -41,7 +41,8 @@ impl FaceNormals {
         Self { normals, is_front }
     }
 
-    /// The normal and facing of the face at a half-edge, flipped if the half-edge runs backward.
+    /// Returns the normal and facing of the face at a half-edge, flipped if the half-edge runs
+    /// backward.
     ///
     /// Seen along the edge from its lower to its higher end, the faces on both sides then need no
     /// common orientation, so meshes with inconsistent winding classify like others.
@@ -84,7 +85,7 @@ impl<'a> EdgeClassifier<'a> {
         }
     }
 
-    /// The face at a half-edge.
+    /// Returns the face at a half-edge.
     fn face_of_half_edge(&self, side: HalfEdge) -> &Face {
         &self.faces[side.face() as usize]
     }
@@ -112,7 +113,7 @@ impl<'a> EdgeClassifier<'a> {
         }
     }
 
-    /// The class from the faces only: the strongest one that any object has at the edge.
+    /// Returns the class from the faces only: the strongest one that any object has at the edge.
     ///
     /// With two half-edges it is the class between their faces. With more, each object is
     /// considered separately: two of its faces form a pair, three or more a crease, one is
@@ -185,8 +186,8 @@ impl<'a> EdgeClassifier<'a> {
             && self.is_smooth_between(one, other)
     }
 
-    /// The class of the edge between two faces: silhouette, crease, tangent (materials differ, or
-    /// the angle exceeds the tangent angle) or facet.
+    /// Returns the class of the edge between two faces: silhouette, crease, tangent (materials
+    /// differ, or the angle exceeds the tangent angle) or facet.
     ///
     /// Both normals are taken along the edge, so on a smooth surface they are opposite: n·(−m) is
     /// the cosine of the dihedral angle, and facing flags that *agree* mark a silhouette.

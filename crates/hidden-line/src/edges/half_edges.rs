@@ -23,12 +23,12 @@ impl HalfEdge {
         Self { high_vertex, packed: face << 3 | u32::from(side) << 1 | u32::from(is_forward) }
     }
 
-    /// The index of the face.
+    /// Returns the index of the face.
     pub(super) const fn face(self) -> u32 {
         self.packed >> 3
     }
 
-    /// The side of the face, from 0 to 2.
+    /// Returns the side of the face, from 0 to 2.
     pub(super) const fn side(self) -> u8 {
         (self.packed >> 1 & 3) as u8
     }
@@ -88,7 +88,7 @@ impl HalfEdges {
     }
 }
 
-/// The three sides of a face as pairs of vertices.
+/// Returns the three sides of a face as pairs of vertices.
 fn face_sides(face: &Face) -> [[u32; 2]; 3] {
     let [a, b, c] = face.vertices;
     [[a, b], [b, c], [c, a]]

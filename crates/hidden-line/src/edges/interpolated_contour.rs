@@ -61,7 +61,8 @@ struct Corner {
     facing: f64,
 }
 
-/// The lifted point of a side where n·v is zero; `None` if it has the same sign at both ends.
+/// Returns the lifted point of a side where n·v is zero; `None` if it has the same sign at both
+/// ends.
 ///
 /// It is computed from the lower vertex to the higher one, so both faces get the same bits.
 fn crossing(one: Corner, other: Corner) -> Option<DVec3> {
@@ -113,7 +114,7 @@ impl SmoothNormals {
         Self { fans, normals }
     }
 
-    /// A corner of a face, for this viewer.
+    /// Returns a corner of a face, for this viewer.
     fn corner(
         &self,
         mesh: &WorldMesh,
@@ -129,14 +130,14 @@ impl SmoothNormals {
     }
 }
 
-/// The corner at a vertex in the face of a half-edge.
+/// Returns the corner at a vertex in the face of a half-edge.
 fn corner_at(mesh: &WorldMesh, side: HalfEdge, vertex: u32) -> u32 {
     let vertices = mesh.faces[side.face() as usize].vertices;
     let k = vertices.iter().position(|&other| other == vertex).unwrap_or(0);
     side.face() * 3 + k as u32
 }
 
-/// The first corner of the fan of a corner.
+/// Returns the first corner of the fan of a corner.
 fn first_of_fan(fans: &[u32], mut corner: u32) -> u32 {
     while fans[corner as usize] != corner {
         corner = fans[corner as usize];

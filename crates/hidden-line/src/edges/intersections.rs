@@ -186,7 +186,7 @@ impl<'a> FacesInSight<'a> {
         in_sight
     }
 
-    /// The corners of the visible part of a face.
+    /// Returns the corners of the visible part of a face.
     fn corners(&self, mesh: &WorldMesh, visible: FacePart) -> [DVec3; 3] {
         let FacePart { face, part } = visible;
         part.map_or_else(|| mesh.triangle(face), |part| self.parts[part as usize])
@@ -205,7 +205,8 @@ impl<'a> FacesInSight<'a> {
 }
 
 impl IntersectionSearch<'_> {
-    /// The faces in a leaf whose boxes overlap another box, if given; other items are fillings.
+    /// Returns the faces in a leaf whose boxes overlap another box, if given; other items are
+    /// fillings.
     fn leaf_triangles(
         &self,
         items: &[u32],
@@ -355,7 +356,8 @@ impl IntersectionTriangle {
         p && q && r || u && v && w
     }
 
-    /// The segment where two triangles intersect; `None` if they do not, touch, or are coplanar.
+    /// Returns the segment where two triangles intersect; `None` if they do not, touch, or are
+    /// coplanar.
     fn intersect_triangle(&self, other: &Self, touching: f64) -> Option<[DVec3; 2]> {
         let our_heights = self.distances_to_plane(other, touching);
         let ours = self.cut_at_zero(our_heights)?;
@@ -379,8 +381,8 @@ impl IntersectionTriangle {
         is_long.then_some([from.1, to.1])
     }
 
-    /// The signed distances of the vertices from another triangle's plane, set to zero below
-    /// `touching`.
+    /// Returns the signed distances of the vertices from another triangle's plane, set to zero
+    /// below `touching`.
     fn distances_to_plane(&self, other: &Self, touching: f64) -> [f64; 3] {
         self.vertices.map(|vertex| {
             let height = other.normal.dot(vertex - other.vertices[0]);
@@ -388,8 +390,8 @@ impl IntersectionTriangle {
         })
     }
 
-    /// The segment of the triangle where a linear function with these vertex values is zero; `None`
-    /// if its sign does not change.
+    /// Returns the segment of the triangle where a linear function with these vertex values is
+    /// zero; `None` if its sign does not change.
     fn cut_at_zero(&self, heights: [f64; 3]) -> Option<[DVec3; 2]> {
         if heights.iter().all(|height| *height >= 0.0)
             || heights.iter().all(|height| *height <= 0.0)

@@ -51,13 +51,13 @@ impl WeldRadii {
         Self(radii)
     }
 
-    /// The smaller radius of the two ends of an edge.
+    /// Returns the smaller radius of the two ends of an edge.
     pub(super) fn edge_radius(&self, [a, b]: [u32; 2]) -> f64 {
         self.0[a as usize].min(self.0[b as usize])
     }
 }
 
-/// The edges with a single half-edge.
+/// Returns the edges with a single half-edge.
 pub(super) fn border_edges(sides: &HalfEdges) -> Vec<BorderEdge> {
     let alone = sides.edges().filter(|(_, sides)| sides.len() == 1);
     alone.map(|(ends, sides)| (ends, sides[0])).collect()
@@ -167,7 +167,7 @@ fn border_part([from, to]: [u32; 2], side: HalfEdge) -> BorderEdge {
     ([low, high], HalfEdge::new(high, side.face(), side.side(), is_forward))
 }
 
-/// The vertices of boundary edges, sorted, without duplicates.
+/// Returns the vertices of boundary edges, sorted, without duplicates.
 fn border_vertices(borders: &[BorderEdge]) -> Vec<u32> {
     let mut points: Vec<u32> = borders.iter().flat_map(|(ends, _)| *ends).collect();
     points.sort_unstable();

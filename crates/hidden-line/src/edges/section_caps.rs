@@ -93,7 +93,7 @@ impl PlaneAxes {
         Self { axes: if normal[left_out] < 0.0 { [v, u] } else { [u, v] } }
     }
 
-    /// The two coordinates of a point.
+    /// Returns the two coordinates of a point.
     fn plane_coordinates(&self, point: Point<World>) -> [f64; 2] {
         self.axes.map(|axis| point.raw()[axis])
     }

@@ -157,8 +157,8 @@ fn cut_normal(face: &Face, weights: [f64; 3]) -> VertexNormal {
     VertexNormal::pack(normals.iter().zip(weights).map(|(normal, weight)| *normal * weight).sum())
 }
 
-/// The visibility of a side of a part: taken from the side of the face that contains it, or hidden
-/// if the cut made it.
+/// Returns the visibility of a side of a part: taken from the side of the face that contains it, or
+/// hidden if the cut made it.
 ///
 /// Barycentric weights identify the side: on a side of a triangle, the weight of the opposite
 /// vertex is exactly zero.
@@ -249,13 +249,13 @@ fn close_loops(
     closed
 }
 
-/// The segments of open polylines.
+/// Returns the segments of open polylines.
 fn chain_segments(chains: &[Vec<Point<World>>]) -> impl Iterator<Item = [Point<World>; 2]> {
     chains.iter().flat_map(|chain| chain.windows(2).map(|pair| [pair[0], pair[1]]))
 }
 
 impl WorldMesh {
-    /// The triangles of the section caps, by object and section plane.
+    /// Returns the triangles of the section caps, by object and section plane.
     pub(crate) fn section_caps(&self) -> Vec<(u32, u16, Vec<[DVec3; 3]>)> {
         let mut capping: Vec<&Face> =
             self.faces.iter().filter(|face| face.cap_section.is_some()).collect();
@@ -277,8 +277,8 @@ mod tests {
     use homog::Normal;
     use std::f64::consts::TAU;
 
-    /// A solid of revolution from rings of points, as radius and height, from pole to pole; poles
-    /// have radius 0.
+    /// Returns a solid of revolution from rings of points, as radius and height, from pole to pole;
+    /// poles have radius 0.
     fn solid_of_revolution(rings: &[(f64, f64)], sides: u32) -> WorldMesh {
         let mut mesh = WorldMesh { objects: vec!["body".to_owned()], ..WorldMesh::default() };
         for (radius, height) in rings {
@@ -307,7 +307,7 @@ mod tests {
         mesh
     }
 
-    /// The area of the cap left by a plane, which must close.
+    /// Returns the area of the cap left by a plane, which must close.
     fn closed_cap_area(mut mesh: WorldMesh, point: [f64; 3], normal: [f64; 3]) -> f64 {
         let [x, y, z] = normal;
         let normal = Normal::new(x, y, z).normalized().expect("a direction");
@@ -322,7 +322,7 @@ mod tests {
 
     const CYLINDER: [(f64, f64); 4] = [(0.0, 0.0), (2.0, 0.0), (2.0, 3.0), (0.0, 3.0)];
 
-    /// The area of a regular polygon.
+    /// Returns the area of a regular polygon.
     fn regular_polygon_area(radius: f64, sides: u32) -> f64 {
         0.5 * f64::from(sides) * radius * radius * libm::sin(TAU / f64::from(sides))
     }

@@ -59,7 +59,7 @@ fn equal_points(points: &[DVec3]) -> Vec<u32> {
     representative
 }
 
-/// A hash that equal points share, and others seldom do.
+/// Returns a hash that equal points share, and others seldom do.
 fn mix_coordinates(point: DVec3) -> u32 {
     // Adding zero removes negative zeros.
     let bits = (point + DVec3::ZERO).to_array().map(f64::to_bits);

@@ -139,7 +139,7 @@ impl WeldedSurface {
         Self { assembled_boxes: Some((0..).zip(boxes).collect()), ..self }
     }
 
-    /// The box around the faces of each object, in its original position.
+    /// Returns the box around the faces of each object, in its original position.
     pub(crate) fn part_boxes(&self) -> BTreeMap<u32, Aabb> {
         if let Some(boxes) = &self.assembled_boxes {
             return boxes.clone();
@@ -169,12 +169,12 @@ impl WeldedSurface {
             split_at_t_junctions(&self.mesh, &border_edges(&self.half_edges), &self.weld_radii);
     }
 
-    /// The sections that could not be capped.
+    /// Returns the sections that could not be capped.
     pub(crate) fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
 
-    /// The section caps, by object and section plane.
+    /// Returns the section caps, by object and section plane.
     pub(crate) fn section_caps(&self) -> Vec<SectionCap> {
         let caps = self.mesh.section_caps().into_iter();
         caps.map(|(object, section, triangles)| SectionCap {
@@ -195,12 +195,12 @@ impl WeldedSurface {
         Tolerance::for_scene(self.diagonal)
     }
 
-    /// The mesh.
+    /// Returns the mesh.
     pub(crate) const fn mesh(&self) -> &WorldMesh {
         &self.mesh
     }
 
-    /// The diagonal of the models' bounding box before sections.
+    /// Returns the diagonal of the models' bounding box before sections.
     pub(crate) const fn diagonal(&self) -> f64 {
         self.diagonal
     }
@@ -228,7 +228,8 @@ impl WeldedSurface {
         faces.map(move |face| face.vertices.map(position))
     }
 
-    /// Each face with its object and the linear color of its material; caps are white, like paper.
+    /// Returns each face with its object and the linear color of its material; caps are white, like
+    /// paper.
     pub(crate) fn colored_faces(&self) -> impl Iterator<Item = ([DVec3; 3], u32, [f32; 3])> {
         let mesh = &self.mesh;
         mesh.faces.iter().map(|face| {
@@ -246,7 +247,7 @@ impl WeldedSurface {
         })
     }
 
-    /// The faces without section caps, which have their own hatching.
+    /// Returns the faces without section caps, which have their own hatching.
     pub(crate) fn colored_faces_without_caps(
         &self,
     ) -> impl Iterator<Item = ([DVec3; 3], u32, [f32; 3])> {
@@ -371,8 +372,8 @@ impl WeldedSurface {
         )
     }
 
-    /// The parts of the occluding triangles that a cover does not hide, each with the index of its
-    /// triangle.
+    /// Returns the parts of the occluding triangles that a cover does not hide, each with the index
+    /// of its triangle.
     pub(crate) fn visible_parts(&self, cover: &DepthCover) -> (Vec<[DVec3; 3]>, Vec<u32>) {
         let (mut parts, mut triangles) = (Vec::new(), Vec::new());
         for (triangle, corners) in (0..).zip(self.occluder_triangles()) {
@@ -382,19 +383,20 @@ impl WeldedSurface {
         (parts, triangles)
     }
 
-    /// An occluding triangle, by its index among the faces, which come first, and the fillings.
+    /// Returns an occluding triangle, by its index among the faces, which come first, and the
+    /// fillings.
     fn face_or_filling(&self, triangle: u32) -> &Face {
         let (triangle, count) = (triangle as usize, self.mesh.faces.len());
         self.mesh.faces.get(triangle).unwrap_or_else(|| &self.fillings[triangle - count])
     }
 
-    /// The hierarchy of the occluding triangles: the faces, then the fillings.
+    /// Returns the hierarchy of the occluding triangles: the faces, then the fillings.
     pub(crate) fn face_bvh(&self) -> &Bvh {
         self.face_bvh.get_or_init(|| mesh_bvh(self))
     }
 }
 
-/// The strokes that represent points: two pixels long, horizontal in the picture.
+/// Returns the strokes that represent points: two pixels long, horizontal in the picture.
 fn dot_edges(mesh: &WorldMesh, projector: &Projector) -> Vec<CandidateEdge> {
     let screen_to_world = projector.world_to_screen().inverse();
     let stroke = |dot: &Dot| {

@@ -78,7 +78,7 @@ pub(crate) struct WorldMesh {
 }
 
 impl WorldMesh {
-    /// The corners of a face.
+    /// Returns the corners of a face.
     pub(crate) fn triangle(&self, face: u32) -> [DVec3; 3] {
         self.faces[face as usize].vertices.map(|vertex| self.points[vertex as usize])
     }
@@ -190,7 +190,7 @@ impl WorldMesh {
         self.uncut.binary_search(&object).is_err()
     }
 
-    /// The diagonal of the bounding box of all finite points, 0 if there are none.
+    /// Returns the diagonal of the bounding box of all finite points, 0 if there are none.
     pub(crate) fn bounds_diagonal(&self) -> f64 {
         let finite = self.points.iter().filter(|point| point.is_finite());
         let (min, max) = finite.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), &p| {
@@ -220,7 +220,7 @@ fn has_holes(model: &Model, material: &Material) -> bool {
     }
 }
 
-/// The name of an object: from its node or mesh, otherwise `node N`.
+/// Returns the name of an object: from its node or mesh, otherwise `node N`.
 fn object_name(model: &Model, instance: MeshInstance) -> String {
     let node = &model.nodes[instance.node];
     let mesh = || node.mesh.and_then(|mesh| model.meshes[mesh].name.clone());

@@ -34,7 +34,7 @@ impl Bounds {
         self.extend(&Self { min: point, max: point });
     }
 
-    /// The midpoint, used to sort items into bins.
+    /// Returns the midpoint, used to sort items into bins.
     pub(super) fn box_center(&self) -> [f32; 3] {
         [0, 1, 2].map(|k| (self.min[k] + self.max[k]) * 0.5)
     }
@@ -72,23 +72,23 @@ impl Bounds {
     }
 }
 
-/// The smaller number: without the NaN cases of `f32::min`, a single instruction.
+/// Returns the smaller number: without the NaN cases of `f32::min`, a single instruction.
 pub(super) fn least(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
-/// The larger number, like [`least`].
+/// Returns the larger number, like [`least`].
 pub(super) fn greatest(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
-/// The nearest single-precision number that is not above.
+/// Returns the nearest single-precision number that is not above.
 pub(super) fn round_down(x: f64) -> f32 {
     let rounded = x as f32;
     if f64::from(rounded) > x { rounded.next_down() } else { rounded }
 }
 
-/// The nearest single-precision number that is not below.
+/// Returns the nearest single-precision number that is not below.
 pub(super) fn round_up(x: f64) -> f32 {
     let rounded = x as f32;
     if f64::from(rounded) < x { rounded.next_up() } else { rounded }

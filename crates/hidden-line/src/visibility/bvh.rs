@@ -39,7 +39,7 @@ impl Aabb {
         points.into_iter().fold(Self::EMPTY, grow)
     }
 
-    /// The smallest box around three points, without NaN coordinates.
+    /// Returns the smallest box around three points, without NaN coordinates.
     pub(crate) fn around_triangle([a, b, c]: [DVec3; 3]) -> Self {
         let least = |a: f64, b: f64| if a < b { a } else { b };
         let greatest = |a: f64, b: f64| if a > b { a } else { b };
@@ -50,12 +50,12 @@ impl Aabb {
         Self { min: along(least), max: along(greatest) }
     }
 
-    /// The smallest box around both.
+    /// Returns the smallest box around both.
     pub(crate) fn union(self, other: Self) -> Self {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// The box with a margin `by` on each side.
+    /// Returns the box with a margin `by` on each side.
     pub(crate) fn expanded_by(self, by: DVec3) -> Self {
         Self { min: self.min - by, max: self.max + by }
     }
@@ -152,17 +152,17 @@ impl Bvh {
         tree
     }
 
-    /// The index of the root; `None` if there are no items.
+    /// Returns the index of the root; `None` if there are no items.
     pub(crate) fn root_node(&self) -> Option<u32> {
         (!self.nodes.is_empty()).then_some(0)
     }
 
-    /// The number of nodes. Children have higher indices than their parents.
+    /// Returns the number of nodes. Children have higher indices than their parents.
     pub(crate) fn node_count(&self) -> usize {
         self.nodes.len()
     }
 
-    /// The children or the items of a node.
+    /// Returns the children or the items of a node.
     pub(crate) fn contents(&self, node: u32) -> NodeContents {
         let Node { first, count, .. } = self.nodes[node as usize];
         match count {
@@ -229,7 +229,7 @@ impl Bvh {
         self.for_each_item(|bounds| bounds.is_near_segment(segment, radius), most, open, visit)
     }
 
-    /// The leaves, by node index.
+    /// Returns the leaves, by node index.
     pub(crate) fn leaf_nodes(&self) -> Vec<u32> {
         let nodes = (0..).zip(&self.nodes);
         nodes.filter(|(_, node)| node.count > 0).map(|(index, _)| index).collect()
@@ -275,7 +275,7 @@ impl Bvh {
         true
     }
 
-    /// The number of items that each of `queries` queries may visit.
+    /// Returns the number of items that each of `queries` queries may visit.
     ///
     /// It bounds the time on degenerate input, such as a million triangles in one box, where every
     /// query meets every item. All queries together stay below 2²⁶ visits, or 1024 per query if
@@ -341,7 +341,7 @@ impl BoundsOfItems {
         self.count += other.count;
     }
 
-    /// The expected cost of a node, up to a factor.
+    /// Returns the expected cost of a node, up to a factor.
     fn sah_cost(&self) -> f32 {
         if self.count == 0 { 0.0 } else { self.bounds.half_surface_area() * self.count as f32 }
     }
@@ -384,8 +384,8 @@ fn partition_by_sah<const BINS: usize>(
     (left > 0 && left < items.len()).then_some(split)
 }
 
-/// The last bin on the left side of the cheapest split: one sweep from the right for the costs
-/// there, and one from the left. `None` if no box has an area.
+/// Returns the last bin on the left side of the cheapest split: one sweep from the right for the
+/// costs there, and one from the left. `None` if no box has an area.
 fn cheapest_bin_split<const BINS: usize>(bins: &[BoundsOfItems; BINS]) -> Option<usize> {
     let mut right = [0.0; BINS];
     let mut extents = BoundsOfItems::EMPTY;
@@ -416,7 +416,7 @@ fn partition_at_median(items: &mut [Item], centers: &Bounds) -> [BoundsOfItems; 
     [left, right].map(BoundsOfItems::of_items)
 }
 
-/// The longest side of a box: its axis and its length.
+/// Returns the longest side of a box: its axis and its length.
 fn longest_axis(bounds: &Bounds) -> (usize, f32) {
     let extent = [0, 1, 2].map(|k| bounds.max[k] - bounds.min[k]);
     let axis = if extent[0] >= extent[1] && extent[0] >= extent[2] {

@@ -38,7 +38,7 @@ impl FaceCount {
         self.changes.extend([(interval[0], halves), (interval[1], -halves)]);
     }
 
-    /// The intervals with more than `most` faces in front.
+    /// Returns the intervals with more than `most` faces in front.
     fn intervals_above(&mut self, most: u32) -> OcclusionIntervals {
         self.changes.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut intervals = OcclusionIntervals::default();

@@ -67,7 +67,7 @@ pub(crate) struct ScreenBox {
 }
 
 impl ScreenBox {
-    /// The box around points in front of the viewer; `None` if a point has no image.
+    /// Returns the box around points in front of the viewer; `None` if a point has no image.
     fn around(points: &[DVec3], projector: &Projector) -> Option<Self> {
         let mut all = Self::around_images(&[]);
         for point in points {
@@ -76,7 +76,7 @@ impl ScreenBox {
         Some(all)
     }
 
-    /// The box around points of the screen.
+    /// Returns the box around points of the screen.
     fn around_images(images: &[DVec3]) -> Self {
         let mut all =
             Self { min: DVec2::INFINITY, max: DVec2::NEG_INFINITY, nearest: f64::NEG_INFINITY };
@@ -91,7 +91,7 @@ impl ScreenBox {
         self.nearest = self.nearest.max(image.z);
     }
 
-    /// The box around the intersection of both images.
+    /// Returns the box around the intersection of both images.
     pub(crate) fn intersection(&self, other: &Self) -> Self {
         Self {
             min: self.min.max(other.min),
@@ -258,7 +258,7 @@ impl DepthCover {
         [[a, middle], [middle, b]].into_iter().all(|half| self.hides_image(half, divisions - 1))
     }
 
-    /// The box around the images of points; `None` if a point has no image.
+    /// Returns the box around the images of points; `None` if a point has no image.
     pub(crate) fn image_of(&self, points: &[DVec3]) -> Option<ScreenBox> {
         ScreenBox::around(points, &self.projector)
     }
@@ -291,13 +291,13 @@ impl DepthCover {
     }
 }
 
-/// The four parts of a triangle between the middles of its sides.
+/// Returns the four parts of a triangle between the middles of its sides.
 fn quarters([a, b, c]: [DVec3; 3]) -> [[DVec3; 3]; 4] {
     let [ab, bc, ca] = [0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)];
     [[ab, bc, ca], [a, ab, ca], [ab, b, bc], [ca, bc, c]]
 }
 
-/// The image of a point within the depths of the view volume.
+/// Returns the image of a point within the depths of the view volume.
 fn image_of(point: DVec3, projector: &Projector) -> Option<DVec3> {
     let clip = projector.world_to_clip_point(point);
     if clip.w() <= 0.0 {
@@ -307,7 +307,7 @@ fn image_of(point: DVec3, projector: &Projector) -> Option<DVec3> {
     (0.0..=1.0).contains(&image.z).then_some(image)
 }
 
-/// The images of points within the depths of the view volume.
+/// Returns the images of points within the depths of the view volume.
 fn images_of<const N: usize>(points: &[DVec3; N], projector: &Projector) -> Option<[DVec3; N]> {
     let mut images = [DVec3::ZERO; N];
     for (image, point) in images.iter_mut().zip(points) {
@@ -316,7 +316,7 @@ fn images_of<const N: usize>(points: &[DVec3; N], projector: &Projector) -> Opti
     Some(images)
 }
 
-/// The area in pixels that a triangle covers on a screen of a given size.
+/// Returns the area in pixels that a triangle covers on a screen of a given size.
 fn area_within(images: [DVec3; 3], size: DVec2) -> f64 {
     let around = ScreenBox::around_images(&images);
     let visible = (around.max.min(size) - around.min.max(DVec2::ZERO)).max(DVec2::ZERO);

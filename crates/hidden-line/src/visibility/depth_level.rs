@@ -31,7 +31,7 @@ impl DepthPlane {
         (slope.is_finite() && at_origin.is_finite()).then_some(Self { slope, at_origin, least })
     }
 
-    /// The minimum depth in a cell: the plane's, or the face's if that is less.
+    /// Returns the minimum depth in a cell: the plane's, or the face's if that is less.
     fn least_in_cell(&self, cell: DVec2) -> f64 {
         let corner = cell + DVec2::from(self.slope.to_array().map(|s| f64::from(s < 0.0)));
         (self.at_origin + self.slope.dot(corner)).max(self.least)
@@ -84,8 +84,8 @@ impl Level {
         }
     }
 
-    /// The minimum depths of each cell and its neighbors: parts of the surface that a cell samples
-    /// are between their centers.
+    /// Returns the minimum depths of each cell and its neighbors: parts of the surface that a cell
+    /// samples are between their centers.
     pub(super) fn eroded(&self) -> Self {
         let [width, height] = self.size;
         // Nothing is between the outermost centers and the border of the screen.
@@ -129,7 +129,7 @@ impl Level {
     }
 }
 
-/// The cells that an interval covers completely.
+/// Returns the cells that an interval covers completely.
 fn whole_cells([from, to]: [f64; 2], count: usize) -> std::ops::Range<usize> {
     // Casts saturate beyond the border and where there is no interval.
     let first = from.max(0.0).ceil();
@@ -137,7 +137,7 @@ fn whole_cells([from, to]: [f64; 2], count: usize) -> std::ops::Range<usize> {
     if first < last { first as usize..last as usize } else { 0..0 }
 }
 
-/// The cells whose centers are in an interval.
+/// Returns the cells whose centers are in an interval.
 fn centers([from, to]: [f64; 2], count: usize) -> std::ops::Range<usize> {
     // Casts saturate beyond the border and where there is no interval.
     let first = (from - 0.5).max(0.0).ceil();
@@ -145,7 +145,7 @@ fn centers([from, to]: [f64; 2], count: usize) -> std::ops::Range<usize> {
     if first < last { first as usize..last as usize } else { 0..0 }
 }
 
-/// The interval of x where a triangle meets a horizontal line; reversed if it does not.
+/// Returns the interval of x where a triangle meets a horizontal line; reversed if it does not.
 fn span_at(corners: [DVec2; 3], y: f64) -> [f64; 2] {
     let mut span = [f64::INFINITY, f64::NEG_INFINITY];
     for k in 0..3 {

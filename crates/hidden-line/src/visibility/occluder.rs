@@ -89,13 +89,14 @@ pub(super) struct SideOverlap {
 /// A function that is linear along the edge: its values at the start and at the end.
 type LinearFunction = [f64; 2];
 
-/// The value of a linear function at fraction s.
+/// Returns the value of a linear function at fraction s.
 fn evaluate_linear([start, end]: LinearFunction, s: f64) -> f64 {
     start + (end - start) * s
 }
 
 impl Occluder {
-    /// The parts of an edge that pass over this face or beside it; `None` if there are none.
+    /// Returns the parts of an edge that pass over this face or beside it; `None` if there are
+    /// none.
     ///
     /// The cheapest rejection comes first: a side with the whole edge outside. A side that the edge
     /// runs along does not bound the interval inside, because rounding decides on which side the
@@ -127,8 +128,8 @@ impl Occluder {
         (interior.is_some() || side.is_some()).then_some(ScreenOverlap { interior, side })
     }
 
-    /// The sides against an edge, and whether the whole edge is outside one of them; `None` if it
-    /// is outside by more than the width of a crack.
+    /// Returns the sides against an edge, and whether the whole edge is outside one of them; `None`
+    /// if it is outside by more than the width of a crack.
     fn sides_near(
         &self,
         edge: &ProjectedEdge,
@@ -199,7 +200,7 @@ impl OccluderInWorld<'_> {
         interval_behind_plane(plane, edge, interval, tolerance)
     }
 
-    /// The plane through a point with this normal, or the opposite one.
+    /// Returns the plane through a point with this normal, or the opposite one.
     fn plane_towards_viewer(&self, normal: DVec3, point: DVec3) -> Option<OrientedPlane> {
         let normal = normal.normalize_or_zero();
         let towards = normal.dot(self.projector.towards_viewer(point));
@@ -235,8 +236,8 @@ impl TriangleSides {
         })
     }
 
-    /// The first side that the edge runs along: within `distance` in pixels while it is inside the
-    /// two others.
+    /// Returns the first side that the edge runs along: within `distance` in pixels while it is
+    /// inside the two others.
     ///
     /// The stretch must be longer than eight times the distance; shorter ones occur where the edge
     /// crosses a vertex, and say nothing about its direction.
@@ -267,8 +268,8 @@ impl TriangleSides {
         })
     }
 
-    /// The first side that the edge runs beside on the outside, no farther away than the width of a
-    /// crack, and the interval of s where it does.
+    /// Returns the first side that the edge runs beside on the outside, no farther away than the
+    /// width of a crack, and the interval of s where it does.
     ///
     /// The interval must be longer than four times that width, so the angle between the two is
     /// small.
@@ -299,13 +300,13 @@ impl TriangleSides {
         })
     }
 
-    /// The open interval of s where the edge is inside all sides except one.
+    /// Returns the open interval of s where the edge is inside all sides except one.
     fn interval_inside(&self, but: Option<usize>) -> Option<[f64; 2]> {
         positive_interval((0..3).filter(|&k| Some(k) != but).map(|k| self.values[k]))
     }
 }
 
-/// The part of an interval of s where the edge is behind the plane of the face.
+/// Returns the part of an interval of s where the edge is behind the plane of the face.
 ///
 /// ```text
 ///    height over the plane
@@ -354,7 +355,8 @@ fn side_function([from, to]: [DVec2; 2], edge: &ProjectedEdge) -> LinearFunction
     })
 }
 
-/// The open interval of s in [0, 1] where all functions are positive; `None` if it is empty.
+/// Returns the open interval of s in [0, 1] where all functions are positive; `None` if it is
+/// empty.
 fn positive_interval(functions: impl Iterator<Item = LinearFunction>) -> Option<[f64; 2]> {
     let mut interval = [0.0_f64, 1.0];
     for [start, end] in functions {

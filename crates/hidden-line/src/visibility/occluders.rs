@@ -155,7 +155,7 @@ impl Occluders {
     }
 }
 
-/// The hierarchy of the boxes around the triangles of a mesh in the world.
+/// Returns the hierarchy of the boxes around the triangles of a mesh in the world.
 pub(crate) fn mesh_bvh(mesh: &impl TriangleMesh) -> Bvh {
     Bvh::new((0..mesh.triangle_count()).map(|index| Aabb::around_triangle(mesh.positions(index))))
 }
@@ -206,7 +206,7 @@ impl OcclusionScratch {
         self.node_stack.extend(root);
     }
 
-    /// The result of the last query.
+    /// Returns the result of the last query.
     pub(crate) const fn last_result(&self) -> &OcclusionIntervals {
         &self.hidden
     }
@@ -247,12 +247,13 @@ impl<M: TriangleMesh> MeshOccluders<M> {
         Self { mesh, projector, tolerance, screen, respects_depth: true }
     }
 
-    /// The occluders as if each face hid everything that it covers on the screen, at any depth.
+    /// Returns the occluders as if each face hid everything that it covers on the screen, at any
+    /// depth.
     pub(crate) fn at_any_depth(self) -> Self {
         Self { respects_depth: false, ..self }
     }
 
-    /// The intervals of s where an edge is hidden: the union over all faces in front of it.
+    /// Returns the intervals of s where an edge is hidden: the union over all faces in front of it.
     ///
     /// This is the inner loop of hidden-line removal. Children are visited front to back, because a
     /// near face is more likely to hide the whole interval and so end the descent. The result is

@@ -97,7 +97,7 @@ impl OcclusionIntervals {
         }
     }
 
-    /// The parts of an interval outside the set, in ascending order.
+    /// Returns the parts of an interval outside the set, in ascending order.
     pub(crate) fn parts_outside(&self, [start, end]: [f64; 2]) -> Vec<[f64; 2]> {
         let (mut parts, mut from) = (Vec::new(), start);
         for &[low, high] in &self.0 {

@@ -59,36 +59,36 @@ impl ProjectedEdge {
         })
     }
 
-    /// The length on the screen in pixels.
+    /// Returns the length on the screen in pixels.
     pub(crate) fn screen_length(&self) -> f64 {
         (self.screen[1] - self.screen[0]).length()
     }
 
-    /// The point on the screen at fraction s; at 0 and 1 with the bits of the ends.
+    /// Returns the point on the screen at fraction s; at 0 and 1 with the bits of the ends.
     pub(crate) fn screen_at(&self, s: f64) -> DVec2 {
         let [a, b] = self.screen;
         if s == 1.0 { b } else { a + (b - a) * s }
     }
 
-    /// The depth at fraction s, exact at both ends like [`Self::screen_at`].
+    /// Returns the depth at fraction s, exact at both ends like [`Self::screen_at`].
     pub(crate) fn depth_at(&self, s: f64) -> f64 {
         let [a, b] = self.depths;
         if s == 1.0 { b } else { a + (b - a) * s }
     }
 
-    /// The world fraction u at the screen fraction s: the inverse of IN-1.
+    /// Returns the world fraction u at the screen fraction s: the inverse of IN-1.
     pub(crate) fn world_fraction(&self, s: f64) -> f64 {
         let [r, q] = self.w;
         if r == q { s } else { r * s / (q + s * (r - q)) }
     }
 
-    /// The screen fraction s at the world fraction u: IN-1.
+    /// Returns the screen fraction s at the world fraction u: IN-1.
     pub(crate) fn screen_fraction(&self, u: f64) -> f64 {
         let [r, q] = self.w;
         if r == q { u } else { q * u / (r + u * (q - r)) }
     }
 
-    /// The fraction of the original, unclipped edge in the world at the screen fraction s.
+    /// Returns the fraction of the original, unclipped edge in the world at the screen fraction s.
     pub(crate) fn edge_fraction(&self, s: f64) -> f64 {
         let [t0, t1] = self.clip_range;
         t0 + (t1 - t0) * self.world_fraction(s)

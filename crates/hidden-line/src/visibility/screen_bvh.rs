@@ -23,18 +23,18 @@ use glam::{DVec2, DVec3};
 
 /// Triangles that share vertices.
 pub(crate) trait TriangleMesh: Sync {
-    /// The number of triangles.
+    /// Returns the number of triangles.
     fn triangle_count(&self) -> u32;
-    /// The number of vertices.
+    /// Returns the number of vertices.
     fn vertex_count(&self) -> u32;
-    /// The vertices of a triangle.
+    /// Returns the vertices of a triangle.
     fn vertex_indices(&self, triangle: u32) -> [u32; 3];
-    /// The position of a vertex in the world.
+    /// Returns the position of a vertex in the world.
     fn position(&self, vertex: u32) -> DVec3;
-    /// The object that a triangle is part of.
+    /// Returns the object that a triangle is part of.
     fn object(&self, triangle: u32) -> u32;
 
-    /// The positions of the vertices of a triangle.
+    /// Returns the positions of the vertices of a triangle.
     fn positions(&self, triangle: u32) -> [DVec3; 3] {
         self.vertex_indices(triangle).map(|vertex| self.position(vertex))
     }
@@ -93,7 +93,7 @@ impl DepthBox {
     const EMPTY: Self =
         Self { min: [f32::INFINITY; 2], max: [f32::NEG_INFINITY; 2], nearest: f32::NEG_INFINITY };
 
-    /// The box around two others.
+    /// Returns the box around two others.
     fn union(&self, other: &Self) -> Self {
         Self {
             min: [0, 1].map(|k| least(self.min[k], other.min[k])),
@@ -209,7 +209,7 @@ impl ScreenBvh {
         tree
     }
 
-    /// The parent of two nodes; the first child directly follows it.
+    /// Returns the parent of two nodes; the first child directly follows it.
     fn join_nodes(&self, [first, second]: [u32; 2]) -> ScreenNode {
         let [a, b] = [first, second].map(|node| &self.nodes[node as usize].bounds);
         ScreenNode { bounds: a.union(b), first: second, count: INNER_NODE }
@@ -255,8 +255,8 @@ impl ScreenBvh {
         self.pieces.push(ClippedPiece { triangle, vertices, weights });
     }
 
-    /// The vertices of a triangle of a leaf in pixels, ordered so that `(b − a) × (c − a)` is
-    /// positive, and its index in the mesh.
+    /// Returns the vertices of a triangle of a leaf in pixels, ordered so that `(b − a) × (c − a)`
+    /// is positive, and its index in the mesh.
     pub(super) fn triangle(
         &self,
         leaf: &LeafTriangle,
@@ -275,7 +275,8 @@ impl ScreenBvh {
         }
     }
 
-    /// The vertices of a triangle of a leaf in the world, in the order of [`Self::triangle`].
+    /// Returns the vertices of a triangle of a leaf in the world, in the order of
+    /// [`Self::triangle`].
     pub(super) fn world_vertices(
         &self,
         leaf: &LeafTriangle,
@@ -293,18 +294,18 @@ impl ScreenBvh {
         }
     }
 
-    /// The interval of s where an edge passes over the box of a node and is not completely in front
-    /// of it.
+    /// Returns the interval of s where an edge passes over the box of a node and is not completely
+    /// in front of it.
     pub(super) fn interval_behind(&self, node: u32, edge: &ScreenEdge<'_>) -> Option<[f64; 2]> {
         edge.interval_behind(&self.nodes[node as usize].bounds)
     }
 
-    /// The root; `None` if the hierarchy is empty.
+    /// Returns the root; `None` if the hierarchy is empty.
     pub(super) fn root_node(&self) -> Option<u32> {
         (!self.nodes.is_empty()).then_some(0)
     }
 
-    /// The two children of a node, the nearer one last, or the triangles of a leaf.
+    /// Returns the two children of a node, the nearer one last, or the triangles of a leaf.
     pub(super) fn contents(&self, index: u32) -> Result<[u32; 2], &[LeafTriangle]> {
         let node = &self.nodes[index as usize];
         if node.count != INNER_NODE {
@@ -316,7 +317,7 @@ impl ScreenBvh {
     }
 }
 
-/// The box around the corners of a triangle, with a margin in pixels on the screen.
+/// Returns the box around the corners of a triangle, with a margin in pixels on the screen.
 fn box_around([a, b, c]: [DVec2; 3], depths: [f32; 3], margin: f64) -> DepthBox {
     let (min, max) = (a.min(b).min(c) - margin, a.max(b).max(c) + margin);
     DepthBox {
@@ -377,8 +378,8 @@ impl<'a> ScreenEdge<'a> {
             || (a.y > high.y && b.y > high.y && c.y > high.y)
     }
 
-    /// The interval of s where the edge passes over a box on the screen and is not completely in
-    /// front of it.
+    /// Returns the interval of s where the edge passes over a box on the screen and is not
+    /// completely in front of it.
     ///
     /// ```text
     ///         ┌──────┐
@@ -410,13 +411,13 @@ impl<'a> ScreenEdge<'a> {
         (farthest <= f64::from(bounds.nearest)).then_some([enter, leave])
     }
 
-    /// The interval of s where the edge passes over the box around a triangle.
+    /// Returns the interval of s where the edge passes over the box around a triangle.
     pub(super) fn interval_over_triangle(&self, leaf: &LeafTriangle) -> Option<[f64; 2]> {
         self.interval_over_box(leaf.bounds.min.map(f64::from), leaf.bounds.max.map(f64::from))
     }
 
-    /// The slab test: the interval of s where the edge passes over a box. The box must not be
-    /// beside the edge along an axis parallel to it.
+    /// Returns the slab test: the interval of s where the edge passes over a box. The box must not
+    /// be beside the edge along an axis parallel to it.
     fn interval_over_box(&self, min: [f64; 2], max: [f64; 2]) -> Option<[f64; 2]> {
         let from = self.edge.screen[0];
         let (mut enter, mut leave) = (0.0, 1.0);

@@ -4,7 +4,7 @@ use super::stage::*;
 use hidden_line::{DrawOptions, EdgeClass, EdgeClasses, HiddenEdges, draw};
 use model::{EdgeList, EdgeVisibility, Primitive, PrimitiveEdges};
 
-/// The classes of all edges, including facets, in order.
+/// Returns the classes of all edges, including facets, in order.
 fn edge_classes(primitives: Vec<Primitive>) -> Vec<EdgeClass> {
     let options = DrawOptions {
         classes: EdgeClasses::ALL,

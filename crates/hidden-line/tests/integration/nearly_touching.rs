@@ -42,7 +42,7 @@ impl Random {
         (z ^ (z >> 31)) % end
     }
 
-    /// A random number in an interval, in 2²⁰ steps.
+    /// Returns a random number in an interval, in 2²⁰ steps.
     fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.below(1 << 20) as f64 / f64::from(1 << 20)
     }
@@ -56,7 +56,8 @@ impl Random {
     }
 }
 
-/// A part in the unit cube: a box, or a prism about one of the axes whose sides touch the cube.
+/// Returns a part in the unit cube: a box, or a prism about one of the axes whose sides touch the
+/// cube.
 fn unit_part(random: &mut Random) -> Primitive {
     if random.below(3) > 0 {
         return cuboid_mesh([0.0; 3], [1.0; 3]);
@@ -81,8 +82,8 @@ fn unit_part(random: &mut Random) -> Primitive {
     triangle_mesh(&positions, &indices)
 }
 
-/// The parts of a scene as boxes, given by opposite corners: each new one is placed against a face
-/// of an earlier one, with a gap.
+/// Returns the parts of a scene as boxes, given by opposite corners: each new one is placed against
+/// a face of an earlier one, with a gap.
 fn stack_boxes(random: &mut Random) -> Vec<[[f64; 3]; 2]> {
     let mut boxes = vec![[[0.0; 3], [0; 3].map(|_| random.between(0.1, 1.0))]];
     // About the diagonal of the result.
@@ -115,8 +116,8 @@ fn stack_boxes(random: &mut Random) -> Vec<[[f64; 3]; 2]> {
     boxes
 }
 
-/// The parts of a scene, placed by matrices in f64 or, in every other scene, with the vertices
-/// rounded to single precision.
+/// Returns the parts of a scene, placed by matrices in f64 or, in every other scene, with the
+/// vertices rounded to single precision.
 fn assembly(random: &mut Random) -> Vec<ModelInstance> {
     let scale = random.choose(&[1e-3, 1.0, 1.0, 25.4, 1e3]);
     let shift = random.choose(&[0.0, 0.0, 1.0, 30.0]) * scale;
@@ -143,7 +144,8 @@ fn assembly(random: &mut Random) -> Vec<ModelInstance> {
     stack_boxes(random).into_iter().map(|corners| part(corners, unit_part(random))).collect()
 }
 
-/// A view of all models that fills the picture: from any direction, or along one of the axes.
+/// Returns a view of all models that fills the picture: from any direction, or along one of the
+/// axes.
 fn random_view(models: &[ModelInstance], random: &mut Random) -> ViewProjection {
     let points = model::world_points(models);
     let along = [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [-1.0, -1.0, -1.0]];
@@ -176,7 +178,7 @@ fn nearly_touching_scene(number: u64) -> TestScene {
     TestScene { models, view_projection, sections: Vec::new(), uncut: Vec::new() }
 }
 
-/// The drawing of a scene, and its agreement with the z-buffer.
+/// Returns the drawing of a scene, and its agreement with the z-buffer.
 fn measure(number: u64) -> (LineDrawing, Agreement) {
     let scene = nearly_touching_scene(number);
     let subject = scene.drawing_subject();
@@ -185,7 +187,7 @@ fn measure(number: u64) -> (LineDrawing, Agreement) {
     (drawing, agreement)
 }
 
-/// The worst of some scenes, with the length that the z-buffer denies and the segments.
+/// Returns the worst of some scenes, with the length that the z-buffer denies and the segments.
 fn worst_scene(scenes: impl Iterator<Item = u64>) -> (f64, String) {
     let ratio = |number| (measure(number).1.disagreement_ratio(), number);
     let worst = scenes.map(ratio).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();

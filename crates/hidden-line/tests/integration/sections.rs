@@ -10,7 +10,7 @@ use homog::{Normal, Plane, Point, World};
 use model::{Model, Primitive};
 use std::collections::BTreeMap;
 
-/// The plane at this x; the side with lower x is retained.
+/// Returns the plane at this x; the side with lower x is retained.
 fn plane_x(at: f64) -> Plane<World> {
     Plane::through(Point::new(at, 0.0, 0.0), Normal::new(-1.0, 0.0, 0.0))
 }
@@ -19,7 +19,7 @@ fn cut_scene(model: Model, planes: &[Plane<World>]) -> TestScene {
     TestScene { sections: planes.to_vec(), ..drawing_scene(model, oblique_view()) }
 }
 
-/// A box with its faces turned inward.
+/// Returns a box with its faces turned inward.
 fn box_with_hole(min: [f32; 3], max: [f32; 3]) -> Primitive {
     let mut primitive = cuboid_mesh(min, max);
     primitive.indices.as_chunks_mut::<3>().0.iter_mut().for_each(|face| face.swap(1, 2));
@@ -34,7 +34,7 @@ fn merge_primitives(mut one: Primitive, other: &Primitive) -> Primitive {
     one
 }
 
-/// The point (z, y) of the plane x = 0 with this oblique image.
+/// Returns the point (z, y) of the plane x = 0 with this oblique image.
 fn project_to_plane([x, y]: [f64; 2]) -> [f64; 2] {
     [-2.0 * x, y - x]
 }

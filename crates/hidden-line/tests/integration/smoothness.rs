@@ -5,7 +5,7 @@ use hidden_line::{DrawOptions, EdgeClass, LineDrawing, SilhouetteMethod, draw};
 use model::{Model, Primitive};
 use std::f64::consts::TAU;
 
-/// A drawing through the window, from the front.
+/// Returns a drawing through the window, from the front.
 fn draw_front(model: Model, options: &DrawOptions) -> LineDrawing {
     let scene = drawing_scene(model, view_projection(window_projection()));
     draw(&scene.drawing_subject(), options, 1).unwrap()
@@ -15,8 +15,8 @@ fn count(drawing: &LineDrawing, class: EdgeClass) -> usize {
     drawing.segments.iter().filter(|segment| segment.class == class).count()
 }
 
-/// The side of a vertical column with eight sides around the y axis. With `is_smooth` it has the
-/// normals of a cylinder, otherwise the normals of its faces.
+/// Returns the side of a vertical column with eight sides around the y axis. With `is_smooth` it
+/// has the normals of a cylinder, otherwise the normals of its faces.
 fn column(is_smooth: bool) -> Primitive {
     let (mut positions, mut normals, mut indices) = (Vec::new(), Vec::new(), Vec::new());
     for side in 0..8 {
@@ -46,7 +46,7 @@ fn normals_that_agree_make_an_edge_smooth() {
     assert_eq!(creases(true, false), 3);
 }
 
-/// A ball of radius 2 with tilted poles and shared vertices.
+/// Returns a ball of radius 2 with tilted poles and shared vertices.
 fn ball(rings: u32) -> Primitive {
     let sectors = 2 * rings;
     let (mut positions, mut indices) = (Vec::new(), Vec::new());

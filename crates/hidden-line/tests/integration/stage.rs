@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 pub const IMAGE_SIDE: u32 = 800;
 
-/// A model with one object for each primitive.
+/// Returns a model with one object for each primitive.
 pub fn build_model(primitives: Vec<Primitive>) -> Model {
     let node = |mesh| Node { mesh: Some(mesh), ..Node::default() };
     Model {
@@ -58,7 +58,7 @@ pub fn view_projection(view_to_clip: Projective<View, Clip>) -> ViewProjection {
     ViewProjection { camera, view_to_clip }
 }
 
-/// The window from −4 to 4 with depths from −8 to 8.
+/// Returns the window from −4 to 4 with depths from −8 to 8.
 pub fn window_projection() -> Projective<View, Clip> {
     let window = Orthographic::new(-4.0, 4.0, -4.0, 4.0, -8.0, 8.0).unwrap();
     window.view_to_clip(Convention::CHAPTER)
@@ -80,12 +80,12 @@ pub fn line_mesh(positions: &[[f32; 3]]) -> Primitive {
     Primitive { positions: positions.to_vec(), indices, topology, ..Primitive::default() }
 }
 
-/// A quadrilateral, cut along the diagonal from its first corner.
+/// Returns a quadrilateral, cut along the diagonal from its first corner.
 pub fn quad_mesh(corners: [[f32; 3]; 4]) -> Primitive {
     triangle_mesh(&corners, &[0, 1, 2, 0, 2, 3])
 }
 
-/// A box; each face has its own corners, as in files.
+/// Returns a box; each face has its own corners, as in files.
 pub fn cuboid_mesh(min: [f32; 3], max: [f32; 3]) -> Primitive {
     let corner = |n: usize| [0, 1, 2].map(|axis| if n >> axis & 1 == 0 { min } else { max }[axis]);
     let faces =
@@ -98,7 +98,7 @@ pub fn cuboid_mesh(min: [f32; 3], max: [f32; 3]) -> Primitive {
 /// A segment of the picture, given by its ends.
 pub type Segment = [[f64; 2]; 2];
 
-/// The drawing with hidden segments retained; the same with two threads.
+/// Returns the drawing with hidden segments retained; the same with two threads.
 pub fn draw_scene_lines(scene: &TestScene) -> LineDrawing {
     let drawing = draw(&scene.drawing_subject(), &DrawOptions::hidden_edges_retained(), 1).unwrap();
     assert_eq!(
@@ -108,7 +108,7 @@ pub fn draw_scene_lines(scene: &TestScene) -> LineDrawing {
     drawing
 }
 
-/// The lines chosen by a predicate, as segments in units of the picture.
+/// Returns the lines chosen by a predicate, as segments in units of the picture.
 pub fn segments_where(
     drawing: &LineDrawing,
     choose: impl Fn(&EdgeSegment) -> bool,

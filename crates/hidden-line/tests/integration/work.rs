@@ -52,7 +52,7 @@ fn soup(count: usize) -> Model {
     build_model((0..count).map(|_| triangle()).collect())
 }
 
-/// The total lengths of the visible and hidden segments in pixels.
+/// Returns the total lengths of the visible and hidden segments in pixels.
 fn lengths(drawing: &LineDrawing) -> [f64; 2] {
     [true, false].map(|visible| {
         let segments = drawing.segments.iter().filter(|segment| segment.visible == visible);

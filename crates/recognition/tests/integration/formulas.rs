@@ -41,7 +41,7 @@ pub(crate) fn gl_frustum([l, r, b, t]: [f64; 4], n: f64, f: f64) -> Rows {
     ]
 }
 
-/// A lens above a depth row (a, b) and the bottom row (0, 0, w, 0).
+/// Returns a lens above a depth row (a, b) and the bottom row (0, 0, w, 0).
 pub(crate) fn lens(fovy_degrees: f64, aspect: f64, [a, b, w]: [f64; 3]) -> Rows {
     let c = cot_half(fovy_degrees);
     [[c / aspect, 0.0, 0.0, 0.0], [0.0, c, 0.0, 0.0], [0.0, 0.0, a, b], [0.0, 0.0, w, 0.0]]
@@ -77,7 +77,7 @@ pub(crate) fn flip_y(mut m: Rows) -> Rows {
     m
 }
 
-/// A box above a depth row (a, b).
+/// Returns a box above a depth row (a, b).
 fn fit([l, r, b, t]: [f64; 4], [a, c]: [f64; 2]) -> Rows {
     [
         [2.0 / (r - l), 0.0, 0.0, -(r + l) / (r - l)],
@@ -183,7 +183,7 @@ pub(crate) fn m_cam(eye: [f64; 3], gaze: [f64; 3], up: [f64; 3]) -> Rows {
     [row(u), row(cross(w, u)), row(w), [0.0, 0.0, 0.0, 1.0]]
 }
 
-/// The view space of OpenCV and COLMAP from that of OpenGL: y and z negated.
+/// Returns the view space of OpenCV and COLMAP from that of OpenGL: y and z negated.
 pub(crate) fn opencv(view: Rows) -> Rows {
     let mut turned = flip_y(view);
     turned[2] = turned[2].map(|x| -x + 0.0);

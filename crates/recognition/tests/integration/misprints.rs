@@ -34,7 +34,7 @@ fn lens(fovy: f64) -> IntendedProjection {
     )
 }
 
-/// The image of a view-space point.
+/// Returns the image of a view-space point.
 fn image(matrix: DMat4, x: f64, y: f64, z: f64) -> Option<Point<Ndc>> {
     Projective::<View, Clip>::from_raw(matrix).transform_point(Point::new(x, y, z)).divide()
 }

@@ -20,7 +20,7 @@ impl Random {
         mixed ^ (mixed >> 31)
     }
 
-    /// A number between two others: of three digits, as people write them, or of all.
+    /// Returns a number between two others: of three digits, as people write them, or of all.
     fn number(&mut self, low: f64, high: f64) -> f64 {
         let part = (self.bits() >> 11) as f64 / (1_u64 << 53) as f64;
         let x = low + (high - low) * part;

@@ -31,7 +31,7 @@ pub(crate) fn rows() -> Vec<Row> {
     all
 }
 
-/// The textbook and the notes (S0, S1).
+/// Returns the textbook and the notes (S0, S1).
 fn chapter() -> Vec<Row> {
     let p = Expected::P;
     let volume = |near, far| Expected::Frustum(Convention::CHAPTER, WINDOW, near, far);
@@ -72,7 +72,8 @@ fn chapter() -> Vec<Row> {
     ]
 }
 
-/// The slides (S4) and the lesson (S3); the moved apex is another projection, not a misprint.
+/// Returns the slides (S4) and the lesson (S3); the moved apex is another projection, not a
+/// misprint.
 fn slides_and_lesson() -> Vec<Row> {
     let gl_box = |window, n, f| Expected::Box(Convention::OPENGL, window, n, f);
     let (a, b) = (0.5 * libm::sqrt(2.0), libm::sqrt(3.0) / 4.0);
@@ -118,7 +119,7 @@ fn slides_and_lesson() -> Vec<Row> {
     ]
 }
 
-/// The slides' matrices by vanishing points.
+/// Returns the slides' matrices by vanishing points.
 fn point_perspectives() -> Vec<Row> {
     let n_point = |third: [f64; 4], last: [f64; 4]| -> Rows {
         [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], third, last]

@@ -179,7 +179,7 @@ fn recognized(rows: Rows) -> Recognition {
     recognize(rows)
 }
 
-/// The complaint about a row; `None` if it is recognized.
+/// Returns the complaint about a row; `None` if it is recognized.
 fn complaint(row: &Row) -> Option<String> {
     let found = recognized(row.matrix);
     let first = found.first();

@@ -209,7 +209,7 @@ fn offset_sign(mut m: Rows) -> Rows {
     m
 }
 
-/// A centered lens with the scale of y replaced.
+/// Returns a centered lens with the scale of y replaced.
 fn with_scale(scale_y: f64, aspect: f64) -> Rows {
     let mut m = gl(60.0, aspect, 0.1, 100.0);
     (m[0][0], m[1][1]) = (scale_y / aspect, scale_y);

@@ -33,7 +33,7 @@ fn ndc() -> impl Strategy<Value = Point<Ndc>> {
     [-1.5..1.5, -1.5..1.5, -1.0..1.0].prop_map(Point::from)
 }
 
-/// A frustum in OpenGL's form, with its eye at the origin (GL-1).
+/// Returns a frustum in OpenGL's form, with its eye at the origin (GL-1).
 fn frustum(near: f64, far: f64) -> Projective<View, Clip> {
     let (c, e) = (-(far + near) / (far - near), -2.0 * far * near / (far - near));
     Projective::from_raw(DMat4::from_cols(
