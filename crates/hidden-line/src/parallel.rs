@@ -20,7 +20,7 @@ const CHUNK_SIZE: usize = 512;
 /// of the items.
 ///
 /// Each thread has its own scratch memory `M`, created when it starts. The calling thread also
-/// works, so no thread is spawned for a count of 1, and 0 counts as 1. On cancellation, each thread
+/// works, so a thread count of 1 spawns no thread; 0 counts as 1. On cancellation, each thread
 /// stops after its current chunk, and the result is incomplete. A panic in `work` is resumed in the
 /// caller.
 pub(super) fn map_in_order<M: Default, T: Send>(

@@ -1,4 +1,4 @@
-//! Classification of edges: silhouette, boundary, crease, tangent, facet, marked or section.
+//! Edge classification: silhouette, boundary, crease, tangent, facet, marked or section.
 //!
 //! ```text
 //!       silhouette          crease               boundary         tangent
@@ -26,7 +26,7 @@ struct FaceNormals {
 }
 
 impl FaceNormals {
-    /// Computes normals, and their signs toward the viewer, for all faces.
+    /// Computes the normal and the facing of every face.
     fn new(mesh: &WorldMesh, projector: &Projector) -> Self {
         let corners = |face: &Face| face.vertices.map(|vertex| mesh.points[vertex as usize]);
         let unit_normal = |face: &Face| {
@@ -41,11 +41,11 @@ impl FaceNormals {
         Self { normals, is_front }
     }
 
-    /// Returns the normal and facing of the face at a half-edge, flipped if the half-edge runs
-    /// backward.
+    /// Returns the normal and the facing of the face at a half-edge, both flipped if the half-edge
+    /// runs backward.
     ///
-    /// Seen along the edge from its lower to its higher end, the faces on both sides then need no
-    /// common orientation, so meshes with inconsistent winding classify like others.
+    /// Both faces are thus seen along the edge from its lower to its higher end and need no common
+    /// orientation, so a mesh with inconsistent winding is classified like any other.
     fn normal_along(&self, side: HalfEdge) -> (DVec3, bool) {
         let face = side.face() as usize;
         let (normal, is_front) = (self.normals[face], self.is_front[face]);
@@ -56,19 +56,19 @@ impl FaceNormals {
 /// Classifies edges for one viewer.
 pub(super) struct EdgeClassifier<'a> {
     faces: &'a [Face],
-    /// The edges made by section planes, sorted.
+    /// The edges created by section planes, sorted.
     section_edges: &'a [[u32; 2]],
     normals: FaceNormals,
     /// The cosine of the crease angle.
     crease_cosine: f64,
-    /// The cosine of the angle above which faces form a tangent edge, if set.
+    /// The cosine of the tangent angle, if set.
     tangent_cosine: Option<f64>,
-    /// Whether vertex normals that agree on both sides make an edge smooth.
+    /// Whether an edge is smooth if the vertex normals on both sides agree.
     asks_normals: bool,
 }
 
 /// The cosine of the largest angle between faces that vertex normals can make smooth: 85°. Sharper
-/// edges always show the shape, because exporters sometimes wrongly share the normals of a box.
+/// edges are always drawn, because exporters sometimes wrongly share the normals of a box.
 const MIN_SMOOTH_COSINE: f64 = 0.0872;
 
 impl<'a> EdgeClassifier<'a> {
@@ -113,17 +113,18 @@ impl<'a> EdgeClassifier<'a> {
         }
     }
 
-    /// Returns the class from the faces only: the strongest one that any object has at the edge.
+    /// Returns the class determined by the faces only: the most important class of any object at
+    /// the edge.
     ///
-    /// With two half-edges it is the class between their faces. With more, each object is
-    /// considered separately: two of its faces form a pair, three or more a crease, one is
-    /// unpaired. Two unpaired faces of different objects also form a pair, so that a body modeled
-    /// as several objects has no boundaries inside.
+    /// If there are two half-edges, it is the class between their faces. If there are more, each
+    /// object is considered separately: two of its faces form a pair, three or more form a crease,
+    /// and a single face is unpaired. Two unpaired faces of different objects also form a pair, so
+    /// that a body modeled as several objects has no boundaries inside.
     fn class_by_geometry(&self, sides: &[HalfEdge]) -> EdgeClass {
         if let &[one, other] = sides {
             return self.class_between(one, other);
         }
-        // Three faces of one object at an edge are not a manifold surface.
+        // An edge with three faces of one object is not manifold.
         let of_object = |object| {
             sides.iter().filter(move |&&side| self.face_of_half_edge(side).object == object)
         };
@@ -155,7 +156,8 @@ impl<'a> EdgeClassifier<'a> {
         if !self.asks_normals || cosine < MIN_SMOOTH_COSINE || faces[0].object != faces[1].object {
             return false;
         }
-        // The ends of each side, the lower vertex first; they can differ for parts of an edge.
+        // The ends of each side, with the lower vertex first; parts of one edge can have different
+        // ends.
         let ends = |face: &Face, side: HalfEdge| {
             let (from, to) = (usize::from(side.side()), usize::from(side.side() + 1) % 3);
             let ends = [from, to].map(|k| (face.vertices[k], face.normals[k]));
@@ -189,8 +191,8 @@ impl<'a> EdgeClassifier<'a> {
     /// Returns the class of the edge between two faces: silhouette, crease, tangent (materials
     /// differ, or the angle exceeds the tangent angle) or facet.
     ///
-    /// Both normals are taken along the edge, so on a smooth surface they are opposite: n·(−m) is
-    /// the cosine of the dihedral angle, and facing flags that *agree* mark a silhouette.
+    /// Both normals are taken along the edge, so on a smooth surface they are opposite. The cosine
+    /// of the dihedral angle is therefore n·(−m), and facing flags that *agree* mark a silhouette.
     fn class_between(&self, one: HalfEdge, other: HalfEdge) -> EdgeClass {
         let ((n, is_front), (m, other_is_front)) =
             (self.normals.normal_along(one), self.normals.normal_along(other));

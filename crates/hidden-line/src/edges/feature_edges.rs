@@ -1,26 +1,26 @@
-//! Feature edges that do not depend on the viewer: creases and boundaries, object by object, joined
-//! into smooth chains.
+//! Feature edges that do not depend on the viewer: the creases and boundaries of each object,
+//! joined into smooth chains.
 //!
-//! The rims of holes and shafts are such chains; circles are recognized in them.
+//! The rims of holes and shafts are such chains, in which circles are recognized.
 
 use super::half_edges::HalfEdge;
 use super::welded_surface::WeldedSurface;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-/// The cosine of the largest turn within a chain, 30 degrees: a sharper corner is a corner of a
-/// polygon, not a part of a circle.
+/// The cosine of the maximum turn within a chain, 30 degrees. A sharper corner is the corner of a
+/// polygon, not part of a circle.
 const CHAIN_COSINE: f64 = 0.866;
 
 /// A crease or boundary of an object.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct FeatureEdge {
-    /// Vertex indices.
+    /// The indices of the end vertices.
     pub(crate) ends: [u32; 2],
     pub(crate) object: u32,
 }
 
-/// Consecutive edges of one object, and whether the last one leads to the first.
+/// A chain of consecutive edges of one object, open or closed.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct FeatureChain {
     pub(crate) points: Vec<DVec3>,
@@ -29,9 +29,9 @@ pub(crate) struct FeatureChain {
 }
 
 impl WeldedSurface {
-    /// Returns the creases sharper than an angle in radians, and the boundaries, by object.
+    /// Returns the creases sharper than `crease_angle`, in radians, and the boundaries, by object.
     ///
-    /// An edge where objects touch belongs to each of these objects.
+    /// An edge where several objects touch is returned for each of them.
     pub(crate) fn feature_edges(&self, crease_angle: f64) -> Vec<FeatureEdge> {
         let mesh = self.mesh();
         let normals: Vec<DVec3> = mesh

@@ -2,23 +2,24 @@
 //!
 //! Each edge of a welded mesh is a run of half-edges with the same two ends: one for a boundary,
 //! two on a manifold surface, more where surfaces join. A counting sort by the lower end builds the
-//! table in linear time; only the few half-edges of one vertex are compared.
+//! table in linear time; comparisons are needed only among the few half-edges of each vertex.
 
 use super::world_mesh::Face;
 
-/// One side of a face, in eight bytes: a mesh has three times as many sides as faces.
+/// One side of a face, packed into eight bytes, because a mesh has three times as many sides as
+/// faces.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) struct HalfEdge {
-    /// The end with the higher index; the table stores the lower one.
+    /// The end with the higher index; the lower end is implied by the position in the table.
     pub(super) high_vertex: u32,
-    /// The face, two bits for the side and one for the direction.
+    /// The face index, two bits for the side, and one bit for the direction.
     packed: u32,
 }
 
 impl HalfEdge {
-    /// Creates a side of a face: 0 from its first vertex to the second, and so on. Half-edges run
-    /// forward if the face runs from the lower end to the higher. On an oriented manifold, the two
-    /// half-edges of an edge run in opposite directions.
+    /// Creates a half-edge for a side of a face; side 0 runs from the first vertex to the second,
+    /// and so on. A half-edge runs forward if the face traverses it from the lower end to the
+    /// higher. On an oriented manifold, the two half-edges of an edge run in opposite directions.
     pub(super) fn new(high_vertex: u32, face: u32, side: u8, is_forward: bool) -> Self {
         Self { high_vertex, packed: face << 3 | u32::from(side) << 1 | u32::from(is_forward) }
     }
@@ -33,7 +34,7 @@ impl HalfEdge {
         (self.packed >> 1 & 3) as u8
     }
 
-    /// Whether the face runs from the lower end to the higher.
+    /// Whether the face traverses it from the lower end to the higher.
     pub(super) const fn is_forward(self) -> bool {
         self.packed & 1 == 1
     }
@@ -51,8 +52,8 @@ pub(super) struct HalfEdges {
 impl HalfEdges {
     /// Builds the table for faces whose vertex indices are below `points`.
     ///
-    /// A counting sort: count the half-edges of each lower end, sum the counts to starts, place
-    /// each half-edge, then sort the run of each vertex.
+    /// Uses a counting sort: counts the half-edges of each lower end, sums the counts to starts,
+    /// places each half-edge, then sorts the run of each vertex.
     pub(super) fn new(faces: &[Face], points: usize) -> Self {
         let mut starts = vec![0_u32; points + 2];
         let low = |[a, b]: [u32; 2]| a.min(b) as usize;
@@ -78,7 +79,7 @@ impl HalfEdges {
         Self { starts, half_edges }
     }
 
-    /// Returns the edges in the order of their ends, each with its half-edges.
+    /// Returns the edges, sorted by their ends, each with its half-edges.
     pub(super) fn edges(&self) -> impl Iterator<Item = ([u32; 2], &[HalfEdge])> {
         self.starts.windows(2).zip(0..).flat_map(|(range, low)| {
             let here = &self.half_edges[range[0] as usize..range[1] as usize];

@@ -1,24 +1,25 @@
 //! Interpolated contours: approximate silhouettes of smooth surfaces, across their triangles.
 //!
 //! ```text
-//!          +                        n·v at the vertices, linear along the sides: it is zero on a
-//!         ╱ ╲                       line across the triangle, not on a side. Lines of adjacent
+//!          +                        n·v is given at the vertices and linear along the sides: it is
+//!         ╱ ╲                       zero on a line across the triangle. The lines of adjacent
 //!     ●──╱───╲──●  n·v = 0          triangles continue each other.
 //!       ╱     ╲
 //!      − ───── −
 //! ```
 //!
-//! After Hertzmann and Zorin, *Illustrating smooth surfaces* (2000). The silhouette of the mesh
-//! consists of triangle sides and zigzags near the silhouette of the surface that the mesh
-//! approximates. Vertex normals are averages over the faces around a vertex, across smooth edges.
-//! Points are lifted from the triangles toward the curved surface by Phong tessellation (Boubekeur
-//! and Alexa 2008) where it is convex; otherwise faces of the mesh would hide them.
+//! The method follows Hertzmann and Zorin, *Illustrating smooth surfaces* (2000). The silhouette of
+//! the mesh consists of triangle sides, so it zigzags near the silhouette of the surface that the
+//! mesh approximates. Vertex normals are averages over the faces around a vertex, across smooth
+//! edges. Where the surface is convex, Phong tessellation (Boubekeur and Alexa 2008) lifts points
+//! from the triangles toward the curved surface; otherwise faces of the mesh would hide them.
 //!
 //! This is an approximation that fails in known ways. A contour can have gaps or loose ends at
 //! cusps, where the surface turns along the line of sight, because visibility is computed from the
-//! mesh. It is not the border of the area that the mesh covers: with large triangles it is beside
-//! it. At a crease it ends a little off the crease, by the height of the lift. Averaged normals
-//! round off edges a little blunter than creases, so their silhouettes can be missing.
+//! mesh. The contour is not the border of the area that the mesh covers: with large triangles, it
+//! runs beside that border. At a crease, it ends off the crease by the height of the lift. Averaged
+//! normals round off edges that are slightly too blunt to be creases, so their silhouettes can be
+//! missing.
 
 use super::classify::EdgeClassifier;
 use super::half_edges::{HalfEdge, HalfEdges};
@@ -26,8 +27,8 @@ use super::world_mesh::{Face, WorldMesh};
 use crate::projector::Projector;
 use glam::DVec3;
 
-/// The weight of Phong tessellation in the lift: its authors' value, which raises the middle of an
-/// arc slightly above the circle.
+/// The weight of Phong tessellation in the lift. It is the authors' value, which raises the middle
+/// of an arc slightly above the circle.
 const LIFT: f64 = 0.75;
 
 /// Returns the contours of all smooth faces for one viewer, face by face, with their objects.
@@ -52,7 +53,7 @@ pub(super) fn interpolated_contours(
     contours
 }
 
-/// A corner of a face, with its value of n·v.
+/// A corner of a face, with its value of n·v for one viewer.
 #[derive(Clone, Copy)]
 struct Corner {
     vertex: u32,
@@ -64,7 +65,7 @@ struct Corner {
 /// Returns the lifted point of a side where n·v is zero; `None` if it has the same sign at both
 /// ends.
 ///
-/// It is computed from the lower vertex to the higher one, so both faces get the same bits.
+/// It is computed from the lower vertex to the higher, so both faces get identical bits.
 fn crossing(one: Corner, other: Corner) -> Option<DVec3> {
     let [a, b] = if one.vertex < other.vertex { [one, other] } else { [other, one] };
     if (a.facing > 0.0) == (b.facing > 0.0) {
@@ -80,16 +81,17 @@ fn crossing(one: Corner, other: Corner) -> Option<DVec3> {
     Some(flat.lerp(onto_plane(a).lerp(onto_plane(b), t), LIFT))
 }
 
-/// A unit normal for each corner of each face, shared by corners joined across smooth edges.
+/// Unit normals of the face corners, shared by corners that are joined across smooth edges.
 struct SmoothNormals {
-    /// By corner, three for each face: the first corner of its fan.
+    /// The first corner of each corner's fan, with three corners per face.
     fans: Vec<u32>,
-    /// By corner; the entries of first corners are normals.
+    /// The normals by corner; only the entries of first corners are used.
     normals: Vec<DVec3>,
 }
 
 impl SmoothNormals {
-    /// Joins corners across smooth edges into fans, and sums the area vectors of their faces.
+    /// Joins corners across smooth edges into fans, and adds up the area vectors of the faces of
+    /// each fan.
     fn new(mesh: &WorldMesh, half_edges: &HalfEdges, classifier: &EdgeClassifier<'_>) -> Self {
         let mut fans: Vec<u32> = (0..mesh.faces.len() as u32 * 3).collect();
         for (ends, sides) in half_edges.edges() {
@@ -114,7 +116,7 @@ impl SmoothNormals {
         Self { fans, normals }
     }
 
-    /// Returns a corner of a face, for this viewer.
+    /// Returns a corner of a face for this viewer.
     fn corner(
         &self,
         mesh: &WorldMesh,
@@ -130,14 +132,14 @@ impl SmoothNormals {
     }
 }
 
-/// Returns the corner at a vertex in the face of a half-edge.
+/// Returns the index of the corner at a vertex in the face of a half-edge.
 fn corner_at(mesh: &WorldMesh, side: HalfEdge, vertex: u32) -> u32 {
     let vertices = mesh.faces[side.face() as usize].vertices;
     let k = vertices.iter().position(|&other| other == vertex).unwrap_or(0);
     side.face() * 3 + k as u32
 }
 
-/// Returns the first corner of the fan of a corner.
+/// Returns the first corner of the fan that contains a corner.
 fn first_of_fan(fans: &[u32], mut corner: u32) -> u32 {
     while fans[corner as usize] != corner {
         corner = fans[corner as usize];
@@ -145,7 +147,7 @@ fn first_of_fan(fans: &[u32], mut corner: u32) -> u32 {
     corner
 }
 
-/// Merges the fans of two corners; paths are shortened on the way.
+/// Merges the fans of two corners, with path compression.
 fn join_fans(fans: &mut [u32], corners: [u32; 2]) {
     let [a, b] = corners.map(|corner| first_of_fan(fans, corner));
     fans[a.max(b) as usize] = a.min(b);

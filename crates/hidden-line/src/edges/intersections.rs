@@ -1,6 +1,6 @@
 //! Intersection edges: the segments where faces cross each other.
 //!
-//! Uses the test of Möller, *A fast triangle-triangle intersection test* (1997). Each triangle cuts
+//! The test is from Möller, *A fast triangle-triangle intersection test* (1997). Each triangle cuts
 //! the plane of the other in a segment. Both segments are on the line where the planes meet, and
 //! their overlap is the intersection.
 //!
@@ -23,8 +23,8 @@ use raster::Workers;
 use std::cell::OnceCell;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Triangles are coplanar if they are nowhere farther from each other's planes than this many
-/// touching distances.
+/// Triangles are coplanar if they are nowhere farther than this many touching distances from each
+/// other's planes.
 const COPLANAR_FACTOR: f64 = 512.0;
 
 /// The minimum sine of the angle between planes that intersect: about one degree.
@@ -36,22 +36,22 @@ pub(super) type IntersectionSegment = ([DVec3; 2], u32);
 /// The intersection edges of a mesh.
 #[derive(Clone, Debug)]
 pub(super) struct Intersections {
-    /// In the order of the faces.
+    /// The segments, in the order of the faces.
     pub(super) segments: Vec<IntersectionSegment>,
-    /// Whether the search ended early because there were too many.
+    /// Whether the search ended early because there were too many intersections.
     pub(super) is_cut_off: bool,
 }
 
-/// The approximate maximum number of intersections, however many faces there are.
+/// The approximate maximum number of intersections for any number of faces.
 const MAX_INTERSECTIONS: usize = 1 << 22;
-/// The approximate maximum number of intersections per face, on average: a model has few, but a
-/// soup of triangles has as many as pairs.
+/// The approximate maximum number of intersections per face, on average. An ordinary model has few,
+/// but in a triangle soup nearly every pair intersects.
 const INTERSECTIONS_PER_FACE: usize = 64;
 
 /// The limits of a search for intersections.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SearchBounds<'a> {
-    /// Faces closer than this only touch.
+    /// The distance below which faces only touch.
     pub(super) touching: f64,
     /// The cover of a view; intersections that it hides are skipped.
     pub(super) cover: Option<&'a DepthCover>,
@@ -59,15 +59,15 @@ pub(super) struct SearchBounds<'a> {
     pub(super) is_unlimited: bool,
 }
 
-/// A pair of intersecting faces, the searching one first, and the segment.
+/// A pair of intersecting faces, starting with the face of the searching leaf, and the segment.
 type IntersectingPair = ([u32; 2], IntersectionSegment);
 
-/// Finds all intersection edges of a mesh's faces, with up to `threads` threads.
+/// Finds all intersection edges of a mesh's faces, on several threads.
 ///
-/// `bvh` has the faces as its first items. Intersections along boundaries of both faces are
-/// skipped, because the boundaries are drawn. Each pair of leaves in the hierarchy is compared
-/// once. Unless unlimited, the work is bounded by [`Bvh::query_budget`] and [`MAX_INTERSECTIONS`];
-/// the result tells whether a bound was reached.
+/// The first items of `bvh` are the faces. Intersections along boundaries of both faces are
+/// skipped, because the boundaries themselves are drawn. Each pair of leaves in the hierarchy is
+/// compared once. Unless `is_unlimited` is set, the work is bounded by [`Bvh::query_budget`] and
+/// [`MAX_INTERSECTIONS`]; the result records whether a bound was reached.
 pub(super) fn intersect_faces(
     mesh: &WorldMesh,
     bvh: &Bvh,
@@ -76,7 +76,7 @@ pub(super) fn intersect_faces(
     SearchBounds { touching, cover, is_unlimited }: SearchBounds<'_>,
     workers: Workers<'_>,
 ) -> Intersections {
-    // Skipping hidden faces leaves less to compare.
+    // Skipping hidden faces reduces the number of comparisons.
     let in_sight = cover.map(|cover| FacesInSight::new(mesh, cover));
     let of_view = in_sight.as_ref().map(|in_sight| {
         let items = in_sight.items.iter();
@@ -89,7 +89,7 @@ pub(super) fn intersect_faces(
         true => [usize::MAX; 2],
         false => [most, Bvh::query_budget(leaves.len())],
     };
-    // Parts of two faces find their segment several times, but only visible parts count.
+    // Several parts of two faces find the same segment, but only visible parts count.
     let least = if in_sight.is_some() { 1024 } else { 256 };
     let search = IntersectionSearch {
         mesh,
@@ -122,7 +122,7 @@ pub(super) fn intersect_faces(
             }
         });
     pairs.sort_by_key(|(faces, _)| *faces);
-    // Several parts of two faces may meet in the same segment.
+    // Several parts of two faces may have found the same segment.
     pairs.dedup_by_key(|(faces, _)| *faces);
     let segments = pairs.into_iter().map(|(_, segment)| segment).collect();
     Intersections { segments, is_cut_off: is_cut_off.into_inner() }
@@ -133,7 +133,7 @@ fn shares_edge([one, other]: [&Face; 2]) -> bool {
     one.vertices.iter().filter(|vertex| other.vertices.contains(vertex)).count() > 1
 }
 
-/// Memory of the search from one leaf, reused for the next.
+/// Scratch memory for the search from one leaf, reused for the next.
 #[derive(Default)]
 struct LeafMemory {
     /// Hierarchy nodes still to visit.
@@ -148,9 +148,11 @@ struct IntersectionSearch<'a> {
     mesh: &'a WorldMesh,
     borders: FaceBorders,
     touching: f64,
-    /// The approximate maximum number of intersections of a leaf's faces with later ones.
+    /// The approximate maximum number of intersections of a leaf's faces with faces of later
+    /// leaves.
     most_per_leaf: usize,
-    /// The faces visible to the viewer, if there is only one; the hierarchy holds them.
+    /// The faces visible to the viewer, if there is only one viewer; they are the items of the
+    /// hierarchy.
     in_sight: Option<FacesInSight<'a>>,
 }
 
@@ -205,8 +207,8 @@ impl<'a> FacesInSight<'a> {
 }
 
 impl IntersectionSearch<'_> {
-    /// Returns the faces in a leaf whose boxes overlap another box, if given; other items are
-    /// fillings.
+    /// Returns the faces in a leaf, without its fillings; with a box, only the faces whose boxes
+    /// overlap it.
     fn leaf_triangles(
         &self,
         items: &[u32],
@@ -265,14 +267,14 @@ impl IntersectionSearch<'_> {
         if shares_edge(faces) {
             return None;
         }
-        // Measured by their faces, so that parts of them find the same segment.
+        // The whole faces are measured, so that their parts find the same segment.
         let size = |triangle: &IntersectionTriangle| {
             let around = Aabb::around_triangle(triangle.vertices);
             (around.half_surface_area(), triangle.face)
         };
         let (one, other) = if size(a) < size(b) { (a, b) } else { (b, a) };
         let ends = one.intersect_triangle(other, self.touching)?;
-        // Most pairs in a soup meet in hidden places; these do not count.
+        // In a triangle soup, most pairs meet where they are hidden, which does not count.
         if self.in_sight.as_ref().is_some_and(|in_sight| in_sight.cover.hides_segment(ends)) {
             return None;
         }
@@ -290,7 +292,7 @@ struct FaceBorders(Vec<FaceBorder>);
 struct FaceBorder {
     face: u32,
     side: u8,
-    /// The maximum distance of points on the side.
+    /// The maximum distance at which points count as on the side.
     distance: f64,
 }
 
@@ -312,7 +314,7 @@ impl FaceBorders {
         let first = self.0.partition_point(|border| border.face < triangle.face);
         let here = &self.0[first..];
         let count = here.iter().take_while(|border| border.face == triangle.face).count();
-        // One distance for all sides, taken from the last part.
+        // All sides use one distance, taken from the last part.
         let distance = here[..count].last().map_or(0.0, |border| border.distance);
         here[..count].iter().any(|border| {
             let k = usize::from(border.side);
@@ -323,7 +325,7 @@ impl FaceBorders {
     }
 }
 
-/// A triangle with the data for the intersection test.
+/// A triangle with its data for the intersection test.
 #[derive(Clone, Debug)]
 struct IntersectionTriangle {
     face: u32,
@@ -334,7 +336,7 @@ struct IntersectionTriangle {
     bounds: Aabb,
     /// The unit normal.
     normal: DVec3,
-    /// The image of the part, computed on demand; `None` if it has none.
+    /// The image of the part, computed on demand; `None` if the part has no image.
     image: OnceCell<Option<ScreenBox>>,
 }
 
@@ -348,7 +350,7 @@ impl IntersectionTriangle {
 
     /// Whether all vertices are on one side of another triangle's plane, up to `touching`.
     ///
-    /// Most comparisons end here.
+    /// Most comparisons end with this test.
     fn is_beside_plane(&self, other: &Self, touching: f64) -> bool {
         let heights = self.vertices.map(|vertex| other.normal.dot(vertex - other.vertices[0]));
         let [p, q, r] = heights.map(|height| height >= -touching);

@@ -1,13 +1,13 @@
-//! Seams: false boundaries closed by near welding and by cutting edges at T-junctions.
+//! Seams: closes false boundaries by near welding and by cutting edges at T-junctions.
 //!
 //! ```text
-//!   ●───────●───────●     two faces above, three below: no side of the upper ones
-//!   ●────●─────●────●     is a side of the lower ones until both are cut at the T-junctions
+//!   ●───────●───────●     two faces above, three below: no side of an upper face
+//!   ●────●─────●────●     is a side of a lower face until both are cut at the T-junctions
 //! ```
 //!
 //! Only boundary edges are examined, so a closed surface stays unchanged, however fine its
-//! triangles. A boundary that finds its partner here is classified like any other edge; one without
-//! a partner is drawn.
+//! triangles are. A boundary that is matched with a partner here is classified like any other edge;
+//! a boundary without a partner is drawn.
 
 use super::half_edges::{HalfEdge, HalfEdges};
 use super::weld::remap_vertices;
@@ -26,7 +26,8 @@ const CUTS_PER_VERTEX: usize = 4;
 /// half-edge.
 pub(super) type BorderEdge = ([u32; 2], HalfEdge);
 
-/// The weld radius of each vertex: another boundary vertex within this distance may be the same.
+/// The weld radius of each vertex: another boundary vertex within this distance may be the same
+/// vertex.
 ///
 /// The radius is relative to the object, since each one is quantized in its own bounding box; if
 /// objects share a vertex, the smaller radius counts.
@@ -34,7 +35,8 @@ pub(super) type BorderEdge = ([u32; 2], HalfEdge);
 pub(super) struct WeldRadii(Vec<f64>);
 
 impl WeldRadii {
-    /// Computes the radii of all vertices of a mesh; infinite for vertices without a face.
+    /// Computes the radii of all vertices of a mesh; the radius of a vertex without a face is
+    /// infinite.
     pub(super) fn from_mesh(mesh: &WorldMesh) -> Self {
         let mut boxes = vec![Aabb::EMPTY; mesh.objects.len()];
         let vertices =
@@ -63,11 +65,11 @@ pub(super) fn border_edges(sides: &HalfEdges) -> Vec<BorderEdge> {
     alone.map(|(ends, sides)| (ends, sides[0])).collect()
 }
 
-/// Welds boundary vertices within each other's weld radius; returns `true` if there were any.
+/// Welds boundary vertices within each other's weld radius, and returns whether any were welded.
 ///
-/// Vertices are visited by index. Each one absorbs its unwelded neighbors, found with a BVH over
-/// the points. A chain of near vertices does not collapse into one, because an absorbed vertex does
-/// not search again.
+/// Vertices are visited by index. Each vertex absorbs its unwelded neighbors, found with a BVH over
+/// the points. A chain of nearby vertices does not collapse into one vertex, because an absorbed
+/// vertex does not search again.
 pub(super) fn weld_near_borders(
     mesh: &mut WorldMesh,
     borders: &[BorderEdge],
@@ -105,8 +107,8 @@ pub(super) fn weld_near_borders(
     has_welded
 }
 
-/// Cuts boundary edges at the boundary vertices on them, and returns the parts and the sliver
-/// triangles in between.
+/// Cuts boundary edges at the boundary vertices on them, and returns the parts of the edges and the
+/// sliver triangles in the gaps.
 ///
 /// ```text
 ///       a ●─────────────● b
@@ -130,7 +132,7 @@ pub(super) fn split_at_t_junctions(
     let bvh = Bvh::new(boxes.iter().copied());
     let (mut stack, mut cuts) = (Vec::new(), Vec::new());
     let budget = Bvh::query_budget(borders.len());
-    // A vertex is on at most two sides of faces, unless the mesh has lost its shape.
+    // A vertex is on at most two sides of faces, unless the mesh is degenerate.
     let mut cuts_left = CUTS_PER_VERTEX * points.len();
     let (mut parts, mut fillings) = (Vec::with_capacity(borders.len()), Vec::new());
     for &([a, b], side) in borders {

@@ -12,9 +12,9 @@
 //! ```
 //!
 //! Loops of a consistently oriented surface run counterclockwise around matter and clockwise around
-//! holes. Each outline is capped separately. Overlapping bodies of one object, common in game
-//! models, are capped one over the other, and no part of one makes a hole in the other. An even-odd
-//! rule over all loops would make such holes.
+//! holes. Each outline is capped separately. Overlapping bodies of one object, which are common in
+//! game models, get overlapping caps. An even-odd rule over all loops would instead cut holes where
+//! the bodies overlap.
 
 use clip::Outline;
 use homog::{Plane, Point, World};
@@ -41,9 +41,9 @@ pub(super) fn triangulate_caps(
 
 /// Groups loops by region: an outline first, then its holes.
 ///
-/// The sign of the total area gives the orientation of the surface, so an object turned inside out
-/// by a negative scale works too. A hole without an outline around it is matter modeled inside out,
-/// and becomes an outline.
+/// The sign of the total area determines the orientation of the surface, so an object turned inside
+/// out by a negative scale is also handled. A hole without an outline around it is a body modeled
+/// inside out, and becomes an outline.
 fn group_holes_with_outlines(
     loops: Vec<SectionLoop>,
     plane: Plane<World>,
@@ -74,11 +74,11 @@ fn group_holes_with_outlines(
     outer.into_iter().map(|(_, region)| region).collect()
 }
 
-/// Two-dimensional coordinates of a plane: the two axes along which it extends the most.
+/// Two-dimensional coordinates of a plane, along the two axes in which it extends the most.
 ///
-/// The axis nearest to the normal is dropped. The others are ordered so that areas are positive
-/// when seen from the side that the normal points to. Unlike a rotation, dropping an axis keeps the
-/// coordinates' bits.
+/// The axis nearest to the normal is dropped. The other two are ordered so that areas are positive
+/// when seen from the side to which the normal points. Unlike a rotation, dropping an axis
+/// preserves the coordinates bit for bit.
 struct PlaneAxes {
     axes: [usize; 2],
 }
@@ -98,8 +98,8 @@ impl PlaneAxes {
         self.axes.map(|axis| point.raw()[axis])
     }
 
-    /// Twice the signed area of a loop (shoelace formula), relative to its first point to avoid
-    /// cancellation far from the origin.
+    /// Returns twice the signed area of a loop (shoelace formula), relative to its first point to
+    /// avoid cancellation far from the origin.
     fn doubled_area(&self, points: &[Point<World>]) -> f64 {
         let [x, y] = self.plane_coordinates(points[0]);
         let from = |point| {
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn holes_are_left_open_and_islands_in_them_filled() {
+    fn holes_stay_open_and_islands_in_them_are_filled() {
         let frame = vec![
             square_loop(0.0, 3.0, true),
             square_loop(0.0, 2.0, false),
@@ -157,8 +157,8 @@ mod tests {
     }
 
     #[test]
-    fn bodies_that_overlap_are_both_filled() {
-        // Crossing each other, and one inside the other.
+    fn overlapping_bodies_are_both_filled() {
+        // Two crossing bodies, then one body inside the other.
         assert_eq!(cap_area(vec![square_loop(0.0, 2.0, true), square_loop(3.0, 2.0, true)]), 32.0);
         assert_eq!(cap_area(vec![square_loop(0.0, 2.0, true), square_loop(0.0, 1.0, true)]), 20.0);
     }
@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn too_many_points_are_refused() {
+    fn too_many_points_are_rejected() {
         let plane = Plane::through(Point::ORIGIN, Normal::new(0.0, 0.0, 1.0));
         assert_eq!(triangulate_caps(vec![vec![Point::ORIGIN; MAX_CAP_POINTS + 1]], plane), None);
     }

@@ -7,12 +7,12 @@
 //! ```
 //!
 //! Each triangle is cut separately. The cut edges are joined into loops without a tolerance,
-//! because neighbors are cut at the same bits. Loops are capped, and a cap hides everything behind
-//! it, like any face.
+//! because neighboring triangles are cut at identical points. Loops are capped, and a cap hides
+//! everything behind it, like any other face.
 //!
 //! The slivers that close the gaps at T-junctions are cut like faces, so that boundaries that only
-//! nearly meet give closed loops too. A curve that does not close belongs to a surface that is
-//! itself open; it is drawn without a cap and reported.
+//! nearly meet also give closed loops. A curve that does not close comes from an open surface; it
+//! is drawn without a cap, and a warning is added.
 
 use super::section_caps::{SectionLoop, triangulate_caps};
 use super::vertex_normal::VertexNormal;
@@ -24,20 +24,20 @@ use homog::{Plane, Point, World};
 use model::EdgeVisibility;
 use std::collections::BTreeMap;
 
-/// The edge that the plane cuts in a face, and the object of the face.
+/// The edge along which the plane cuts a face, and the object of the face.
 type CutEdge = ([Point<World>; 2], u32);
 
 /// Cuts a mesh by a plane, retains its positive side, and caps the openings.
 ///
 /// 1. Each face is clipped by the plane; the edge on the plane becomes a cut edge.
-/// 2. The slivers of T-junctions (`fillings`) are clipped too, so that loops close; their remains
-///    are dropped.
+/// 2. The slivers at T-junctions (`fillings`) are also clipped, so that loops close; their
+///    remaining parts are dropped.
 /// 3. Lines are clipped.
-/// 4. Cut edges are joined into loops, loops are nested and triangulated, and the triangles become
-///    faces with a `cap_section`.
+/// 4. Cut edges are joined into loops. The loops are nested and triangulated, and the triangles
+///    become faces with a `cap_section`.
 ///
-/// New points are appended without welding; the caller welds. Open and overly complex sections are
-/// added to `warnings`.
+/// New points are appended without welding; the caller welds. Open sections and overly complex
+/// sections are reported in `warnings`.
 pub(super) fn cut_mesh(
     mesh: &mut WorldMesh,
     fillings: &[Face],
@@ -74,7 +74,8 @@ pub(super) fn cut_mesh(
 
 /// Closes a cut: the loops of its edges become faces with a separate material.
 ///
-/// Cap materials count down from `u32::MAX`, one for each section, so they differ from all others.
+/// Cap materials count down from `u32::MAX`, one for each section, so they differ from all other
+/// materials.
 fn add_caps(
     mesh: &mut WorldMesh,
     openings: &[CutEdge],
@@ -113,7 +114,7 @@ fn add_point(mesh: &mut WorldMesh, point: Point<World>) -> u32 {
 /// Cuts one face: pushes the remaining part as a fan of triangles, and the edge on the plane, if
 /// any.
 ///
-/// A vertex that is kept keeps its index, so that uncut neighbors still share it.
+/// Retained vertices keep their indices, so that uncut neighbors still share them.
 fn cut_face(
     mesh: &mut WorldMesh,
     face: &Face,
@@ -157,8 +158,8 @@ fn cut_normal(face: &Face, weights: [f64; 3]) -> VertexNormal {
     VertexNormal::pack(normals.iter().zip(weights).map(|(normal, weight)| *normal * weight).sum())
 }
 
-/// Returns the visibility of a side of a part: taken from the side of the face that contains it, or
-/// hidden if the cut made it.
+/// Returns the visibility of a side of a part, inherited from the side of the face that contains
+/// it; a side created by the cut is hidden.
 ///
 /// Barycentric weights identify the side: on a side of a triangle, the weight of the opposite
 /// vertex is exactly zero.
@@ -200,7 +201,7 @@ fn remove_dots(mesh: &mut WorldMesh, plane: Plane<World>) {
     mesh.dots = dots.into_iter().filter(is_retained).collect();
 }
 
-/// Joins cut edges into loops: first within each object, then the remaining open ones across
+/// Joins cut edges into loops: first within each object, then the remaining open curves across
 /// objects.
 ///
 /// ```text
@@ -209,9 +210,9 @@ fn remove_dots(mesh: &mut WorldMesh, plane: Plane<World>) {
 ///             └───────                  ───────┘                  └──────────────┘
 /// ```
 ///
-/// A body modeled as several objects closes only with all of them. A loop across several objects
-/// belongs to the first one that contributed. Each object with a curve that stays open adds a
-/// warning.
+/// The section of a body modeled as several objects closes only across all of them. A loop across
+/// several objects is assigned to the first object that contributed to it. Each object with a curve
+/// that stays open adds a warning.
 fn close_loops(
     mesh: &WorldMesh,
     openings: &[CutEdge],
@@ -277,8 +278,8 @@ mod tests {
     use homog::Normal;
     use std::f64::consts::TAU;
 
-    /// Returns a solid of revolution from rings of points, as radius and height, from pole to pole;
-    /// poles have radius 0.
+    /// Builds a solid of revolution from rings of points, given by radius and height, from pole to
+    /// pole. The poles have radius 0.
     fn solid_of_revolution(rings: &[(f64, f64)], sides: u32) -> WorldMesh {
         let mut mesh = WorldMesh { objects: vec!["body".to_owned()], ..WorldMesh::default() };
         for (radius, height) in rings {
@@ -307,7 +308,7 @@ mod tests {
         mesh
     }
 
-    /// Returns the area of the cap left by a plane, which must close.
+    /// Returns the area of the cap that a plane creates; the cap must close.
     fn closed_cap_area(mut mesh: WorldMesh, point: [f64; 3], normal: [f64; 3]) -> f64 {
         let [x, y, z] = normal;
         let normal = Normal::new(x, y, z).normalized().expect("a direction");
@@ -332,13 +333,14 @@ mod tests {
         let cylinder = || solid_of_revolution(&CYLINDER, 60);
         let round = closed_cap_area(cylinder(), [0.0, 1.3, 0.0], [0.0, -1.0, 0.0]);
         assert!((round - regular_polygon_area(2.0, 60)).abs() < 1e-12, "{round}");
-        // Along the axis through two edges, then off the axis, across a chord of the polygon.
+        // First along the axis and through two edges, then off the axis, along a chord of the
+        // polygon.
         let along = closed_cap_area(cylinder(), [0.0; 3], [0.0, 0.0, 1.0]);
         assert!((along - 12.0).abs() < 1e-12, "{along}");
         let (sine, cosine) = libm::sincos(TAU / 60.0 * 5.0);
         let beside = closed_cap_area(cylinder(), [0.0, 0.0, 2.0 * sine], [0.0, 0.0, -1.0]);
         assert!((beside - 3.0 * 4.0 * cosine).abs() < 1e-9, "{beside}");
-        // Tilted by 45° and inside both ends, it is √2 times as large as from above.
+        // Tilted by 45° and between the ends, the section is √2 times as large as a cross section.
         let tilted = solid_of_revolution(&[(0.0, -9.0), (2.0, -9.0), (2.0, 9.0), (0.0, 9.0)], 60);
         let tilted = closed_cap_area(tilted, [0.1, 0.2, 0.3], [1.0, 1.0, 0.0]);
         let expected = regular_polygon_area(2.0, 60) * std::f64::consts::SQRT_2;
@@ -346,7 +348,7 @@ mod tests {
     }
 
     #[test]
-    fn caps_of_a_ball_come_near_those_of_a_sphere() {
+    fn caps_of_a_ball_approximate_circles() {
         let ring = |k: u32| {
             let (sine, cosine) = libm::sincos(TAU / 2.0 * (f64::from(k) / 90.0 - 0.5));
             (if k == 0 || k == 90 { 0.0 } else { cosine }, sine)
@@ -359,12 +361,12 @@ mod tests {
             let area =
                 closed_cap_area(solid_of_revolution(&rings, 180), (unit * height).into(), normal);
             let expected = TAU / 2.0 * (1.0 - height * height);
-            assert!((area / expected - 1.0).abs() < 0.01, "{area} instead of {expected}");
+            assert!((area / expected - 1.0).abs() < 0.01, "area {area}, expected {expected}");
         }
     }
 
     #[test]
-    fn a_plane_that_misses_the_body_removes_nothing_or_all() {
+    fn a_plane_that_misses_the_body_removes_nothing_or_everything() {
         let cut = |height: f64| {
             let mut mesh = solid_of_revolution(&CYLINDER, 8);
             let plane = Plane::through(Point::new(0.0, height, 0.0), Normal::new(0.0, -1.0, 0.0));
@@ -378,7 +380,7 @@ mod tests {
     }
 
     #[test]
-    fn edge_visibility_stays_with_original_sides() {
+    fn original_sides_keep_their_edge_visibility() {
         let mut mesh = solid_of_revolution(&CYLINDER, 8);
         let hard = EdgeVisibility::Hard;
         mesh.faces.iter_mut().for_each(|face| face.edge_visibility = Some([hard; 3]));

@@ -1,20 +1,21 @@
-//! Vertex normals of a file, packed: they tell which edges of a mesh are smooth.
+//! Packed vertex normals from a file, which determine the smooth edges of a mesh.
 //!
 //! A scanned or sculpted surface has facets that meet at any angle, with shared normals that make
-//! it smooth. A machined part has an edge wherever its normals differ on the two sides. The angle
-//! between faces cannot tell the two apart.
+//! it smooth. A machined part has an edge wherever the normals on the two sides differ. The angle
+//! between faces cannot distinguish the two cases.
 //!
-//! A normal is stored as a point of an octahedron whose lower half is folded out to a square, 16
-//! bits per side, at most 0.004° from the original (Meyer et al., *On Floating-Point Normal
-//! Vectors*, 2010).
+//! A normal is stored as a point of an octahedron whose lower half is unfolded to form a square,
+//! with 16 bits per coordinate and an error of at most 0.004° (Meyer et al., *On Floating-Point
+//! Normal Vectors*, 2010).
 
 use glam::{DVec2, DVec3};
 
-/// A unit vector in the space of its primitive, or nothing.
+/// An optional unit vector in the space of its primitive.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub(crate) struct VertexNormal(u32);
 
-/// Normals agree if the cosine of their angle is greater: 2.5°, because files store few bits.
+/// Normals agree if the cosine of the angle between them is greater than this. It corresponds to
+/// 2.5°, because files store normals with few bits.
 const AGREEMENT_COSINE: f64 = 0.999;
 
 /// The largest 16-bit value that encodes a normal; 0 means no normal.
@@ -41,7 +42,7 @@ impl VertexNormal {
         Self(step(folded.x) << 16 | step(folded.y))
     }
 
-    /// Unpacks the unit vector; `None` if there is none.
+    /// Unpacks the unit vector; `None` for [`Self::NONE`].
     pub(crate) fn unpack(self) -> Option<DVec3> {
         let value = |step: u32| (f64::from(step) - 1.0) / STEPS * 2.0 - 1.0;
         let (x, y) = (value(self.0 >> 16), value(self.0 & 0xffff));
@@ -51,7 +52,7 @@ impl VertexNormal {
         (self != Self::NONE).then(|| DVec3::new(unfold(x), unfold(y), z).normalize_or_zero())
     }
 
-    /// Whether both exist and have nearly the same direction.
+    /// Whether both normals exist and have nearly the same direction.
     pub(crate) fn agrees_with(self, other: Self) -> bool {
         let pair = self.unpack().zip(other.unpack());
         pair.is_some_and(|(a, b)| a.dot(b) > AGREEMENT_COSINE)

@@ -1,31 +1,31 @@
-//! Vertex welding: vertices at the same position become one.
+//! Vertex welding: merges vertices at the same position.
 //!
 //! Files split the vertices of a surface where texture coordinates, normals or materials change,
-//! and give each side of the seam a copy. To find the two faces at an edge, the copies must share
-//! an index. Exact copies are found in O(n log n) by sorting hashes of the coordinates. Points with
-//! equal hashes are compared, so the result depends only on the coordinates. Copies that differ by
-//! quantization are left to [`seams`](super::seams).
+//! and store a copy for each side of the seam. The copies must share an index before the two faces
+//! at an edge can be found. Exact copies are found in O(n log n) by sorting hashes of the
+//! coordinates. Points with equal hashes are compared, so the result depends only on the
+//! coordinates. Copies that differ by quantization are merged in [`seams`](super::seams).
 
 use super::world_mesh::{Face, WorldMesh};
 use glam::DVec3;
 
-/// Gives all points with equal coordinates the index of the first such point.
+/// Replaces the index of each point by the index of the first point with equal coordinates.
 ///
 /// ```text
 ///   points   0 A   1 B   2 A   3 C   4 B         representative  0  1  0  3  1
 /// ```
 ///
-/// Faces that lose a vertex in this way, and duplicates of other faces, are removed. Negative and
-/// positive zero are equal.
+/// Faces that become degenerate, and duplicates of other faces, are removed. Negative and positive
+/// zero count as equal.
 pub(super) fn weld_equal_vertices(mesh: &mut WorldMesh) {
     let representative = equal_points(&mesh.points);
     remap_vertices(mesh, &representative);
 }
 
-/// Longer runs of points with the same hash are sorted instead of compared pairwise.
+/// The maximum length of a run of equal hashes that is compared pairwise; longer runs are sorted.
 const MAX_COMPARED_RUN: usize = 16;
 
-/// For each point, the first point with the same coordinates.
+/// Returns, for each point, the index of the first point with the same coordinates.
 fn equal_points(points: &[DVec3]) -> Vec<u32> {
     let key = |(point, at): (&DVec3, u32)| u64::from(mix_coordinates(*point)) << 32 | u64::from(at);
     let mut keyed: Vec<u64> = points.iter().zip(0..).map(key).collect();
@@ -59,7 +59,7 @@ fn equal_points(points: &[DVec3]) -> Vec<u32> {
     representative
 }
 
-/// Returns a hash that equal points share, and others seldom do.
+/// Returns a hash that equal points share, and that other points seldom share.
 fn mix_coordinates(point: DVec3) -> u32 {
     // Adding zero removes negative zeros.
     let bits = (point + DVec3::ZERO).to_array().map(f64::to_bits);
@@ -93,13 +93,15 @@ pub(super) fn remap_vertices(mesh: &mut WorldMesh, same: &[u32]) {
     drop_duplicate_faces(&mut mesh.faces, mesh.points.len(), mesh.keeps_duplicates);
 }
 
-/// Removes all but the first of the faces with the same three vertices, in any orientation.
+/// Removes duplicate faces: all but the first face with the same three vertices, in any
+/// orientation.
 ///
-/// Two-sided surfaces are often modeled as two coincident faces; drawn as two, they would have
-/// creases instead of boundaries. With `by_object`, faces of different objects are not duplicates.
+/// Two-sided surfaces are often modeled as pairs of coincident faces. Without this step, they would
+/// have creases instead of boundaries. With `by_object`, faces of different objects are not
+/// duplicates.
 fn drop_duplicate_faces(faces: &mut Vec<Face>, points: usize, by_object: bool) {
     let mut is_copy = vec![false; faces.len()];
-    // A counting sort by the lowest vertex: only the few faces of one vertex are compared.
+    // With a counting sort by the lowest vertex, only the few faces of each vertex are compared.
     let lowest = |face: &Face| *face.vertices.iter().min().unwrap_or(&0) as usize;
     let mut starts = vec![0_u32; points + 2];
     faces.iter().for_each(|face| starts[lowest(face) + 2] += 1);
@@ -137,7 +139,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn equal_points_have_the_index_of_the_first() {
+    fn equal_points_get_the_index_of_the_first() {
         let point = |k: usize| DVec3::new((k % 7) as f64, (k % 3) as f64 * -0.0, (k % 5) as f64);
         let points: Vec<DVec3> = (0..500).map(point).collect();
         let first = |at: &DVec3| points.iter().position(|other| other == at).map(|at| at as u32);

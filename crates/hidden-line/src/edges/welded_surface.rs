@@ -1,4 +1,5 @@
-//! Welded surface: the mesh that is drawn and hides lines, and the search for its feature edges.
+//! Welded surface: the mesh that is drawn and that hides lines, with the search for its feature
+//! edges.
 //!
 //! ```text
 //!   gather ─► weld equal ─► weld near borders ─► split T-junctions ─┐
@@ -6,8 +7,8 @@
 //! ```
 //!
 //! Welding depends on the models and the section planes, not on the viewer, so one surface serves
-//! every view of a drawing sheet. Edges with several half-edges are classified immediately.
-//! Boundary edges are classified after splitting, by runs of coincident parts.
+//! every view of a drawing sheet. Edges with several half-edges are classified directly. Boundary
+//! edges are classified after they are split, in runs of coincident parts.
 
 use super::classify::EdgeClassifier;
 use super::half_edges::{HalfEdge, HalfEdges};
@@ -30,25 +31,25 @@ use std::sync::OnceLock;
 /// An edge to draw wherever it is visible.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct CandidateEdge {
-    /// In world space.
+    /// The ends in world space.
     pub(crate) ends: [DVec3; 2],
     /// The reason why it is drawn.
     pub(crate) class: EdgeClass,
-    /// The object it belongs to.
+    /// The object that the edge belongs to.
     pub(crate) object: u32,
 }
 
-/// The faces that close one object where a plane cuts it.
+/// The faces that close an object where a plane cuts it.
 #[derive(Clone, Debug)]
 pub(crate) struct SectionCap {
     pub(crate) object: u32,
-    /// Its normal points to the retained side.
+    /// The section plane, whose normal points to the retained side.
     pub(crate) plane: Plane<World>,
     pub(crate) triangles: Vec<[DVec3; 3]>,
 }
 
 impl SectionCap {
-    /// Whether the viewer is on the removed side: such a cap is fully visible, because nothing
+    /// Whether the viewer is on the removed side. Such a cap is fully visible, because nothing
     /// remains in front of it.
     pub(crate) fn faces_viewer(&self, projector: &Projector) -> bool {
         let normal = self.plane.normal().raw();
@@ -66,7 +67,7 @@ pub struct WeldedSurface {
     /// Boundary edges, cut at T-junctions; parts with the same ends are neighbors and count as one
     /// edge.
     border_edges: Vec<BorderEdge>,
-    /// The sliver triangles at T-junctions: they hide, but are not drawn.
+    /// The sliver triangles at T-junctions, which hide lines but are not drawn.
     fillings: Vec<Face>,
     /// The weld radius of each point of `mesh`.
     weld_radii: WeldRadii,
@@ -75,27 +76,27 @@ pub struct WeldedSurface {
     diagonal: f64,
     /// The planes that cut the surface.
     sections: Vec<Plane<World>>,
-    /// Sections that could not be capped.
+    /// Warnings about sections that could not be capped.
     warnings: Vec<Warning>,
     /// The intersections of faces, found on demand, because wireframes do not need them.
     intersections: OnceLock<Intersections>,
     /// The hierarchy of the faces and fillings, built on demand.
     face_bvh: OnceLock<Bvh>,
-    /// The boxes that determine which objects are neighbors, if the objects have moved.
+    /// The original boxes of the objects, which determine neighbors if the objects have been moved.
     assembled_boxes: Option<BTreeMap<u32, Aabb>>,
 }
 
 impl WeldedSurface {
-    /// Gathers and welds models, and cuts them open by section planes, except for the objects in
-    /// `uncut`, in ascending order.
+    /// Gathers and welds the models, and cuts them open along the section planes. The objects
+    /// listed in `uncut`, in ascending order, are not cut.
     ///
     /// While bodies are being cut, coincident faces of different objects are all retained, because
-    /// each body must be closed by its own faces; the last welding removes them.
+    /// each body must be closed by its own faces. The final welding removes the duplicates.
     pub fn new(models: &[ModelInstance], sections: &[Plane<World>], uncut: &[u32]) -> Self {
         Self::from_mesh(WorldMesh::from_models(models), sections, uncut)
     }
 
-    /// Creates the surface of a mesh that is not welded yet; the rest is as for [`new`](Self::new).
+    /// Like [`new`](Self::new), for a mesh that is not welded yet.
     pub(crate) fn from_mesh(mut mesh: WorldMesh, sections: &[Plane<World>], uncut: &[u32]) -> Self {
         mesh.uncut = uncut.to_vec();
         mesh.keeps_duplicates = !sections.is_empty();
@@ -133,8 +134,8 @@ impl WeldedSurface {
         surface
     }
 
-    /// Marks parts as moved from these boxes, one for each of the first objects: their hatching
-    /// stays the same as in the assembly.
+    /// Marks parts as moved away from these boxes, one for each of the first objects, so that they
+    /// are hatched as in the assembly.
     pub fn exploded_from(self, boxes: impl Iterator<Item = Aabb>) -> Self {
         Self { assembled_boxes: Some((0..).zip(boxes).collect()), ..self }
     }
@@ -169,7 +170,7 @@ impl WeldedSurface {
             split_at_t_junctions(&self.mesh, &border_edges(&self.half_edges), &self.weld_radii);
     }
 
-    /// Returns the sections that could not be capped.
+    /// Returns the warnings about sections that could not be capped.
     pub(crate) fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
@@ -205,7 +206,7 @@ impl WeldedSurface {
         self.diagonal
     }
 
-    /// Calls `visit` with every edge and the half-edges at it, boundaries split at T-junctions.
+    /// Calls `visit` with every edge and its half-edges; boundaries are split at T-junctions.
     pub(super) fn for_each_edge(&self, mut visit: impl FnMut([u32; 2], &[HalfEdge])) {
         for (ends, sides) in self.half_edges.edges().filter(|(_, sides)| sides.len() > 1) {
             visit(ends, sides);
@@ -288,7 +289,7 @@ impl WeldedSurface {
                 classify(ends, sides);
             }
         });
-        // Without faces, a selection of edges can show only lines and points.
+        // Without faces, only lines and points can be drawn.
         let is_bare = mesh.faces.is_empty();
         let classes = if is_bare { EdgeClasses::ALL } else { options.classes };
         for line in &mesh.line_edges {
@@ -310,11 +311,11 @@ impl WeldedSurface {
         candidates
     }
 
-    /// Adds the edges where faces intersect, if requested; returns `true` if some are missing
-    /// because there were too many.
+    /// Adds the edges where faces intersect, if requested, and returns `true` if some are missing
+    /// because there are too many.
     ///
-    /// With the cover of a view, only intersections that it does not hide are found. With a single
-    /// view and hidden lines removed, the others make no difference.
+    /// If the cover of a view is passed, intersections that it hides are skipped. In a single view
+    /// with hidden lines removed, these make no difference.
     pub(crate) fn add_intersections(
         &self,
         candidates: &mut Vec<CandidateEdge>,
@@ -343,7 +344,7 @@ impl WeldedSurface {
         *is_cut_off
     }
 
-    /// Finds the intersections of faces; the number of threads does not change them.
+    /// Finds the intersections of faces. The number of threads does not affect the result.
     fn find_intersections(
         &self,
         cover: Option<&DepthCover>,
@@ -383,20 +384,19 @@ impl WeldedSurface {
         (parts, triangles)
     }
 
-    /// Returns an occluding triangle, by its index among the faces, which come first, and the
-    /// fillings.
+    /// Returns an occluding triangle by its index: the faces come first, then the fillings.
     fn face_or_filling(&self, triangle: u32) -> &Face {
         let (triangle, count) = (triangle as usize, self.mesh.faces.len());
         self.mesh.faces.get(triangle).unwrap_or_else(|| &self.fillings[triangle - count])
     }
 
-    /// Returns the hierarchy of the occluding triangles: the faces, then the fillings.
+    /// Returns the hierarchy of the occluding triangles, that is, of the faces and the fillings.
     pub(crate) fn face_bvh(&self) -> &Bvh {
         self.face_bvh.get_or_init(|| mesh_bvh(self))
     }
 }
 
-/// Returns the strokes that represent points: two pixels long, horizontal in the picture.
+/// Returns the strokes that represent points: horizontal in the picture and two pixels long.
 fn dot_edges(mesh: &WorldMesh, projector: &Projector) -> Vec<CandidateEdge> {
     let screen_to_world = projector.world_to_screen().inverse();
     let stroke = |dot: &Dot| {

@@ -16,17 +16,18 @@ use model::{
 pub(crate) struct Face {
     /// Indices into [`WorldMesh::points`].
     pub(crate) vertices: [u32; 3],
-    /// The object it belongs to, an index into [`WorldMesh::objects`].
+    /// The object that the face belongs to: an index into [`WorldMesh::objects`].
     pub(crate) object: u32,
-    /// An index shared by the faces of one material, unique over all models: an index into
-    /// [`WorldMesh::colors`], or one counted down from `u32::MAX` for the caps of section planes.
+    /// The material index, unique over all models: an index into [`WorldMesh::colors`], or a number
+    /// counted down from `u32::MAX` for the caps of a section plane.
     pub(crate) material: u32,
-    /// The vertex normals given in the file, in the space of the primitive.
+    /// The vertex normals from the file, in the space of the primitive.
     pub(crate) normals: [VertexNormal; 3],
-    /// The index of the section plane it closes, if it is part of a section cap.
+    /// The index of the section plane, if the face is part of a section cap.
     pub(crate) cap_section: Option<u16>,
     /// The visibility of its three sides in the file (`EXT_mesh_primitive_edge_visibility`),
-    /// starting with the side from the first vertex to the second; `None` if the file has none.
+    /// starting with the side from the first vertex to the second; `None` if the file does not
+    /// specify it.
     pub(crate) edge_visibility: Option<[EdgeVisibility; 3]>,
 }
 
@@ -37,7 +38,7 @@ pub(crate) struct LineEdge {
     pub(crate) ends: [u32; 2],
     /// The object it belongs to.
     pub(crate) object: u32,
-    /// Whether the file marks it as an edge of a surface; otherwise it is a line primitive.
+    /// Whether the file marks the line as an edge of a surface; otherwise it is a line primitive.
     pub(crate) is_marked: bool,
 }
 
@@ -46,11 +47,11 @@ pub(crate) struct LineEdge {
 pub(crate) struct Dot {
     /// The object it belongs to.
     pub(crate) object: u32,
-    /// Index into [`WorldMesh::points`].
+    /// The index into [`WorldMesh::points`].
     pub(crate) point: u32,
 }
 
-/// The parts of a scene that have edges or hide them, as an indexed mesh in world space.
+/// Everything in a scene that has edges or hides them, as an indexed mesh in world space.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WorldMesh {
     /// Positions in world space.
@@ -61,19 +62,19 @@ pub(crate) struct WorldMesh {
     pub(crate) line_edges: Vec<LineEdge>,
     /// Point primitives.
     pub(crate) dots: Vec<Dot>,
-    /// The edges made by section planes; once welded, each runs from the lower index to the higher,
-    /// sorted.
+    /// The edges created by section planes. After welding, they are sorted, and each runs from the
+    /// lower index to the higher.
     pub(crate) section_edges: Vec<[u32; 2]>,
     /// Base colors of the materials by index, linear RGB.
     pub(crate) colors: Vec<[f32; 3]>,
     /// Whether the textures of the materials have cut-outs, by index.
     pub(crate) cut_outs: Vec<bool>,
-    /// Whether coincident faces of several objects are all retained: until the sections are made,
-    /// because each body must be closed by its own faces.
+    /// Whether to retain all coincident faces of several objects. This is true until the sections
+    /// are cut, because each body must be closed by its own faces.
     pub(crate) keeps_duplicates: bool,
     /// The object names.
     pub(crate) objects: Vec<String>,
-    /// The objects that section planes leave whole, in ascending order.
+    /// The objects that section planes do not cut, in ascending order.
     pub(crate) uncut: Vec<u32>,
 }
 
@@ -113,7 +114,7 @@ impl WorldMesh {
 
     /// Appends a primitive, with its vertices transformed to world space.
     ///
-    /// Faces and lines with a vertex that is not finite are skipped. If a file lists edges of a
+    /// Faces and lines with a vertex that is not finite are skipped. If a file lists the edges of a
     /// primitive, the list is complete: other sides are drawn only as silhouettes.
     fn add_primitive(
         &mut self,
@@ -207,7 +208,7 @@ fn are_finite(points: &[DVec3], vertices: &[u32]) -> bool {
 }
 
 /// Whether the base color texture of a material cuts out parts of its faces, such as leaves on
-/// rectangles. Masks without a decoded image are assumed to do so.
+/// rectangles. Masks without a decoded image are assumed to have cut-outs.
 fn has_holes(model: &Model, material: &Material) -> bool {
     let Some(used) = material.base_color_texture else { return false };
     let texture = model.textures.get(used.texture);
@@ -220,7 +221,7 @@ fn has_holes(model: &Model, material: &Material) -> bool {
     }
 }
 
-/// Returns the name of an object: from its node or mesh, otherwise `node N`.
+/// Returns the name of an object: the name of its node or mesh, or `node N` if both are unnamed.
 fn object_name(model: &Model, instance: MeshInstance) -> String {
     let node = &model.nodes[instance.node];
     let mesh = || node.mesh.and_then(|mesh| model.meshes[mesh].name.clone());

@@ -1,4 +1,4 @@
-//! Hierarchy boxes in single precision, rounded outward.
+//! Hierarchy boxes, stored in single precision and rounded outward.
 
 use super::bvh::Aabb;
 use glam::DVec3;
@@ -34,7 +34,7 @@ impl Bounds {
         self.extend(&Self { min: point, max: point });
     }
 
-    /// Returns the midpoint, used to sort items into bins.
+    /// Returns the midpoint, by which items are sorted into bins.
     pub(super) fn box_center(&self) -> [f32; 3] {
         [0, 1, 2].map(|k| (self.min[k] + self.max[k]) * 0.5)
     }
@@ -44,15 +44,14 @@ impl Bounds {
         x * y + y * z + z * x
     }
 
-    /// Whether two boxes have a point in common, borders included.
+    /// Whether two boxes have a point in common, including on their borders.
     pub(super) fn intersects(&self, other: &Self) -> bool {
         (0..3).all(|k| self.min[k] <= other.max[k] && other.min[k] <= self.max[k])
     }
 }
 
 impl Bounds {
-    /// Whether a segment meets the box, enlarged by a radius on all sides: intersects the intervals
-    /// of the segment between each pair of sides.
+    /// Whether a segment meets the box enlarged by a radius on all sides (slab test).
     pub(super) fn is_near_segment(&self, [from, to]: [DVec3; 2], radius: f64) -> bool {
         let (from, along) = (from.to_array(), (to - from).to_array());
         let mut interval = [0.0_f64, 1.0];
@@ -72,7 +71,8 @@ impl Bounds {
     }
 }
 
-/// Returns the smaller number: without the NaN cases of `f32::min`, a single instruction.
+/// Returns the smaller number. Without the NaN handling of `f32::min`, this is a single
+/// instruction.
 pub(super) fn least(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
@@ -82,13 +82,13 @@ pub(super) fn greatest(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
-/// Returns the nearest single-precision number that is not above.
+/// Rounds down to single precision.
 pub(super) fn round_down(x: f64) -> f32 {
     let rounded = x as f32;
     if f64::from(rounded) > x { rounded.next_down() } else { rounded }
 }
 
-/// Returns the nearest single-precision number that is not below.
+/// Rounds up to single precision.
 pub(super) fn round_up(x: f64) -> f32 {
     let rounded = x as f32;
     if f64::from(rounded) < x { rounded.next_up() } else { rounded }

@@ -1,19 +1,20 @@
 //! Bounding-volume hierarchy over axis-aligned boxes, built by the binned surface-area heuristic.
 //!
-//! After Wald, *On fast construction of SAH-based bounding volume hierarchies* (2007): each node is
-//! split where the expected cost of its children is lowest, among several bins along its longest
-//! axis. One hierarchy in the world serves both the search for intersections and each view, which
-//! takes its nodes and finds their boxes on the screen (`screen_bvh`).
+//! The construction follows Wald, *On fast construction of SAH-based bounding volume hierarchies*
+//! (2007): each node is split at the boundary between bins along its longest axis where the
+//! expected cost of its children is lowest. One hierarchy in world space serves both the search for
+//! intersections and all views, each of which projects the boxes of its nodes onto the screen
+//! (`screen_bvh`).
 //!
 //! ```text
 //!   nodes   0 ─┬─ 1 ─┬─ 2 leaf        depth first: the first child follows its parent,
-//!              │     └─ 3 leaf        the second is named by index
+//!              │     └─ 3 leaf        the second is referenced by index
 //!              └─ 4 leaf
 //!   order   [ items of 2 │ of 3 │ of 4 ]
 //! ```
 //!
 //! Boxes are stored in single precision, relative to the overall center and rounded outward: a
-//! query may report a box that it just misses, but never the reverse.
+//! query may report a box that it just misses, but never misses a box that it meets.
 
 use super::bounds::Bounds;
 use glam::DVec3;
@@ -32,14 +33,14 @@ impl Aabb {
     /// The empty box: the identity of [`Self::union`].
     pub(crate) const EMPTY: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
-    /// Returns the smallest box around some points.
+    /// Returns the smallest box around the points.
     pub fn from_points(points: impl IntoIterator<Item = DVec3>) -> Self {
         let grow =
             |grown: Self, point| Self { min: grown.min.min(point), max: grown.max.max(point) };
         points.into_iter().fold(Self::EMPTY, grow)
     }
 
-    /// Returns the smallest box around three points, without NaN coordinates.
+    /// Returns the smallest box around three points, whose coordinates must not be NaN.
     pub(crate) fn around_triangle([a, b, c]: [DVec3; 3]) -> Self {
         let least = |a: f64, b: f64| if a < b { a } else { b };
         let greatest = |a: f64, b: f64| if a > b { a } else { b };
@@ -50,7 +51,7 @@ impl Aabb {
         Self { min: along(least), max: along(greatest) }
     }
 
-    /// Returns the smallest box around both.
+    /// Returns the smallest box around both boxes.
     pub(crate) fn union(self, other: Self) -> Self {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
@@ -60,7 +61,7 @@ impl Aabb {
         Self { min: self.min - by, max: self.max + by }
     }
 
-    /// Whether two boxes have a point in common, borders included.
+    /// Whether two boxes have a point in common, including on their borders.
     pub(crate) fn intersects(&self, other: &Self) -> bool {
         self.min.x <= other.max.x
             && other.min.x <= self.max.x
@@ -70,26 +71,26 @@ impl Aabb {
             && other.min.z <= self.max.z
     }
 
-    /// Half the surface area: the probability of meeting a box is proportional to it.
+    /// Returns half the surface area, to which the probability of meeting the box is proportional.
     pub(crate) fn half_surface_area(&self) -> f64 {
         let size = self.max - self.min;
         size.x * size.y + size.y * size.z + size.z * size.x
     }
 }
 
-/// A node of the hierarchy: a leaf with items or an inner node with two children.
+/// A node of the hierarchy: a leaf with items, or an inner node with two children.
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    /// The box around everything below the node.
+    /// The box around all items below the node.
     bounds: Bounds,
-    /// The first item in a leaf, an index into [`Bvh::order`]; otherwise the second child. The
-    /// first child is the next node.
+    /// For a leaf, the first item, as an index into [`Bvh::order`]; for an inner node, the second
+    /// child. The first child is always the next node.
     first: u32,
     /// The number of items of a leaf; 0 marks an inner node.
     count: u32,
 }
 
-/// An item that is being sorted into the tree.
+/// An item during construction.
 #[derive(Clone, Copy)]
 struct Item {
     bounds: Bounds,
@@ -105,14 +106,14 @@ pub(crate) enum NodeContents {
     Items(Range<usize>),
 }
 
-/// The hierarchy.
+/// A bounding-volume hierarchy.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Bvh {
-    /// Depth first, the root at index 0; empty if there are no items.
+    /// The nodes in depth-first order, with the root at index 0; empty if there are no items.
     nodes: Vec<Node>,
     /// The indices of the items, in the order of the leaves.
     pub(crate) order: Vec<u32>,
-    /// The point to which the boxes are relative.
+    /// The origin of the box coordinates.
     origin: DVec3,
 }
 
@@ -124,11 +125,11 @@ const BIN_COUNT: usize = 16;
 const FEW_BINS: usize = 6;
 /// The maximum number of items for which nodes have few bins.
 const FEW_ITEMS: usize = 48;
-/// Below this depth nodes are split at the median, which bounds the depth for any boxes.
+/// Below this depth, nodes are split at the median, which bounds the depth of any tree.
 const MAX_BINNED_DEPTH: u32 = 48;
 
 impl Bvh {
-    /// Builds the hierarchy of some boxes; the iterator is used twice.
+    /// Builds the hierarchy over some boxes; the iterator is traversed twice.
     pub(crate) fn new(boxes: impl Iterator<Item = Aabb> + Clone) -> Self {
         let all = boxes.clone().fold(Aabb::EMPTY, Aabb::union);
         let middle = (all.min + all.max) * 0.5;
@@ -146,7 +147,7 @@ impl Bvh {
             }
             tree.build_node(&mut items, 0, &BoundsOfItems { bounds, centers, count: 0 }, 0);
         }
-        // A new vector: collected in place, the indices would keep the memory of the items.
+        // Extends a new vector, because collecting in place would keep the memory of the items.
         tree.order.reserve_exact(items.len());
         tree.order.extend(items.iter().map(|item| item.index));
         tree
@@ -171,11 +172,11 @@ impl Bvh {
         }
     }
 
-    /// Calls `visit` with every item whose box may overlap `area`; stops and returns `false` after
-    /// `most` items.
+    /// Calls `visit` with every item whose box may overlap `area`; stops after `most` items and
+    /// returns `false`.
     ///
-    /// `open` is the stack of the traversal, provided by the caller so that its memory is reused.
-    /// Items are visited by leaf: their own boxes are not tested.
+    /// `open` is the traversal stack, provided by the caller so that its memory can be reused.
+    /// Whole leaves are visited: the boxes of individual items are not tested.
     pub(crate) fn for_each_overlapping(
         &self,
         area: &Aabb,
@@ -187,8 +188,8 @@ impl Bvh {
         self.for_each_item(|bounds| bounds.intersects(&area), most, open, visit)
     }
 
-    /// Calls `visit` with every item of the leaves for which `may_hold` accepts the box and all
-    /// boxes above it; stops and returns `false` after `most` items.
+    /// Calls `visit` with every item of the leaves for which `may_hold` accepts the leaf's box and
+    /// all boxes above it; stops after `most` items and returns `false`.
     fn for_each_item(
         &self,
         may_hold: impl Fn(&Bounds) -> bool,
@@ -215,8 +216,9 @@ impl Bvh {
         true
     }
 
-    /// Like [`for_each_overlapping`](Self::for_each_overlapping), with every item whose box may be
-    /// within `radius` of a segment: for a long segment, far fewer items than its box overlaps.
+    /// Like [`for_each_overlapping`](Self::for_each_overlapping), for every item whose box may be
+    /// within `radius` of a segment. For a long segment, these are far fewer items than those that
+    /// overlap its box.
     pub(crate) fn for_each_near_segment(
         &self,
         [from, to]: [DVec3; 2],
@@ -229,14 +231,14 @@ impl Bvh {
         self.for_each_item(|bounds| bounds.is_near_segment(segment, radius), most, open, visit)
     }
 
-    /// Returns the leaves, by node index.
+    /// Returns the node indices of the leaves.
     pub(crate) fn leaf_nodes(&self) -> Vec<u32> {
         let nodes = (0..).zip(&self.nodes);
         nodes.filter(|(_, node)| node.count > 0).map(|(index, _)| index).collect()
     }
 
     /// Calls `visit` with the items of a leaf and `true`, then with the items of each later leaf
-    /// whose box overlaps its box; stops and returns `false` after `most` items.
+    /// whose box overlaps its box; stops after `most` items and returns `false`.
     ///
     /// Calling it for every leaf visits each pair of overlapping leaves once.
     pub(crate) fn for_each_later_leaf(
@@ -256,8 +258,8 @@ impl Bvh {
                 continue;
             }
             if node.count == 0 {
-                // All nodes below the first child come before the second; the leaf itself comes
-                // first.
+                // All nodes below the first child precede the second child; the leaf itself is
+                // visited first.
                 open.push(node.first);
                 if leaf < node.first {
                     open.push(index + 1);
@@ -275,21 +277,21 @@ impl Bvh {
         true
     }
 
-    /// Returns the number of items that each of `queries` queries may visit.
+    /// Returns the maximum number of items that each of `queries` queries may visit.
     ///
-    /// It bounds the time on degenerate input, such as a million triangles in one box, where every
-    /// query meets every item. All queries together stay below 2²⁶ visits, or 1024 per query if
-    /// there are many. Scenes with a few thousand items are never limited.
+    /// The limit bounds the time for degenerate input, such as a million triangles in one box,
+    /// where every query meets every item. All queries together make at most 2²⁶ visits, or 1024
+    /// per query if there are many queries. Scenes with a few thousand items never reach the limit.
     pub(crate) fn query_budget(queries: usize) -> usize {
         const ALL: usize = 1 << 26;
         (ALL / queries.max(1)).max(1024)
     }
 
     /// Builds the subtree over some items, which start at `first` in the order, and appends its
-    /// nodes depth first.
+    /// nodes in depth-first order.
     ///
-    /// A node is pushed as a leaf first and turned into an inner node once the index of its second
-    /// child is known.
+    /// Each node is pushed as a leaf and becomes an inner node once the index of its second child
+    /// is known.
     fn build_node(&mut self, items: &mut [Item], first: u32, extents: &BoundsOfItems, depth: u32) {
         let node = self.nodes.len();
         let bounds = extents.bounds;
@@ -312,7 +314,7 @@ impl Bvh {
     }
 }
 
-/// The boxes around some items and their centers, and the number of items.
+/// The number of some items, with the boxes around the items and around their centers.
 #[derive(Clone, Copy)]
 struct BoundsOfItems {
     bounds: Bounds,
@@ -347,12 +349,12 @@ impl BoundsOfItems {
     }
 }
 
-/// Partitions items where the sum of the children's costs times their counts is lowest; returns the
-/// extents of both parts.
+/// Partitions items where the sum of the children's costs is lowest, and returns the extents of
+/// both parts.
 ///
-/// Items are binned by their centers along the longest axis of the centers' box instead of the
-/// items' box, so that one large item does not waste bins. `None` if all centers coincide, if the
-/// boxes have no area to compare, or if the best split leaves one side empty.
+/// Items are binned by their centers, along the longest axis of the box around the centers rather
+/// than around the items, so that one large item does not waste bins. Returns `None` if all centers
+/// coincide, if the boxes have no area to compare, or if the best split leaves one side empty.
 fn partition_by_sah<const BINS: usize>(
     items: &mut [Item],
     centers: &Bounds,
@@ -384,8 +386,8 @@ fn partition_by_sah<const BINS: usize>(
     (left > 0 && left < items.len()).then_some(split)
 }
 
-/// Returns the last bin on the left side of the cheapest split: one sweep from the right for the
-/// costs there, and one from the left. `None` if no box has an area.
+/// Returns the last bin on the left side of the cheapest split, found by a sweep from the right and
+/// a sweep from the left; `None` if no box has an area.
 fn cheapest_bin_split<const BINS: usize>(bins: &[BoundsOfItems; BINS]) -> Option<usize> {
     let mut right = [0.0; BINS];
     let mut extents = BoundsOfItems::EMPTY;

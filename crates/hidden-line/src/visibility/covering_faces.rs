@@ -2,13 +2,13 @@
 //!
 //! ```text
 //!  faces   0    1     2        3    2   0
-//!  s   0 ├────┼─────┼────────┼────┼───┼────┤ 1     deeper than two faces: ████
+//!  s   0 ├────┼─────┼────────┼────┼───┼────┤ 1     behind more than two faces: ████
 //!                            ██████
 //! ```
 //!
-//! Visibility asks only whether the number is zero. Drawings of assemblies ask for more: dashed
-//! lines are legible behind one wall, whose two sides are two faces, but a black cloud behind all
-//! of them.
+//! Visibility depends only on whether the number is zero. Drawings of assemblies need the number
+//! itself: dashed lines are legible behind one wall, whose two sides are two faces, but turn into a
+//! black cloud behind many walls.
 
 use super::occluder::Occlusion;
 use super::occluders::{MeshOccluders, OcclusionScratch, Tolerance};
@@ -26,13 +26,13 @@ struct FaceCount {
 }
 
 impl FaceCount {
-    /// Counts the occlusion by one face.
+    /// Counts one face.
     fn insert(&mut self, occlusion: Occlusion) {
         let (interval, halves) = match occlusion {
             Occlusion::Interior(interval) => (interval, 2),
             Occlusion::Along(side) => (side.interval, 1),
-            // The tolerance leaves no cracks: a face that is only near would count in addition to
-            // the one that hides.
+            // The tolerance leaves no cracks here. A face that is only beside the edge would be
+            // counted in addition to the face that hides it.
             Occlusion::Beside(_) => return,
         };
         self.changes.extend([(interval[0], halves), (interval[1], -halves)]);
@@ -61,7 +61,7 @@ impl FaceCount {
 
 impl<M: TriangleMesh> MeshOccluders<M> {
     /// Returns the intervals of s with more than `most` faces in front of an edge; slivers shorter
-    /// than the tolerance are removed. Incomplete if no work is left in `scratch`.
+    /// than the tolerance are removed. The result is incomplete if no work is left in `scratch`.
     pub(crate) fn intervals_behind_faces(
         &self,
         edge: &ProjectedEdge,

@@ -1,10 +1,11 @@
-//! Edges behind the sides of faces, and which of them the faces on both sides hide together.
+//! The parts of an edge behind the sides of faces, and those that the faces on both sides hide
+//! together.
 //!
 //! ```text
-//!    ███████ │ ▓▓▓▓▓▓▓      A face on the left and one on the right hide what runs exactly behind
-//!    ███████ │ ▓▓▓▓▓▓▓      the side in which they meet. A crack between two objects, narrower than
-//!    ███████ │ ▓▓▓▓▓▓▓      a pen, hides likewise what runs in it; a mesh is not a crack by itself,
-//!       A   edge   B        for an edge near its outline has faces of one object on both sides.
+//!    ███████ │ ▓▓▓▓▓▓▓      Together, a face on the left and a face on the right hide a line
+//!    ███████ │ ▓▓▓▓▓▓▓      that runs exactly behind the side where they meet. They also hide a
+//!    ███████ │ ▓▓▓▓▓▓▓      line in a crack between two objects that is narrower than a pen. A
+//!       A   edge   B        single object has no cracks: the faces on both sides are its own.
 //! ```
 
 use super::occluder::SideInterval;
@@ -46,10 +47,10 @@ impl CrackIntervals {
         self.0.clear();
     }
 
-    /// Adds to a set the parts with one object on the left and another on the right.
+    /// Adds the parts with one object on the left and another on the right to a set.
     ///
-    /// Sweeps over the ends of all intervals in O(n log n), however many objects there are. In an
-    /// assembly of equal rows, an edge runs behind the sides of hundreds of objects.
+    /// Sweeps over the ends of all intervals in O(n log n), for any number of objects. In an
+    /// assembly with rows of identical parts, an edge runs behind the sides of hundreds of objects.
     pub(super) fn insert_into(&mut self, hidden: &mut OcclusionIntervals) {
         self.0.sort_by_key(|part| part.object);
         let objects = self.0.chunk_by(|one, next| one.object == next.object);
@@ -82,7 +83,7 @@ impl CrackIntervals {
 #[derive(Clone, Copy, Debug)]
 struct SweepEnd {
     at: f64,
-    /// The index of the object among the objects at the edge.
+    /// The index of the object among the objects beside the edge.
     object: usize,
     is_left: bool,
     opens: bool,
@@ -93,14 +94,14 @@ struct SweepEnd {
 struct Sweep {
     /// The number of faces of each object, on the right and on the left.
     open: Vec<[u32; 2]>,
-    /// The number of objects that have any, on the right and on the left.
+    /// The number of objects that have any faces, on the right and on the left.
     sides: [u32; 2],
-    /// The number of objects that have any face.
+    /// The number of objects that have any faces on either side.
     objects: u32,
 }
 
 impl Sweep {
-    /// Passes the end of an interval.
+    /// Moves past the end of an interval.
     fn pass(&mut self, end: &SweepEnd) {
         let side = usize::from(end.is_left);
         let open = &mut self.open[end.object];
@@ -140,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sweep_finds_what_pairs_of_objects_have_in_common() {
+    fn a_sweep_finds_the_overlaps_of_pairs_of_objects() {
         let mut state = 5_u64;
         let mut below = |most: u64| {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888);

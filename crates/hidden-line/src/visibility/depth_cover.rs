@@ -1,19 +1,19 @@
 //! Depth cover: for each cell of a grid on the screen, a depth behind which nothing is visible.
 //!
 //! ```text
-//!  cell   0     1     2     3     4     5           ■  covered by one face from side to side:
-//!         │     │■■■■■│■■■■■│■■■■■│     │              what is behind that face is hidden there
+//!  cell   0     1     2     3     4     5           ■  completely covered by one face:
+//!         │     │■■■■■│■■■■■│■■■■■│     │              everything behind it is hidden there
 //!         │  ╱▒▒│▒▒▒▒▒│▒▒▒▒▒│▒▒▒▒▒│▒╲   │           ▒  the face
 //! ```
 //! This is the hierarchical z-buffer of Greene, Kass and Miller (*Hierarchical Z-buffer
-//! visibility*, 1993), made conservative. A cell counts for a face only if the face covers all of
-//! it, with its farthest depth there. Anything reported as hidden is hidden; the rest may be either
-//! and is left to the exact tests. Where surfaces overlap many times, as in a soup of random
+//! visibility*, 1993), made conservative. A face contributes to a cell only if it covers the whole
+//! cell, and then with its farthest depth there. Anything reported as hidden is hidden; anything
+//! else is decided by the exact tests. Where surfaces overlap many times, as in a soup of random
 //! triangles, most faces are eliminated before any pair is compared.
 //!
-//! Small faces cover no cell. If they form a crowd, the cover is computed from all faces together,
-//! sampled at the centers of cells like a z-buffer. Gaps of a few pixels count as closed, and the
-//! work is bounded by the visible parts.
+//! Small faces do not cover any cell. If they form a crowd, the cover is computed from all faces
+//! together, sampled at cell centers like a z-buffer. Gaps of a few pixels count as closed, and the
+//! work is bounded by the number of visible parts.
 
 use super::depth_level::{DepthPlane, Level};
 use super::occluders::Tolerance;
@@ -21,29 +21,30 @@ use super::projected_edge::ProjectedEdge;
 use crate::projector::Projector;
 use glam::{DVec2, DVec3};
 
-/// Cells along the longer side of the screen.
+/// The number of cells along the longer side of the screen.
 const CELLS: f64 = 256.0;
-/// A face shrinks by this many pixels on all sides, more than any tolerance of the exact tests.
+/// The number of pixels by which a face shrinks on all sides: more than any tolerance of the exact
+/// tests.
 const MARGIN: f64 = 1.0 / 64.0;
-/// A face is moved back by this many touching distances, so that what touches it does not count as
-/// hidden.
+/// The number of touching distances by which a face is moved back, so that anything that touches it
+/// does not count as hidden.
 const SETBACK: f64 = 32.0;
-/// Faces seen at a smaller sine hide nothing here: even moved back, they would still be closer than
-/// the touching distance to anything that touches them.
+/// Faces seen at an angle with a smaller sine hide nothing here: even when moved back, they would
+/// still be within the touching distance of anything that touches them.
 const LEAST_SINE: f64 = 0.125;
 
-/// Faces are a crowd if there are more of them at each pixel of their bounding box, on average.
-/// Models have fewer than six.
+/// Faces are a crowd if, on average, more faces than this cover each pixel of their bounding box.
+/// Ordinary models have fewer than six.
 const CROWD: f64 = 32.0;
 /// The maximum number of samples of all faces together in the cover of a crowd.
 const MAX_SAMPLES: f64 = 134_217_728.0;
 /// The maximum number of cells along the longer side of the screen in the cover of a crowd.
 const MAX_CROWD_CELLS: f64 = 1024.0;
-/// The number of times a segment or a triangle is divided before it counts as visible.
+/// The number of times that a segment or a triangle is divided before it counts as visible.
 const DIVISIONS: u32 = 6;
-/// The number of times a triangle is divided to skip its hidden parts.
+/// The number of times that a triangle is divided to skip its hidden parts.
 const PART_DIVISIONS: u32 = 4;
-/// Parts with fewer cells along both sides are not divided.
+/// Parts with fewer cells along both sides are not divided further.
 const SMALL_PART: f64 = 16.0;
 
 /// The depths behind which nothing is visible, as a pyramid of grids.
@@ -54,11 +55,11 @@ pub(crate) struct DepthCover {
     projector: Projector,
     /// Cells per pixel.
     scale: f64,
-    /// The finest level first; each coarser one has the minimum of four depths.
+    /// The levels, starting with the finest; each coarser level stores the minimum of four depths.
     levels: Vec<Level>,
 }
 
-/// The image of a face or of a segment: a box on the screen, and its nearest depth.
+/// The image of a face or segment: a box on the screen, with its nearest depth.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct ScreenBox {
     min: DVec2,
@@ -84,7 +85,7 @@ impl ScreenBox {
         all
     }
 
-    /// Extends the box to a point of the screen.
+    /// Extends the box to contain a point of the screen.
     fn extend(&mut self, image: DVec3) {
         self.min = self.min.min(image.truncate());
         self.max = self.max.max(image.truncate());
@@ -102,7 +103,7 @@ impl ScreenBox {
 }
 
 impl DepthCover {
-    /// Creates the cover by some faces on a screen of this size in pixels.
+    /// Creates the cover made by some faces on a screen of this size in pixels.
     pub(crate) fn new(
         faces: impl Iterator<Item = [DVec3; 3]>,
         projector: Projector,
@@ -120,7 +121,7 @@ impl DepthCover {
         cover
     }
 
-    /// Creates the cover by a crowd of faces together; `None` if they are not a crowd.
+    /// Creates the cover made by a crowd of faces together; `None` if they are not a crowd.
     pub(crate) fn of_crowd<I: Iterator<Item = [DVec3; 3]>>(
         faces: impl Fn() -> I,
         projector: Projector,
@@ -157,7 +158,7 @@ impl DepthCover {
         }
     }
 
-    /// Whether everything with its image in a box is hidden.
+    /// Whether everything whose image is inside a box is hidden.
     pub(crate) fn hides(&self, image: &ScreenBox) -> bool {
         let [low, high] = [image.min, image.max].map(|corner| corner * self.scale);
         let size = DVec2::from(self.levels[0].size.map(|side| side as f64));
@@ -167,7 +168,7 @@ impl DepthCover {
             return false;
         }
         let [first, last] = [low, high].map(|corner| corner.to_array().map(|side| side as usize));
-        // The level at which the box meets few cells.
+        // This is the level at which the box meets only a few cells.
         let span = (last[0] - first[0]).max(last[1] - first[1]);
         let level = (usize::BITS - (span / 8).leading_zeros()) as usize;
         let Some(grid) = self.levels.get(level) else { return false };
@@ -189,7 +190,7 @@ impl DepthCover {
         self.divide_hidden(ends, [0.0, 1.0], DIVISIONS, parts);
     }
 
-    /// Adds the hidden parts of a screen segment, which is an interval of a longer one.
+    /// Adds the hidden parts of a screen segment, which is an interval of a longer segment.
     fn divide_hidden(
         &self,
         [a, b]: [DVec3; 2],
@@ -212,13 +213,13 @@ impl DepthCover {
         }
     }
 
-    /// Adds the visible parts of a world-space triangle: quarters, quarters of quarters, or all of
-    /// it.
+    /// Adds the visible parts of a world-space triangle: quarters, quarters of quarters and so on,
+    /// or the whole triangle.
     pub(crate) fn add_visible_parts(&self, corners: [DVec3; 3], parts: &mut Vec<[DVec3; 3]>) {
         self.divide_visible(corners, PART_DIVISIONS, parts);
     }
 
-    /// Adds the parts that are not hidden; returns whether that is the whole triangle.
+    /// Adds the parts that are not hidden, and returns whether that is the whole triangle.
     fn divide_visible(
         &self,
         corners: [DVec3; 3],
@@ -229,7 +230,7 @@ impl DepthCover {
         if image.is_some_and(|image| self.hides(&image)) {
             return false;
         }
-        // A part that crosses the eye's plane has no box to test.
+        // A part that crosses the plane of the eye has no box to test.
         let size = image.map_or(0.0, |image| ((image.max - image.min) * self.scale).max_element());
         let first = parts.len();
         let mut is_whole = true;
@@ -355,7 +356,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_behind_a_face_is_hidden_and_what_is_before_it_or_beside_it_is_not() {
+    fn only_points_behind_a_face_are_hidden() {
         for is_parallel in [true, false] {
             let tolerance = Tolerance::for_scene(4.0);
             let faces = [triangle(0.0, 1.5)].into_iter();
@@ -364,8 +365,8 @@ mod tests {
                 cover.image_of(&triangle(z, size)).is_some_and(|image| cover.hides(&image))
             };
             assert!(hides(-0.01, 0.3) && hides(-2.0, 0.3), "behind: {is_parallel}");
-            // The face itself, anything that touches it, anything in front of it, and anything
-            // larger.
+            // Not hidden: the face itself, anything that touches it, anything in front of it, and
+            // anything larger.
             assert!(!hides(0.0, 0.3) && !hides(-tolerance.world, 0.3) && !hides(0.5, 0.3));
             assert!(!hides(-0.01, 1.6), "larger: {is_parallel}");
             let along = |z| [[-0.2, 0.0, z], [0.2, 0.1, z]].map(DVec3::from);
@@ -376,7 +377,7 @@ mod tests {
     }
 
     #[test]
-    fn faces_that_cover_no_whole_cell_hide_nothing() {
+    fn faces_that_do_not_cover_a_whole_cell_hide_nothing() {
         let small = (0..900).map(|k| {
             let at = DVec3::new(f64::from(k % 30) * 0.004 - 0.06, f64::from(k / 30) * 0.004, 0.0);
             triangle(0.0, 0.004).map(|corner| corner + at)
@@ -387,7 +388,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_of_a_triangle_leave_out_only_what_is_hidden() {
+    fn parts_of_a_triangle_exclude_only_hidden_parts() {
         for is_parallel in [true, false] {
             let cover = DepthCover::new(
                 [triangle(0.0, 1.5)].into_iter(),
@@ -403,7 +404,7 @@ mod tests {
             assert!(parts_of(triangle(-1.0, 0.5)).is_empty(), "behind: {is_parallel}");
             let before = triangle(0.5, 1.9);
             assert_eq!(parts_of(before), [before], "before: {is_parallel}");
-            // It extends beyond all sides of the face that hides its middle.
+            // The triangle extends beyond all sides of the face that hides its middle.
             let larger = triangle(-0.5, 1.9);
             let area = |[a, b, c]: [DVec3; 3]| 0.5 * (b - a).cross(c - a).length();
             let parts = parts_of(larger);

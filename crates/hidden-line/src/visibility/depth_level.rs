@@ -2,19 +2,19 @@
 
 use glam::{DVec2, DVec3};
 
-/// A depth tolerance: points in a surface are nearer than its samples minus this.
+/// The depth tolerance: points on a surface are nearer than its samples minus this value.
 const ROUNDING: f64 = 1e-9;
 
 /// One level of the pyramid.
 #[derive(Clone, Debug)]
 pub(super) struct Level {
     pub(super) size: [usize; 2],
-    /// Row by row; 0 where no face covers the cell.
+    /// The depths, row by row; 0 where no face covers the cell.
     pub(super) depths: Vec<f64>,
 }
 
-/// Depth as a linear function of the position on the screen, in cells: z / w is linear in
-/// perspective too.
+/// Depth as a linear function of the position on the screen, in cells. It is linear even in
+/// perspective, where it is z / w.
 pub(super) struct DepthPlane {
     slope: DVec2,
     at_origin: f64,
@@ -31,7 +31,8 @@ impl DepthPlane {
         (slope.is_finite() && at_origin.is_finite()).then_some(Self { slope, at_origin, least })
     }
 
-    /// Returns the minimum depth in a cell: the plane's, or the face's if that is less.
+    /// Returns the minimum depth of the plane in a cell, but no less than the minimum depth of the
+    /// face.
     fn least_in_cell(&self, cell: DVec2) -> f64 {
         let corner = cell + DVec2::from(self.slope.to_array().map(|s| f64::from(s < 0.0)));
         (self.at_origin + self.slope.dot(corner)).max(self.least)
@@ -43,8 +44,8 @@ impl Level {
         Self { size, depths: vec![0.0; size[0] * size[1]] }
     }
 
-    /// Returns the level with half as many cells; `None` after a single cell. Cells beyond the
-    /// border hide nothing, and nothing is there.
+    /// Returns the next coarser level, with half as many cells along each side; `None` for a single
+    /// cell. Cells beyond the border are ignored, because nothing is drawn there.
     pub(super) fn halved(&self) -> Option<Self> {
         let [width, height] = self.size;
         if width.max(height) <= 1 {
@@ -84,11 +85,11 @@ impl Level {
         }
     }
 
-    /// Returns the minimum depths of each cell and its neighbors: parts of the surface that a cell
-    /// samples are between their centers.
+    /// Returns the minimum depth of each cell and its neighbors, because the surface sampled by a
+    /// cell extends between their centers.
     pub(super) fn eroded(&self) -> Self {
         let [width, height] = self.size;
-        // Nothing is between the outermost centers and the border of the screen.
+        // The surface is not sampled between the outermost centers and the border of the screen.
         let inner = |count: usize| 1..count.saturating_sub(1);
         let mut rows = Self::empty(self.size);
         for row in 0..height {
@@ -109,14 +110,14 @@ impl Level {
         least
     }
 
-    /// Raises the depths of the cells that a triangle covers, less a margin.
+    /// Raises the depths of the cells that a triangle, reduced by a margin, covers.
     pub(super) fn cover(&mut self, corners: [DVec2; 3], plane: &DepthPlane, margin: f64) {
         let [low, high] =
             [f64::min, f64::max].map(|pick| pick(pick(corners[0].y, corners[1].y), corners[2].y));
         let rows = whole_cells([low + margin, high - margin], self.size[1]);
         for row in rows {
-            // A triangle is convex: the cells between its sides on both borders of a row are
-            // covered.
+            // A triangle is convex, so the cells that are between its sides at both borders of a
+            // row are covered.
             let [above, below] = [0, 1].map(|side| span_at(corners, (row + side) as f64));
             let span = [above[0].max(below[0]) + margin, above[1].min(below[1]) - margin];
             let columns = whole_cells(span, self.size[0]);
@@ -145,7 +146,8 @@ fn centers([from, to]: [f64; 2], count: usize) -> std::ops::Range<usize> {
     if first < last { first as usize..last as usize } else { 0..0 }
 }
 
-/// Returns the interval of x where a triangle meets a horizontal line; reversed if it does not.
+/// Returns the interval of x where a triangle meets a horizontal line; the ends are reversed if it
+/// does not.
 fn span_at(corners: [DVec2; 3], y: f64) -> [f64; 2] {
     let mut span = [f64::INFINITY, f64::NEG_INFINITY];
     for k in 0..3 {

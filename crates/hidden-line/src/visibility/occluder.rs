@@ -3,29 +3,31 @@
 //! ```text
 //!              ╱╲            screen: inside where three linear functions of s are positive
 //!    a ───────╱██╲─── b      world:  behind the plane where its height, linear in u, is negative
-//!            ╱    ╲          each leaves a half-line; their intersection is one interval, █
+//!            ╱    ╲          each leaves a half-line; they intersect in one interval, █
 //!           ╱──────╲
 //! ```
 //!
-//! Sides are measured in pixels, heights in world units. In these units a tolerance has a meaning
-//! that neither the projection nor the slope of the face changes. An edge a thousandth of a pixel
-//! inside a side runs along it, and an edge a millionth of the model behind a plane is in it.
+//! Distances from sides are measured in pixels, heights over planes in world units. In these units,
+//! the meaning of a tolerance does not depend on the projection or on the slope of the face. An
+//! edge a tiny fraction of a pixel inside a side runs along the side, and an edge a tiny fraction
+//! of the model behind a plane is in the plane.
 //!
-//! [`Occluder::overlap`] finds where both overlap on the screen, and
-//! [`OccluderInWorld::interval_behind`] finds the part of the overlap where the edge is behind.
+//! [`Occluder::overlap`] finds where the edge and the face overlap on the screen, and
+//! [`OccluderInWorld::interval_behind`] finds the part of the overlap where the edge is behind the
+//! face.
 
 use super::{ProjectedEdge, Tolerance};
 use crate::projector::Projector;
 use glam::{DVec2, DVec3};
 
-/// A face on the screen, or a triangle that remains of it after clipping to the view volume.
+/// A face on the screen, or a triangle that remains after it is clipped to the view volume.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Occluder {
     /// The vertices in pixels, ordered so that `(b − a) × (c − a)` is positive.
     pub(super) vertices: [DVec2; 3],
 }
 
-/// The plane of a face in the world; its points have `normal · p = offset`.
+/// The plane of a face in the world, with the equation `normal · p = offset`.
 #[derive(Clone, Copy, Debug)]
 struct OrientedPlane {
     /// The unit normal toward the viewer.
@@ -34,10 +36,10 @@ struct OrientedPlane {
     offset: f64,
 }
 
-/// The interval of s where a face hides an edge, and how.
+/// The interval of s where a face hides an edge, and the kind of occlusion.
 ///
-/// An edge behind a side is hidden only if another face continues on the other side; a single face
-/// would only touch it.
+/// An edge exactly behind a side is hidden only if another face continues on the other side; a
+/// single face only touches it.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Occlusion {
     /// The edge passes behind the interior of the face: the interval is hidden unconditionally.
@@ -53,10 +55,10 @@ pub(super) enum Occlusion {
 pub(super) struct SideInterval {
     /// The interval of s.
     pub(super) interval: [f64; 2],
-    /// Whether the face is on the left when following the edge on a screen with y up.
+    /// Whether the face is on the left of the edge, on a screen with y up.
     pub(super) is_left: bool,
-    /// Whether the face is wider than a crack, measured from the side: behind a narrower one, lines
-    /// beyond it stay visible.
+    /// Whether the face is wider than a crack, measured from the side. Behind a narrower face,
+    /// lines beyond it stay visible.
     pub(super) is_wide: bool,
     /// The object of the face.
     pub(super) object: u32,
@@ -67,18 +69,18 @@ pub(super) struct SideInterval {
 pub(super) struct ScreenOverlap {
     /// The part where the edge passes over the interior.
     pub(super) interior: Option<[f64; 2]>,
-    /// The part where it runs along a side, or beside it.
+    /// The part where the edge runs along a side or beside it.
     pub(super) side: Option<SideOverlap>,
 }
 
 /// The part of an edge along or beside a side of a face, on the screen.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct SideOverlap {
-    /// The side: from this vertex to the next.
+    /// The index of the side, which runs from this vertex to the next.
     pub(super) side: usize,
     /// The interval of s.
     pub(super) interval: [f64; 2],
-    /// Whether it is exactly on the side, not just near it on the outside.
+    /// Whether the part is exactly on the side, not just near it on the outside.
     pub(super) is_along: bool,
     /// Whether the face is on the left of the edge.
     pub(super) is_left: bool,
@@ -98,9 +100,9 @@ impl Occluder {
     /// Returns the parts of an edge that pass over this face or beside it; `None` if there are
     /// none.
     ///
-    /// The cheapest rejection comes first: a side with the whole edge outside. A side that the edge
-    /// runs along does not bound the interval inside, because rounding decides on which side the
-    /// edge is.
+    /// The cheapest rejection comes first: the whole edge is outside one side. A side that the edge
+    /// runs along does not bound the interior interval, because only rounding decides on which side
+    /// of it the edge is.
     pub(super) fn overlap(
         &self,
         edge: &ProjectedEdge,
@@ -128,8 +130,8 @@ impl Occluder {
         (interior.is_some() || side.is_some()).then_some(ScreenOverlap { interior, side })
     }
 
-    /// Returns the sides against an edge, and whether the whole edge is outside one of them; `None`
-    /// if it is outside by more than the width of a crack.
+    /// Returns the distances of an edge from the sides, and whether the whole edge is outside one
+    /// of them; `None` if it is outside by more than the width of a crack.
     fn sides_near(
         &self,
         edge: &ProjectedEdge,
@@ -147,7 +149,7 @@ impl Occluder {
             values[k] = [start, end];
             let most = if start > end { start } else { end };
             if most < 0.0 {
-                // Comparing squares avoids the root.
+                // Comparing squares avoids the square root.
                 let (area, length) = (most * most, vectors[k].length_squared());
                 if area > farthest * length {
                     return None;
@@ -161,7 +163,7 @@ impl Occluder {
 
 /// The triangle of an occluder in the world, with the data needed to find the parts behind it.
 pub(super) struct OccluderInWorld<'a> {
-    /// The vertices, in the order of the vertices on the screen.
+    /// The vertices, in the same order as on the screen.
     pub(super) vertices: [DVec3; 3],
     /// The viewer.
     pub(super) projector: &'a Projector,
@@ -170,7 +172,7 @@ pub(super) struct OccluderInWorld<'a> {
 impl OccluderInWorld<'_> {
     /// Returns the part of an interval of an edge behind the plane of the triangle.
     ///
-    /// Also `None` if the triangle is seen edge-on.
+    /// Returns `None` if there is no such part, or if the triangle is seen edge-on.
     pub(super) fn interval_behind(
         &self,
         edge: &ProjectedEdge,
@@ -184,8 +186,9 @@ impl OccluderInWorld<'_> {
 
     /// Returns the part of an interval of an edge beside a side that is behind the side.
     ///
-    /// The plane of the triangle says nothing about points outside it, and less the more it is
-    /// tilted. Of the planes through the side, this uses the one that faces the viewer most.
+    /// The plane of the triangle is not meaningful for points outside the triangle, especially if
+    /// it is tilted. Of all planes through the side, the one that faces the viewer most is used
+    /// instead.
     pub(super) fn interval_behind_side(
         &self,
         side: usize,
@@ -200,7 +203,8 @@ impl OccluderInWorld<'_> {
         interval_behind_plane(plane, edge, interval, tolerance)
     }
 
-    /// Returns the plane through a point with this normal, or the opposite one.
+    /// Returns the plane through a point, with this normal or its opposite, oriented toward the
+    /// viewer.
     fn plane_towards_viewer(&self, normal: DVec3, point: DVec3) -> Option<OrientedPlane> {
         let normal = normal.normalize_or_zero();
         let towards = normal.dot(self.projector.towards_viewer(point));
@@ -209,12 +213,12 @@ impl OccluderInWorld<'_> {
     }
 }
 
-/// The sides of a triangle against an edge.
+/// The sides of a triangle in relation to an edge.
 struct TriangleSides {
-    /// The signed distances of the edge from each side, times the length of the side: this saves a
-    /// division, and tolerances are multiplied by the length instead.
+    /// The signed distances of the edge from each side, times the length of the side. Tolerances
+    /// are multiplied by the length instead, which saves a division.
     values: [LinearFunction; 3],
-    /// From the start of each side to its end, in pixels.
+    /// The vectors from the start of each side to its end, in pixels.
     vectors: [DVec2; 3],
 }
 
@@ -226,7 +230,7 @@ impl TriangleSides {
     }
 
     /// Whether the edge is nearly parallel to each side, at an angle whose sine is less than a
-    /// quarter: no other edge is near a side for long enough.
+    /// quarter. Otherwise, it is not near the side for long enough.
     fn parallel_sides(&self, edge: &ProjectedEdge) -> [bool; 3] {
         let length = (edge.screen[1] - edge.screen[0]).length_squared();
         [0, 1, 2].map(|k| {
@@ -236,11 +240,11 @@ impl TriangleSides {
         })
     }
 
-    /// Returns the first side that the edge runs along: within `distance` in pixels while it is
-    /// inside the two others.
+    /// Returns the first side that the edge runs along, that is, within `distance` pixels of it
+    /// while inside the two others.
     ///
-    /// The stretch must be longer than eight times the distance; shorter ones occur where the edge
-    /// crosses a vertex, and say nothing about its direction.
+    /// This interval must be longer than eight times the distance. Shorter intervals occur where
+    /// the edge crosses a vertex, and are independent of its direction.
     fn side_along(
         &self,
         edge: &ProjectedEdge,
@@ -250,7 +254,7 @@ impl TriangleSides {
         (0..3).filter(|&k| parallel[k]).find(|&k| {
             let [start, end] = self.values[k];
             let vector = self.vectors[k].abs();
-            // The sum of both components is at least the length, so few sides need the root.
+            // The sum of both components is at least the length, so few sides need the square root.
             let widest = distance * (vector.x + vector.y);
             let (least, most) = if start < end { (start, end) } else { (end, start) };
             if least > widest || most < -widest {
@@ -269,10 +273,10 @@ impl TriangleSides {
     }
 
     /// Returns the first side that the edge runs beside on the outside, no farther away than the
-    /// width of a crack, and the interval of s where it does.
+    /// width of a crack, and the interval of s where it does so.
     ///
-    /// The interval must be longer than four times that width, so the angle between the two is
-    /// small.
+    /// The interval must be longer than four times that width, so the angle between the edge and
+    /// the side is small.
     fn interval_beside(
         &self,
         edge: &ProjectedEdge,
@@ -316,9 +320,9 @@ impl TriangleSides {
 ///        └──────────── u
 /// ```
 ///
-/// The height is linear in u, not in s: its zero is found in the world and mapped to the screen by
-/// IN-1. An edge that is nowhere farther behind the plane than `tolerance.world` is in the plane
-/// and is not hidden at all.
+/// The height is linear in u, not in s, so its zero is found in the world and mapped to the screen
+/// by IN-1. An edge that is nowhere farther behind the plane than `tolerance.world` is in the plane
+/// and is not hidden.
 fn interval_behind_plane(
     plane: OrientedPlane,
     edge: &ProjectedEdge,
@@ -341,11 +345,12 @@ fn interval_behind_plane(
     (interval[0] < interval[1]).then_some(interval)
 }
 
-/// Twice the signed area between a side and each end of the edge; positive where the edge is to the
-/// left of the side.
+/// Returns twice the signed area between a side and each end of the edge; positive where the edge
+/// is to the left of the side.
 ///
-/// It is always computed from the same end of the side. The two faces at a side therefore get the
-/// same bits with opposite signs, without a gap or overlap between the parts they hide.
+/// It is always computed from the same end of the side. The two faces at a side therefore get
+/// values with identical bits and opposite signs, so there is no gap or overlap between the parts
+/// that they hide.
 fn side_function([from, to]: [DVec2; 2], edge: &ProjectedEdge) -> LinearFunction {
     let is_reversed = (to.x, to.y) < (from.x, from.y);
     let [p, q] = if is_reversed { [to, from] } else { [from, to] };

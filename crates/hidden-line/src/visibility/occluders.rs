@@ -1,10 +1,11 @@
-//! All occluders of a scene in a bounding-volume hierarchy, and the query for the hidden parts of
+//! The occluders of a scene in a bounding-volume hierarchy, and the query for the hidden parts of
 //! an edge.
 //!
-//! [`MeshOccluders::hidden_intervals`] cuts hidden lines. It descends the hierarchy of screen
-//! boxes, nearest first. It skips boxes that the edge does not pass behind and boxes whose part of
-//! the edge is already hidden. With n faces and evenly spread edges, a query visits O(log n + k)
-//! faces, where k is the number that it crosses on the screen.
+//! [`MeshOccluders::hidden_intervals`] finds the hidden parts of an edge. It descends the hierarchy
+//! of screen boxes, nearest boxes first. It skips boxes that the edge does not pass behind, and
+//! boxes over a part of the edge that is already hidden. With n faces and evenly distributed edges,
+//! a query visits O(log n + k) faces, where k is the number of faces that the edge crosses on the
+//! screen.
 
 use super::bvh::{Aabb, Bvh};
 use super::crack_intervals::{CrackIntervals, SideIntervals};
@@ -16,20 +17,21 @@ use crate::projector::Projector;
 use glam::DVec3;
 use homog::{Point, World};
 
-/// The distances below which an edge touches a face. Touching does not hide (HL-1).
+/// The distances below which an edge touches a face, which does not hide it (HL-1).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Tolerance {
-    /// The distance from a side of a face, in pixels: an edge that stays closer runs along the
-    /// side.
+    /// The distance from a side of a face, in pixels. An edge that stays closer than this runs
+    /// along the side.
     pub screen: f64,
-    /// The distance behind the plane of a face, in world units: an edge that is nowhere farther
-    /// behind is in the plane.
+    /// The distance behind the plane of a face, in world units. An edge that is nowhere farther
+    /// behind than this is in the plane.
     pub world: f64,
-    /// The minimum length of a visible or hidden part, in pixels; shorter ones are merged with
+    /// The minimum length of a visible or hidden part, in pixels. Shorter parts are merged with
     /// their neighbors.
     pub min_part: f64,
-    /// The width of cracks between objects through which nothing is visible, in pixels. An edge
-    /// behind a crack has faces of two objects on both sides, no farther away than this.
+    /// The maximum width of a crack between objects through which nothing is visible, in pixels. An
+    /// edge behind a crack has a face of one object on the left and a face of another on the right,
+    /// no farther away than this.
     pub crack: f64,
 }
 
@@ -37,9 +39,9 @@ impl Tolerance {
     /// Returns tolerances for a scene whose bounding box has this diagonal.
     ///
     /// `world` is diagonal / 2²¹: a few units in the last place of coordinates stored in single
-    /// precision. `screen` is 1/4096 pixel and `min_part` 1/1024 pixel, far below what any output
-    /// resolves. `crack` is 3/16 pixel, 0.05 mm on paper: narrower than any pen, so lines behind a
-    /// crack could not be distinguished from its sides.
+    /// precision. `screen` is 1/4096 pixel and `min_part` is 1/1024 pixel, far below the resolution
+    /// of any output. `crack` is 3/16 pixel, or 0.05 mm on paper. This is narrower than any pen, so
+    /// lines behind a crack could not be distinguished from its sides.
     #[must_use]
     pub fn for_scene(diagonal: f64) -> Self {
         Self {
@@ -51,12 +53,13 @@ impl Tolerance {
     }
 }
 
-/// The visible and the hidden parts of an edge, as fractions of its length in the world.
+/// The visible and hidden parts of an edge, as fractions of its length in the world.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct EdgeParts {
-    /// Parts with no face in front of them, in ascending order.
+    /// The parts with no face in front of them, in ascending order.
     pub visible: Vec<[f64; 2]>,
-    /// Parts behind a face, in ascending order. Parts outside the view volume are in neither list.
+    /// The parts behind a face, in ascending order. Parts outside the view volume are in neither
+    /// list.
     pub hidden: Vec<[f64; 2]>,
 }
 
@@ -70,7 +73,7 @@ pub struct EdgeParts {
 /// use projection::{Convention, Orthographic};
 /// use viewport::Viewport;
 ///
-/// // A triangle at z = 0 before a line at z = −1, seen along −z through a window from −2 to 2.
+/// // A triangle at z = 0 in front of a line at z = −1, seen along −z through a window from −2 to 2.
 /// let camera = Camera::look_to(Point::new(0.0, 0.0, 5.0), -Vector::Z, Vector::Y)?;
 /// let window = Orthographic::new(-2.0, 2.0, -2.0, 2.0, 1.0, 10.0)?;
 /// let view_to_clip = window.view_to_clip(Convention::CHAPTER);
@@ -80,7 +83,7 @@ pub struct EdgeParts {
 /// let occluders = Occluders::new([face], projector, Tolerance::for_scene(4.0));
 ///
 /// let parts = occluders.edge_parts([Point::new(-2.0, 0.0, -1.0), Point::new(2.0, 0.0, -1.0)]);
-/// // At y = 0 the triangle reaches from x = −½ to ½: the middle quarter of the line is hidden.
+/// // At y = 0, the triangle extends from x = −½ to ½, so the middle quarter of the line is hidden.
 /// assert_eq!(parts.hidden, [[0.375, 0.625]]);
 /// assert_eq!(parts.visible, [[0.0, 0.375], [0.625, 1.0]]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -115,7 +118,7 @@ impl TriangleMesh for TriangleList {
 }
 
 impl Occluders {
-    /// Projects triangles and builds the hierarchy: O(n log n).
+    /// Projects triangles and builds the hierarchy in O(n log n).
     ///
     /// Both sides of a face hide lines. A face that is seen edge-on, or is thinner than the
     /// tolerance on the screen, hides nothing.
@@ -164,11 +167,11 @@ pub(crate) fn mesh_bvh(mesh: &impl TriangleMesh) -> Bvh {
 #[derive(Clone, Debug)]
 pub(crate) struct MeshOccluders<M> {
     mesh: M,
-    /// The projection of the faces; edges must be projected by the same one.
+    /// The projection of the faces; edges must be projected with the same projector.
     projector: Projector,
     pub(super) tolerance: Tolerance,
     pub(super) screen: ScreenBvh,
-    /// Whether a face hides only parts behind it.
+    /// Whether a face hides only parts behind it, not everything that it covers on the screen.
     pub(super) respects_depth: bool,
 }
 
@@ -177,19 +180,19 @@ pub(crate) struct MeshOccluders<M> {
 pub(crate) struct OcclusionScratch {
     /// The result.
     hidden: OcclusionIntervals,
-    /// The parts exactly behind a side.
+    /// The parts that run exactly behind a side.
     along: SideIntervals,
-    /// The parts behind a side or beside it.
+    /// The parts that run behind a side or beside it.
     cracks: CrackIntervals,
     /// Hierarchy nodes still to visit.
     node_stack: Vec<u32>,
-    /// The number of boxes and triangles that may still be compared with edges; `None` for any
-    /// number.
+    /// The number of boxes and triangles that may still be compared with edges; `None` for no
+    /// limit.
     pub(crate) work_left: Option<u64>,
 }
 
 impl OcclusionScratch {
-    /// Takes some work from the rest; `false` if not enough is left.
+    /// Takes some of the remaining work; returns `false` if not enough is left.
     pub(super) fn take_work(&mut self, count: usize) -> bool {
         let Some(left) = &mut self.work_left else { return true };
         let is_left = *left >= count as u64;
@@ -211,7 +214,7 @@ impl OcclusionScratch {
         &self.hidden
     }
 
-    /// Returns the result without any face.
+    /// Returns the result of a query without faces.
     pub(crate) fn nothing_hidden(&mut self) -> &OcclusionIntervals {
         self.restart(None);
         &self.hidden
@@ -231,8 +234,8 @@ impl OcclusionScratch {
         }
     }
 
-    /// Adds the parts that faces hide together: faces that meet at a side in front of the edge, and
-    /// faces of two objects with a crack between them.
+    /// Adds the parts that several faces hide together: faces that meet at a side in front of the
+    /// edge, and faces of two objects with a crack between them.
     fn join_sides(&mut self) {
         self.hidden.insert_intersection(&self.along.left, &self.along.right);
         self.cracks.insert_into(&mut self.hidden);
@@ -240,7 +243,7 @@ impl OcclusionScratch {
 }
 
 impl<M: TriangleMesh> MeshOccluders<M> {
-    /// Projects a mesh whose hierarchy in the world is `bvh`.
+    /// Projects a mesh whose world-space hierarchy is `bvh`.
     pub(crate) fn new(mesh: M, bvh: &Bvh, projector: Projector, tolerance: Tolerance) -> Self {
         let margins = [tolerance.screen, tolerance.screen.max(tolerance.crack)];
         let screen = ScreenBvh::new(&mesh, bvh, &projector, margins);
@@ -256,8 +259,8 @@ impl<M: TriangleMesh> MeshOccluders<M> {
     /// Returns the intervals of s where an edge is hidden: the union over all faces in front of it.
     ///
     /// This is the inner loop of hidden-line removal. Children are visited front to back, because a
-    /// near face is more likely to hide the whole interval and so end the descent. The result is
-    /// borrowed from `scratch`. It is incomplete if no work is left there.
+    /// near face is more likely to hide the whole interval and thus end the descent. The result is
+    /// borrowed from `scratch` and is incomplete if no work is left there.
     pub(crate) fn hidden_intervals<'a>(
         &self,
         edge: &ProjectedEdge,
@@ -266,8 +269,8 @@ impl<M: TriangleMesh> MeshOccluders<M> {
         self.hidden_intervals_but(edge, &[], scratch)
     }
 
-    /// Like [`hidden_intervals`](Self::hidden_intervals), for an edge with parts known to be
-    /// hidden: these are not compared with anything.
+    /// Like [`hidden_intervals`](Self::hidden_intervals), for an edge with parts that are known to
+    /// be hidden and need no comparison.
     pub(crate) fn hidden_intervals_but<'a>(
         &self,
         edge: &ProjectedEdge,
@@ -328,7 +331,7 @@ impl<M: TriangleMesh> MeshOccluders<M> {
         let Some(overlap) = (Occluder { vertices }).overlap(edge, tolerance) else { return };
         let object = self.mesh.object(triangle);
         let in_world = |vertices| OccluderInWorld { vertices, projector: &self.projector };
-        // The plane belongs to the triangle before clipping, which must not tilt it.
+        // The plane is computed from the unclipped triangle, because clipping must not tilt it.
         let whole = || in_world(self.mesh.positions(triangle));
         let clipped = || in_world(self.screen.world_vertices(leaf, &self.mesh));
         let interior = overlap.interior.and_then(|interval| match self.respects_depth {

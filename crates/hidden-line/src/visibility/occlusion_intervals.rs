@@ -1,19 +1,19 @@
-//! Interval sets: the hidden parts of one edge as disjoint closed intervals of its parameter s.
+//! Interval sets: the hidden parts of an edge as disjoint closed intervals of its parameter s.
 //!
 //! ```text
-//!  s   0 ├───────████████───────────██────┤ 1     two intervals; what is between them is visible
+//!  s   0 ├───────████████───────────██────┤ 1     two intervals; the rest is visible
 //! ```
 //!
-//! Faces are met in no particular order, so insertion merges: the set always holds the union of the
-//! inserted intervals, in ascending order. An insertion costs a binary search and moves the
-//! intervals after it; edges rarely have more than a handful.
+//! Faces are visited in no particular order, so each insertion merges: the set always holds the
+//! union of the inserted intervals, in ascending order. An insertion costs a binary search and
+//! moves the intervals after it; edges rarely have more than a handful of intervals.
 
 /// Disjoint closed intervals in ascending order; intervals that touch are merged.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub(crate) struct OcclusionIntervals(Vec<[f64; 2]>);
 
 impl OcclusionIntervals {
-    /// Removes all intervals and keeps the memory.
+    /// Removes all intervals without freeing the memory.
     pub(crate) fn clear(&mut self) {
         self.0.clear();
     }
@@ -29,7 +29,7 @@ impl OcclusionIntervals {
         self.0.is_empty()
     }
 
-    /// Inserts an interval: the set becomes its union with `[start, end]`, with `start` ≤ `end`.
+    /// Inserts the interval `[start, end]`, with `start` ≤ `end`.
     ///
     /// Intervals that overlap or touch the new one are merged with it, so the invariant holds
     /// without a later pass.
@@ -45,19 +45,18 @@ impl OcclusionIntervals {
         self.0.drain(first + 1..after);
     }
 
-    /// Whether an interval is inside one interval of the set.
+    /// Whether a single interval of the set contains an interval.
     ///
-    /// The traversal of the BVH skips a subtree whose part of the edge is already hidden.
+    /// The BVH traversal skips subtrees over a part of the edge that is already hidden.
     pub(crate) fn contains_interval(&self, [start, end]: [f64; 2]) -> bool {
         let at = self.0.partition_point(|interval| interval[1] < end);
         self.0.get(at).is_some_and(|interval| interval[0] <= start && end <= interval[1])
     }
 
-    /// Inserts the intersection of two other sets: a merge over both in ascending order, linear in
-    /// their sizes.
+    /// Inserts the intersection of two other sets, by a merge that is linear in their sizes.
     ///
-    /// It implements the rule for shared sides: an edge exactly behind a side is hidden where there
-    /// is a face on its left *and* one on its right.
+    /// This implements the rule for shared sides: an edge exactly behind a side is hidden where
+    /// there is a face on its left *and* a face on its right.
     pub(crate) fn insert_intersection(&mut self, one: &Self, other: &Self) {
         let (mut i, mut j) = (0, 0);
         while let (Some(a), Some(b)) = (one.0.get(i), other.0.get(j)) {
@@ -73,12 +72,12 @@ impl OcclusionIntervals {
         }
     }
 
-    /// Closes gaps shorter than `least`, then removes shorter intervals, including at the ends 0
-    /// and 1.
+    /// Closes gaps shorter than `least`, then removes intervals shorter than `least`, including at
+    /// the ends 0 and 1.
     ///
-    /// Rounding leaves such slivers where faces meet. Gaps are closed first, so that a hidden part
-    /// made by many small faces together does not vanish. A part longer than half of an edge
-    /// remains, however short the edge is.
+    /// Rounding leaves such slivers where faces meet. Gaps are closed first, so that a part hidden
+    /// by many small faces together does not vanish. A part longer than half of an edge remains,
+    /// however short the edge is.
     pub(crate) fn remove_slivers(&mut self, least: f64) {
         self.0.dedup_by(|next, last| {
             let closes = next[0] - last[1] < least;
@@ -112,11 +111,10 @@ impl OcclusionIntervals {
         parts
     }
 
-    /// Divides [0, 1] at the ends of the intervals, in ascending order, with `true` for hidden
-    /// parts.
+    /// Divides [0, 1] at the ends of the intervals and returns the parts in ascending order, with
+    /// `true` for hidden parts.
     ///
-    /// Parts without length are skipped, so a set that begins at 0 yields no empty visible part
-    /// before it.
+    /// Empty parts are skipped, so a set that begins at 0 does not yield an empty visible part.
     pub(crate) fn divide_unit_interval(&self) -> impl Iterator<Item = ([f64; 2], bool)> + '_ {
         let starts = std::iter::once(0.0).chain(self.0.iter().map(|interval| interval[1]));
         let ends = self.0.iter().map(|interval| Some(*interval)).chain([None]);
@@ -139,14 +137,14 @@ mod tests {
     }
 
     #[test]
-    fn intervals_that_touch_become_one() {
+    fn touching_intervals_are_merged() {
         let intervals = interval_set(&[[0.5, 0.6], [0.1, 0.2], [0.8, 0.9], [0.2, 0.5]]);
         assert_eq!(intervals.as_slice(), [[0.1, 0.6], [0.8, 0.9]]);
         assert_eq!(interval_set(&[[0.1, 0.2], [0.3, 0.4], [0.0, 1.0]]).as_slice(), [[0.0, 1.0]]);
     }
 
     #[test]
-    fn only_what_lies_in_one_interval_is_covered() {
+    fn only_parts_of_one_interval_are_covered() {
         let intervals = interval_set(&[[0.1, 0.4], [0.5, 0.9]]);
         assert!(intervals.contains_interval([0.1, 0.4]) && intervals.contains_interval([0.6, 0.6]));
         assert!(
@@ -179,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_outside_of_a_set_end_where_it_begins() {
+    fn parts_outside_a_set_end_where_it_begins() {
         let intervals = interval_set(&[[0.1, 0.3], [0.5, 0.6]]);
         assert_eq!(intervals.parts_outside([0.0, 1.0]), [[0.0, 0.1], [0.3, 0.5], [0.6, 1.0]]);
         assert_eq!(intervals.parts_outside([0.2, 0.4]), [[0.3, 0.4]]);
@@ -188,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn the_parts_fill_the_edge() {
+    fn the_parts_cover_the_whole_edge() {
         let parts: Vec<_> =
             interval_set(&[[0.0, 0.25], [0.5, 0.75]]).divide_unit_interval().collect();
         let expected =

@@ -1,8 +1,8 @@
-//! An edge clipped to the view volume, on the screen and in the world.
+//! Projected edge: an edge clipped to the view volume, on the screen and in the world.
 //!
-//! Positions on the edge are given by s, the fraction of its length on the *screen*. The fraction
-//! of its length in the *world*, u, follows from the perspective interpolation rule IN-1, because a
-//! projective map takes lines to lines:
+//! A position on the edge is specified by s, the fraction of its length on the *screen*. The
+//! fraction of its length in the *world*, u, follows from the rule for perspective-correct
+//! interpolation (IN-1), because a projective map takes lines to lines:
 //!
 //! ```text
 //!            r s                      q u
@@ -10,12 +10,12 @@
 //!       q + s (r − q)            r + u (q − r)
 //! ```
 //!
-//! In a parallel projection r = q and both fractions are equal.
+//! In a parallel projection, r = q, and both fractions are equal.
 
 use crate::projector::Projector;
 use glam::{DVec2, DVec3};
 
-/// An edge inside the view volume, with the map between screen and world fractions.
+/// The part of an edge inside the view volume, with the map between screen and world fractions.
 ///
 /// Both ends have a positive w: clipping removes points at or behind the eye before the divide.
 #[derive(Clone, Debug)]
@@ -34,11 +34,11 @@ pub(crate) struct ProjectedEdge {
 }
 
 impl ProjectedEdge {
-    /// Clips an edge of the world to the view volume, divides, and maps it to the screen.
+    /// Clips an edge in world space to the view volume, divides by w, and maps it to the screen.
     ///
-    /// `None` if no part of the edge is inside the volume, or if an end has no finite image. An end
-    /// that was not clipped keeps the bits of the vertex, so that edges with a common vertex meet
-    /// exactly.
+    /// Returns `None` if no part of the edge is inside the volume, or if an end has no finite
+    /// image. Ends that are not clipped keep the bits of the vertex, so that edges with a common
+    /// vertex meet exactly.
     pub(crate) fn clip_and_project(ends: [DVec3; 2], projector: &Projector) -> Option<Self> {
         let clipped = projector.clip_edge(ends)?;
         let [a, b] = [
@@ -64,7 +64,7 @@ impl ProjectedEdge {
         (self.screen[1] - self.screen[0]).length()
     }
 
-    /// Returns the point on the screen at fraction s; at 0 and 1 with the bits of the ends.
+    /// Returns the point on the screen at fraction s; at 0 and 1, it has the bits of the ends.
     pub(crate) fn screen_at(&self, s: f64) -> DVec2 {
         let [a, b] = self.screen;
         if s == 1.0 { b } else { a + (b - a) * s }
@@ -76,13 +76,13 @@ impl ProjectedEdge {
         if s == 1.0 { b } else { a + (b - a) * s }
     }
 
-    /// Returns the world fraction u at the screen fraction s: the inverse of IN-1.
+    /// Returns the world fraction u at the screen fraction s (inverse of IN-1).
     pub(crate) fn world_fraction(&self, s: f64) -> f64 {
         let [r, q] = self.w;
         if r == q { s } else { r * s / (q + s * (r - q)) }
     }
 
-    /// Returns the screen fraction s at the world fraction u: IN-1.
+    /// Returns the screen fraction s at the world fraction u (IN-1).
     pub(crate) fn screen_fraction(&self, u: f64) -> f64 {
         let [r, q] = self.w;
         if r == q { u } else { q * u / (r + u * (q - r)) }

@@ -1,4 +1,4 @@
-//! Screen hierarchy: a hierarchy of world boxes as seen by one viewer.
+//! Screen hierarchy: a world-space hierarchy as seen by one viewer.
 //!
 //! ```text
 //!   world      nodes ──────────────────► the same nodes, with boxes on the screen
@@ -6,13 +6,13 @@
 //!                                        from the view volume, clipped where they cross it
 //! ```
 //!
-//! The tree is built once for all views of a sheet; a view only finds the new boxes, from the
-//! leaves up. Points close in space are close on the screen, so such boxes are as good as in a tree
-//! built on the screen, and boxes at different depths are separate.
+//! The tree is built once for all views of a sheet; each view only computes the new boxes, from the
+//! leaves up. Points close in space are close on the screen, so these boxes are as good as in a
+//! tree built on the screen, and boxes at different depths remain separate.
 //!
-//! A triangle is stored here as an index and a box; its vertices are in the mesh. Most triangles of
-//! a leaf that an edge meets are beside or behind the edge. Their boxes show this in memory order,
-//! without a lookup of the vertices.
+//! A triangle is stored here as an index and a box; its vertices are in the mesh. When an edge
+//! meets a leaf, most of the leaf's triangles are beside or behind the edge. Their boxes, which are
+//! consecutive in memory, prove this without a lookup of the vertices.
 
 use super::bounds::{greatest, least, round_down, round_up};
 use super::bvh::{Bvh, NodeContents};
@@ -21,7 +21,7 @@ use crate::projector::Projector;
 use clip::{ClipVertex, Outcode, Volume, clip_triangle};
 use glam::{DVec2, DVec3};
 
-/// Triangles that share vertices.
+/// A mesh of triangles that share vertices.
 pub(crate) trait TriangleMesh: Sync {
     /// Returns the number of triangles.
     fn triangle_count(&self) -> u32;
@@ -40,7 +40,8 @@ pub(crate) trait TriangleMesh: Sync {
     }
 }
 
-/// A triangle on the screen, or a piece that remains after clipping to the view volume.
+/// A reference to a triangle on the screen, or to a piece that remains after clipping to the view
+/// volume.
 #[derive(Clone, Copy, Debug)]
 enum ScreenTriangle {
     /// A whole triangle of the mesh.
@@ -71,16 +72,16 @@ impl ScreenTriangle {
     }
 }
 
-/// A part of a triangle that remains after clipping to the view volume.
+/// A piece of a triangle that remains after clipping to the view volume.
 #[derive(Clone, Copy, Debug)]
 struct ClippedPiece {
     triangle: u32,
     vertices: [DVec2; 3],
-    /// The weight of each triangle vertex in each of these vertices.
+    /// The weights of the triangle's vertices in each of these vertices.
     weights: [[f64; 3]; 3],
 }
 
-/// A box on the screen, with the nearest depth in it.
+/// A box on the screen, with its nearest depth.
 #[derive(Clone, Copy, Debug)]
 struct DepthBox {
     min: [f32; 2],
@@ -93,7 +94,7 @@ impl DepthBox {
     const EMPTY: Self =
         Self { min: [f32::INFINITY; 2], max: [f32::NEG_INFINITY; 2], nearest: f32::NEG_INFINITY };
 
-    /// Returns the box around two others.
+    /// Returns the box around two boxes.
     fn union(&self, other: &Self) -> Self {
         Self {
             min: [0, 1].map(|k| least(self.min[k], other.min[k])),
@@ -115,13 +116,13 @@ pub(super) struct LeafTriangle {
 #[derive(Clone, Copy, Debug)]
 struct ScreenNode {
     bounds: DepthBox,
-    /// Like in [`Bvh`]: the second child, or the first triangle of a leaf.
+    /// As in [`Bvh`]: the second child, or the first triangle of a leaf.
     first: u32,
     /// The number of triangles of a leaf, or [`INNER_NODE`].
     count: u32,
 }
 
-/// The count of nodes that are not leaves.
+/// The count that marks inner nodes.
 const INNER_NODE: u32 = u32::MAX;
 
 /// The boxes and the triangles of a mesh on the screen of one viewer.
@@ -138,7 +139,7 @@ pub(super) struct ScreenBvh {
 /// The vertices of a mesh on their way to the screen.
 struct ProjectedVertices {
     screen: Vec<DVec2>,
-    /// Rounded toward the viewer.
+    /// The depths, rounded toward the viewer.
     depths: Vec<f32>,
     outcodes: Vec<Outcode>,
 }
@@ -170,7 +171,7 @@ struct LeafView<'a> {
 }
 
 impl ScreenBvh {
-    /// Projects a mesh, and finds the boxes of its hierarchy on the screen: O(n).
+    /// Projects a mesh and computes the boxes of its hierarchy on the screen, in O(n).
     ///
     /// `thinnest` is the maximum height in pixels of a triangle that hides nothing; `margin` is the
     /// margin of the boxes.
@@ -189,7 +190,7 @@ impl ScreenBvh {
             pieces: Vec::new(),
             vertices: Vec::new(),
         };
-        // Children come after their parents, so in reverse order they are ready first.
+        // Children follow their parents, so in reverse order they are computed first.
         for index in (0..bvh.node_count()).rev() {
             tree.nodes[index] = match bvh.contents(index as u32) {
                 NodeContents::Nodes(children) => tree.join_nodes(children),
@@ -209,7 +210,7 @@ impl ScreenBvh {
         tree
     }
 
-    /// Returns the parent of two nodes; the first child directly follows it.
+    /// Creates the parent of two nodes; the first child directly follows it.
     fn join_nodes(&self, [first, second]: [u32; 2]) -> ScreenNode {
         let [a, b] = [first, second].map(|node| &self.nodes[node as usize].bounds);
         ScreenNode { bounds: a.union(b), first: second, count: INNER_NODE }
@@ -255,8 +256,8 @@ impl ScreenBvh {
         self.pieces.push(ClippedPiece { triangle, vertices, weights });
     }
 
-    /// Returns the vertices of a triangle of a leaf in pixels, ordered so that `(b − a) × (c − a)`
-    /// is positive, and its index in the mesh.
+    /// Returns the vertices of a leaf triangle in pixels, ordered so that `(b − a) × (c − a)` is
+    /// positive, and the index of the triangle in the mesh.
     pub(super) fn triangle(
         &self,
         leaf: &LeafTriangle,
@@ -275,7 +276,7 @@ impl ScreenBvh {
         }
     }
 
-    /// Returns the vertices of a triangle of a leaf in the world, in the order of
+    /// Returns the world-space vertices of a leaf triangle, in the same order as
     /// [`Self::triangle`].
     pub(super) fn world_vertices(
         &self,
@@ -305,7 +306,7 @@ impl ScreenBvh {
         (!self.nodes.is_empty()).then_some(0)
     }
 
-    /// Returns the two children of a node, the nearer one last, or the triangles of a leaf.
+    /// Returns the two children of a node, with the nearer child last, or the triangles of a leaf.
     pub(super) fn contents(&self, index: u32) -> Result<[u32; 2], &[LeafTriangle]> {
         let node = &self.nodes[index as usize];
         if node.count != INNER_NODE {
@@ -317,7 +318,7 @@ impl ScreenBvh {
     }
 }
 
-/// Returns the box around the corners of a triangle, with a margin in pixels on the screen.
+/// Creates the box around the corners of a triangle, with a margin in pixels on the screen.
 fn box_around([a, b, c]: [DVec2; 3], depths: [f32; 3], margin: f64) -> DepthBox {
     let (min, max) = (a.min(b).min(c) - margin, a.max(b).max(c) + margin);
     DepthBox {
@@ -337,7 +338,7 @@ fn reverse_if<T>(is_reversed: bool, [a, b, c]: [T; 3]) -> [T; 3] {
 fn orientation([a, b, c]: [DVec2; 3], thinnest: f64) -> Option<bool> {
     let area = (b - a).perp_dot(c - a);
     let sides = [b - a, c - b, a - c];
-    // The sum of both components is at least the length, so most triangles need no root.
+    // The sum of both components is at least the length, so most triangles need no square root.
     let longest = sides.iter().fold(0.0_f64, |most, side| most.max(side.x.abs() + side.y.abs()));
     if area.abs() > thinnest * longest {
         return Some(area < 0.0);
@@ -349,16 +350,16 @@ fn orientation([a, b, c]: [DVec2; 3], thinnest: f64) -> Option<bool> {
 /// An edge, prepared for comparison with boxes.
 pub(super) struct ScreenEdge<'a> {
     edge: &'a ProjectedEdge,
-    /// The box around it.
+    /// The box around the edge.
     low: DVec2,
     high: DVec2,
-    /// The change of s per pixel along x and y; 0 if the edge does not change.
+    /// The change of s per pixel along x and y; 0 along an axis perpendicular to the edge.
     slope: DVec2,
     /// Whether a box hides only parts behind it.
     respects_depth: bool,
 }
 
-/// Edges that change by less along an axis, in pixels, count as parallel to the other axis.
+/// The extent in pixels below which an edge counts as perpendicular to an axis.
 const LEAST_CHANGE: f64 = 1e-9;
 
 impl<'a> ScreenEdge<'a> {
@@ -383,15 +384,15 @@ impl<'a> ScreenEdge<'a> {
     ///
     /// ```text
     ///         ┌──────┐
-    ///   a ────┼──────┼──── b      s of the sides along x and along y: the greatest entry and the
-    ///         └──────┘            least exit bound the interval
+    ///   a ────┼──────┼──── b      s at the sides along x and along y: the last entry and the
+    ///         └──────┘            first exit bound the interval
     ///          s₀    s₁
     /// ```
     ///
-    /// A slab test in x and y (Kay and Kajiya 1986), then one comparison of depth: if even the
-    /// farthest point of the edge is nearer than the nearest point of the box, nothing in the box
-    /// can hide it. Depth is linear in s, so its extremes are at the ends. Boxes have a margin far
-    /// larger than the rounding errors here.
+    /// This is a slab test in x and y (Kay and Kajiya 1986), followed by one comparison of depth:
+    /// if even the farthest point of the edge is nearer than the nearest point of the box, nothing
+    /// in the box can hide it. Depth is linear in s, so its extremes are at the ends. The margin of
+    /// the boxes is far larger than the rounding errors here.
     fn interval_behind(&self, bounds: &DepthBox) -> Option<[f64; 2]> {
         let (min, max) = (bounds.min.map(f64::from), bounds.max.map(f64::from));
         let is_apart = self.high.x < min[0]
@@ -416,8 +417,8 @@ impl<'a> ScreenEdge<'a> {
         self.interval_over_box(leaf.bounds.min.map(f64::from), leaf.bounds.max.map(f64::from))
     }
 
-    /// Returns the slab test: the interval of s where the edge passes over a box. The box must not
-    /// be beside the edge along an axis parallel to it.
+    /// Returns the interval of s where the edge passes over a box (slab test). Along an axis
+    /// perpendicular to the edge, the box must overlap the edge.
     fn interval_over_box(&self, min: [f64; 2], max: [f64; 2]) -> Option<[f64; 2]> {
         let from = self.edge.screen[0];
         let (mut enter, mut leave) = (0.0, 1.0);
