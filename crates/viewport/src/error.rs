@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// An invalid parameter. Every variant names it and its allowed values.
+/// An invalid parameter. Every variant contains its name, and the message states the requirement.
 #[derive(Clone, Copy, PartialEq, Debug, Error)]
 #[non_exhaustive]
 pub enum ViewportError {
@@ -14,7 +14,7 @@ pub enum ViewportError {
         /// Its value.
         value: f64,
     },
-    /// A size, a resolution or a scale is zero or negative.
+    /// A size, resolution or scale is zero or negative.
     #[error("{name} = {value} is not allowed: it must be greater than 0")]
     NotPositive {
         /// The parameter.
@@ -22,8 +22,8 @@ pub enum ViewportError {
         /// Its value.
         value: f64,
     },
-    /// Two limits that must differ coincide, so there is nothing to map.
-    #[error("{name} is empty: both its ends are {value}")]
+    /// The two ends of an interval coincide, so it cannot be mapped.
+    #[error("{name} is empty: both ends are {value}")]
     Empty {
         /// The interval.
         name: &'static str,
@@ -33,18 +33,18 @@ pub enum ViewportError {
     /// A count is too small.
     #[error("{name} = {count} is not allowed: it must be at least {least}")]
     TooFew {
-        /// The name of the count.
+        /// The parameter.
         name: &'static str,
-        /// The count.
+        /// Its value.
         count: usize,
-        /// The minimum allowed.
+        /// The minimum allowed value.
         least: usize,
     },
-    /// A parameter is too large or too small, or parameters differ too much in size, for finite
-    /// maps in both directions.
+    /// A parameter is too large or too small, or the parameters differ too much in size, so the map
+    /// or its inverse would not be finite.
     #[error("{name} is too large or too small to compute with")]
     OutOfRange {
-        /// The parameter or the result.
+        /// The parameter, or the result computed from it.
         name: &'static str,
     },
 }
@@ -58,7 +58,7 @@ pub(crate) fn check_positive(name: &'static str, value: f64) -> Result<f64, View
     if value > 0.0 { Ok(value) } else { Err(ViewportError::NotPositive { name, value }) }
 }
 
-/// Checks both ends of an interval, which must differ.
+/// Checks that both ends of an interval are finite and that they differ.
 pub(crate) fn check_interval(
     name: &'static str,
     ends: [f64; 2],

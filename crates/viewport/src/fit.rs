@@ -1,4 +1,4 @@
-//! Fit policies: how to place a picture in a rectangle of another shape.
+//! Fit policies, which place a picture in a rectangle of another shape.
 //!
 //! ```text
 //!   wide picture, tall place:
@@ -18,16 +18,16 @@
 use crate::error::{check_finite, check_positive};
 use crate::{Rectangle, ViewportError};
 
-/// How to fit a picture into a rectangle of another shape.
+/// A policy for fitting a picture into a rectangle of another shape.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 #[non_exhaustive]
 pub enum FitPolicy {
-    /// Fill the rectangle; circles may become ellipses.
+    /// Fills the rectangle; circles may become ellipses.
     Stretch,
-    /// As large as possible without cropping; margins remain (letterbox). The default.
+    /// As large as possible without cropping, with margins (letterbox). This is the default.
     #[default]
     Contain,
-    /// As small as possible without margins; the excess is cropped.
+    /// As small as possible without margins; the overhang is cropped.
     Cover,
     /// As wide as the rectangle, with any height.
     FixedWidth,
@@ -36,12 +36,12 @@ pub enum FitPolicy {
 }
 
 impl FitPolicy {
-    /// Returns the rectangle on which to draw a picture of this size to fit `place`. Only the shape
-    /// of the picture matters.
+    /// Returns the rectangle in which to draw a picture of this size so that it fits `place`. Only
+    /// the aspect ratio of the picture matters.
     ///
-    /// `align` distributes the spare room, as fractions of it on x and y: `[0.5, 0.5]` centers,
-    /// `[0.0, 0.0]` puts the picture at the corner of minimum coordinates. The excess cropped by
-    /// [`FitPolicy::Cover`] is distributed the same way.
+    /// `align` is the fraction of the spare space in x and y that precedes the picture: `[0.5,
+    /// 0.5]` centers it, and `[0.0, 0.0]` puts it in the corner of minimum coordinates. The
+    /// overhang that [`FitPolicy::Cover`] crops is distributed in the same way.
     ///
     /// ```
     /// use viewport::{FitPolicy, Rectangle};
@@ -52,7 +52,7 @@ impl FitPolicy {
     /// ```
     ///
     /// # Errors
-    /// Returns an error if a number is not finite, or a size is not greater than 0.
+    /// Returns an error if a number is not finite or if a size is not greater than 0.
     pub fn place_picture(
         self,
         picture: [f64; 2],
@@ -75,11 +75,11 @@ impl FitPolicy {
         Rectangle::new(x, y, width, height)
     }
 
-    /// Returns the other way to fit: changes the window instead of the place, so its picture fills
-    /// `place` without distortion. Give the camera's window this size instead of `window`.
+    /// Returns the size of a window whose picture fills `place` without distortion. Use it for the
+    /// camera instead of `window`, to change the window rather than the place.
     ///
-    /// [`FitPolicy::Contain`] shows more of the scene instead of margins, and [`FitPolicy::Cover`]
-    /// shows less instead of cropping.
+    /// Instead of leaving margins, [`FitPolicy::Contain`] shows more of the scene; instead of
+    /// cropping, [`FitPolicy::Cover`] shows less.
     ///
     /// ```
     /// use viewport::{FitPolicy, Rectangle};
@@ -105,7 +105,7 @@ impl FitPolicy {
     }
 }
 
-/// Returns the factors from the width and height of the picture to those of the rectangle.
+/// Returns the factors from the picture's width and height to the rectangle's.
 fn scale_factors(picture: [f64; 2], place: Rectangle) -> Result<(f64, f64), ViewportError> {
     let sx = place.width() / check_positive("picture width", picture[0])?;
     let sy = place.height() / check_positive("picture height", picture[1])?;
@@ -117,9 +117,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_policy_keeps_what_it_promises() {
+    fn each_policy_fits_pictures_and_windows() {
         let tall = Rectangle::new(10.0, 20.0, 100.0, 200.0).expect("a place");
-        // (policy, the picture 4:2 on the place, the window 4 by 2 made to fill it)
+        // (policy, the placed 4:2 picture, the 4 × 2 window after it is made to fill the place)
         let table = [
             (FitPolicy::Stretch, [10.0, 20.0, 100.0, 200.0], [4.0, 2.0]),
             (FitPolicy::Contain, [10.0, 95.0, 100.0, 50.0], [4.0, 8.0]),

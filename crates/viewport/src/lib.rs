@@ -1,4 +1,4 @@
-//! Viewports: from the canonical volume to pixels on an image or millimeters on paper, and back.
+//! Viewports: from the canonical volume to pixels in an image or millimeters on paper, and back.
 //!
 //! ```text
 //!    canonical square                          image: 6 by 4 pixels, y down, centers at halves
@@ -15,24 +15,24 @@
 //!                                         y ▼  └───┴───┴───┴───┴───┴───┘
 //! ```
 //!
-//! Everything that often remains implicit is explicit here: whether y points up or down and where
+//! This crate makes explicit what often remains implicit: whether y points up or down and where
 //! pixel centers are ([`PixelConvention`](homog::PixelConvention)), the extent of clip space
 //! ([`ClipRange`](homog::ClipRange)), and the depth range ([`DepthRange`]). [`Viewport::image_for`]
-//! follows image files, [`Viewport::chapter`] follows the textbook (Shirley and Marschner, ch. 8);
-//! build any other from parts.
+//! follows the convention of image files, and [`Viewport::chapter`] follows the textbook (Shirley
+//! and Marschner, ch. 8). Use [`Viewport::new`] for any other combination.
 //!
 //! | task | item |
 //! | --- | --- |
 //! | the map M_vp (VP-1 to VP-3) | [`Viewport::ndc_to_screen`] |
 //! | its inverse (WV-3) | [`Viewport::screen_to_ndc`] |
 //! | another pixel convention (VP-4) | `homog::PixelConvention::convert_to` |
-//! | window to viewport in the plane, by two methods | [`WindowToViewport`] (WV-1, WV-2) |
-//! | pictures in rectangles of another shape | [`FitPolicy`] |
+//! | map from a window to a viewport in the plane, by two methods | [`WindowToViewport`] (WV-1, WV-2) |
+//! | fit a picture into a rectangle of another shape | [`FitPolicy`] |
 //! | several viewports on a page | [`Rectangle::split_grid`], [`Rectangle::inset_rectangle`] |
 //! | millimeters, dots per inch, scale 1:n | [`Paper`], [`Resolution`], [`DrawingScale`] |
 //! | large images in tiles | [`tiles`], [`Viewport::for_tile`] |
 //! | picking (UN-1, UN-2) | [`Viewport::unprojector`], [`Unprojector::pick_ray`] |
-//! | part of the view enlarged to the whole | [`Viewport::pick_matrix`] |
+//! | enlarge part of the view to the whole | [`Viewport::pick_matrix`] |
 //! | the points of a height field | [`PointGrid`] (WV-4) |
 //!
 //! # Example
@@ -55,8 +55,8 @@
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 //!
-//! Bad parameters give a [`ViewportError`] that names them. Nothing here panics, and finite input
-//! never gives infinity or NaN.
+//! Invalid parameters return a [`ViewportError`] that names them. Nothing in this crate panics, and
+//! finite input never produces infinity or NaN.
 #![no_std]
 
 #[cfg(test)]
@@ -77,7 +77,7 @@ mod window_to_viewport;
 pub use depth_range::DepthRange;
 pub use error::ViewportError;
 pub use fit::FitPolicy;
-/// The types of points, maps and spaces, re-exported to save a second dependency.
+/// The types of points, maps and spaces, re-exported so that you do not need a second dependency.
 pub use homog;
 pub use paper::{DrawingScale, MILLIMETERS_PER_INCH, Paper, Resolution};
 pub use point_grid::PointGrid;
@@ -87,7 +87,7 @@ pub use unproject::{PickRay, Unprojector};
 pub use viewport::Viewport;
 pub use window_to_viewport::{Limits, WindowToViewport};
 
-/// Runs the README examples as a test.
+/// The README example, compiled as a documentation test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

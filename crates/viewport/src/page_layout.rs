@@ -2,9 +2,9 @@
 //!
 //! ```text
 //!   ┌─────────────────┐
-//!   │ ┌─────┐ ┌─────┐ │   page.shrunk(margin)?.grid(2, 2, gap)?
+//!   │ ┌─────┐ ┌─────┐ │   page.shrink(margin)?.split_grid(2, 2, gap)?
 //!   │ │  0  │ │  1  │ │
-//!   │ └─────┘ └─────┘ │   Cells come row by row, from the least y.
+//!   │ └─────┘ └─────┘ │   Cells are ordered by rows, from the minimum y.
 //!   │ ┌─────┐ ┌─────┐ │
 //!   │ │  2  │ │  3  │ │
 //!   │ └─────┘ └─────┘ │
@@ -18,7 +18,7 @@ impl Rectangle {
     /// Returns the rectangle reduced by a margin on all four sides; a negative margin enlarges it.
     ///
     /// # Errors
-    /// Returns an error if the margin is not finite or leaves nothing.
+    /// Returns an error if the margin is not finite or if nothing remains.
     pub fn shrink(&self, margin: f64) -> Result<Self, ViewportError> {
         check_finite("margin", margin)?;
         let (width, height) = (self.width() - 2.0 * margin, self.height() - 2.0 * margin);
@@ -28,12 +28,12 @@ impl Rectangle {
     /// Returns the cells of a grid with a gap between neighbors, row by row from the corner of
     /// minimum coordinates.
     ///
-    /// Without a gap, neighbors share their borders exactly, so the cells cover the rectangle
-    /// without a seam.
+    /// If the gap is 0, neighbors share their borders exactly, so the cells cover the rectangle
+    /// without seams.
     ///
     /// # Errors
-    /// Returns an error if there are no columns or rows, the gap is negative or not finite, or the
-    /// gaps leave no room.
+    /// Returns an error if there are no columns or rows, if the gap is negative or not finite, or
+    /// if the gaps leave no space for the cells.
     pub fn split_grid(
         &self,
         columns: u32,
@@ -54,23 +54,23 @@ impl Rectangle {
         }))
     }
 
-    /// Returns a rectangle with a fraction of the width and height, at the fractions `at` of the
-    /// remaining room. `inset_rectangle(0.25, [1.0, 1.0])` is a quarter of each side in the corner
-    /// of maximum coordinates.
+    /// Returns a rectangle with a fraction of the width and height, positioned by the fractions
+    /// `at` of the remaining space. For example, `inset_rectangle(0.25, [1.0, 1.0])` has a quarter
+    /// of each side and is in the corner of maximum coordinates.
     ///
     /// # Errors
-    /// Returns an error if a number is not finite or the fraction is not greater than 0.
+    /// Returns an error if a number is not finite or if the fraction is not greater than 0.
     pub fn inset_rectangle(&self, fraction: f64, at: [f64; 2]) -> Result<Self, ViewportError> {
         let (width, height) = (self.width() * fraction, self.height() * fraction);
         let x = self.x() + (self.width() - width) * at[0];
         Self::new(x, self.y() + (self.height() - height) * at[1], width, height)
     }
 
-    /// Returns the rectangle with its borders rounded to whole pixels. Rectangles that shared a
-    /// border still do.
+    /// Returns the rectangle with its borders rounded to whole pixels. Rectangles that share a
+    /// border still share it afterward.
     ///
     /// # Errors
-    /// Returns an error if nothing is left of it.
+    /// Returns an error if the rounded rectangle is empty.
     pub fn snap_to_pixels(&self) -> Result<Self, ViewportError> {
         let [x0, y0] = [self.x(), self.y()].map(libm::round);
         let x1 = libm::round(self.x() + self.width());
@@ -79,7 +79,7 @@ impl Rectangle {
     }
 }
 
-/// One side of a grid.
+/// The division of a grid along one axis.
 #[derive(Clone, Copy)]
 struct AxisDivision {
     count: f64,
@@ -101,7 +101,7 @@ impl AxisDivision {
         }
         let count = f64::from(count);
         let room = length - gap * (count - 1.0);
-        // A part thinner than this would have equal numbers as its borders.
+        // The borders of a part thinner than this would round to the same number.
         let least = (start.abs() + length) * 1e-13;
         if room / count <= least {
             return Err(ViewportError::NotPositive { name: "size of a cell", value: room / count });
@@ -109,7 +109,7 @@ impl AxisDivision {
         Ok(Self { count, gap, start, length })
     }
 
-    /// Returns the start and length of part `i`. Borders are computed rather than sizes, so
+    /// Returns the start and length of part `i`. The borders are computed, not the sizes, so
     /// neighbors agree on them.
     fn nth_part(self, i: u32) -> (f64, f64) {
         let border = |i: f64| self.start + (self.length + self.gap) * i / self.count;
@@ -124,11 +124,11 @@ mod tests {
     use std::vec::Vec;
 
     fn cells(page: Rectangle, columns: u32, rows: u32, gap: f64) -> Vec<Rectangle> {
-        page.split_grid(columns, rows, gap).expect("there is room").collect()
+        page.split_grid(columns, rows, gap).expect("there is space").collect()
     }
 
     #[test]
-    fn cells_fill_the_page_with_gaps_between() {
+    fn cells_fill_the_page_with_gaps_between_them() {
         let page =
             Rectangle::from_size(130.0, 70.0).and_then(|page| page.shrink(10.0)).expect("room");
         let expected =
@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn pages_without_room_are_refused() {
+    fn pages_without_space_are_rejected() {
         let page = Rectangle::from_size(100.0, 100.0).expect("a page");
         assert!(page.split_grid(0, 1, 0.0).is_err());
         assert!(page.split_grid(3, 1, 50.0).is_err());

@@ -7,17 +7,17 @@ use core::fmt;
 /// Millimeters per inch, by definition.
 pub const MILLIMETERS_PER_INCH: f64 = 25.4;
 
-/// The resolution of a device: dots per unit of length.
+/// The resolution of a device, in dots per unit of length.
 #[derive(Clone, Copy, PartialEq, PartialOrd, Debug)]
 pub struct Resolution {
     dots_per_inch: f64,
 }
 
 impl Resolution {
-    /// Returns the resolution of `dpi` dots per inch.
+    /// Creates a resolution of `dpi` dots per inch.
     ///
     /// # Errors
-    /// Returns an error if it is not finite or not greater than 0.
+    /// Returns an error if `dpi` is not finite or not greater than 0.
     pub fn dots_per_inch(dpi: f64) -> Result<Self, ViewportError> {
         Ok(Self { dots_per_inch: check_positive("dots per inch", dpi)? })
     }
@@ -44,7 +44,7 @@ impl Resolution {
     }
 }
 
-/// A paper size in millimeters, portrait.
+/// A paper size in millimeters. The constants are in portrait orientation.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Paper {
     width: f64,
@@ -69,7 +69,7 @@ impl Paper {
     /// 11 × 17 inches.
     pub const TABLOID: Self = Self { width: 279.4, height: 431.8 };
 
-    /// Paper of any size, in millimeters.
+    /// Creates a paper size from a width and height in millimeters.
     ///
     /// # Errors
     /// Returns an error if a size is not finite or not greater than 0.
@@ -80,7 +80,7 @@ impl Paper {
         })
     }
 
-    /// This sheet rotated by a right angle: landscape instead of portrait.
+    /// Returns this sheet rotated by a right angle: landscape instead of portrait.
     #[must_use]
     pub const fn rotated(self) -> Self {
         Self { width: self.height, height: self.width }
@@ -104,8 +104,8 @@ impl Paper {
         Rectangle::new_unchecked(0.0, 0.0, self.width, self.height)
     }
 
-    /// Returns the size of the sheet rounded to whole pixels, at least one; `None` if there are too
-    /// many to count.
+    /// Returns the size of the sheet rounded to whole pixels, at least one in each direction;
+    /// `None` if a count does not fit in a `u32`.
     #[must_use]
     pub fn pixel_size(self, resolution: Resolution) -> Option<[u32; 2]> {
         let count = |millimetres: f64| {
@@ -121,7 +121,7 @@ impl Paper {
 /// ```
 /// use viewport::DrawingScale;
 /// let scale = DrawingScale::new(1, 50)?;
-/// // Five meters are ten centimeters on paper, all in millimeters.
+/// // Five meters become ten centimeters on paper; all lengths are in millimeters.
 /// assert_eq!(scale.to_paper_length(5000.0), 100.0);
 /// assert_eq!(scale.to_string(), "1:50");
 /// # Ok::<(), viewport::ViewportError>(())
@@ -133,7 +133,7 @@ pub struct DrawingScale {
 }
 
 impl DrawingScale {
-    /// The scales of technical drawing, largest first (ISO 5455).
+    /// The standard scales for technical drawings, largest first (ISO 5455).
     pub const STANDARD: [Self; 18] = [
         Self::from_ratio(50, 1),
         Self::from_ratio(20, 1),
@@ -159,18 +159,19 @@ impl DrawingScale {
         Self { paper, thing }
     }
 
-    /// Returns the scale `paper`:`thing`.
+    /// Creates the scale `paper`:`thing`.
     ///
     /// # Errors
-    /// Returns an error if either is 0.
+    /// Returns an error if either number is 0.
     pub fn new(paper: u32, thing: u32) -> Result<Self, ViewportError> {
         check_positive("scale on paper", paper.into())?;
         check_positive("scale of the object", thing.into())?;
         Ok(Self { paper, thing })
     }
 
-    /// Returns the largest standard scale at which an object of this size fits into this room, both
-    /// in the same unit; `None` if it is too large for all of them or a size is not finite.
+    /// Returns the largest standard scale at which an object of size `thing` fits into `room`, both
+    /// in the same unit; `None` if the object is too large for all of them or if a size is not
+    /// finite.
     #[must_use]
     pub fn largest_standard(thing: [f64; 2], room: [f64; 2]) -> Option<Self> {
         let fits = |scale: &&Self| {
@@ -192,7 +193,7 @@ impl DrawingScale {
     }
 
     /// Converts a length on paper to the real length, in the same unit. Applied to the size of a
-    /// viewport, it gives the window that an orthographic projection needs to be drawn to scale.
+    /// viewport, it returns the size of the window for an orthographic projection drawn to scale.
     #[must_use]
     pub fn to_object_length(self, length: f64) -> f64 {
         length * f64::from(self.thing) / f64::from(self.paper)
@@ -210,7 +211,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_inch_has_its_dots_and_a_sheet_its_pixels() {
+    fn lengths_and_sheets_convert_to_dots() {
         let print = Resolution::dots_per_inch(300.0).expect("positive");
         assert_eq!(print.to_dots(25.4), 300.0);
         assert_eq!(print.to_millimeters(300.0), 25.4);
@@ -224,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hundred_millimetres_measure_a_hundred_at_one_to_one() {
+    fn lengths_convert_to_paper_and_back_at_every_scale() {
         let one = DrawingScale::new(1, 1).expect("not 0");
         assert_eq!(one.to_paper_length(100.0), 100.0);
         for scale in DrawingScale::STANDARD {
@@ -237,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn the_largest_standard_scale_that_fits() {
+    fn the_largest_standard_scale_that_fits_is_chosen() {
         let room = [190.0, 277.0];
         let scale = |thing| DrawingScale::largest_standard(thing, room);
         assert_eq!(scale([190.0, 277.0]), Some(DrawingScale::from_ratio(1, 1)));

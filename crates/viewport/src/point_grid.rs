@@ -1,8 +1,8 @@
-//! Grid indices to the square [−1, 1]² (WV-4): the points of a height field.
+//! The map from grid indices to the square [−1, 1]² (WV-4), for the points of a height field.
 //!
 //! ```text
-//!   columns ► z          4 by 3 points: the indices end at count − 1,
-//!   ·───·───·  x = −1    so that is what they are divided by
+//!   columns ► z          4 by 3 points: the last index is count − 1,
+//!   ·───·───·  x = −1    so indices are divided by count − 1
 //!   ·───·───·
 //!   ·───·───·
 //!   ·───·───·  x = +1
@@ -18,7 +18,7 @@ use crate::ViewportError;
 /// let grid = PointGrid::new(5, 3)?;
 /// assert_eq!(grid.xz(0, 0), Some([-1.0, -1.0]));
 /// assert_eq!(grid.xz(4, 2), Some([1.0, 1.0]));
-/// assert_eq!(grid.xz(5, 0), None); // the last row is number 4
+/// assert_eq!(grid.xz(5, 0), None); // the last row has index 4
 /// # Ok::<(), viewport::ViewportError>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -28,7 +28,7 @@ pub struct PointGrid {
 }
 
 impl PointGrid {
-    /// Returns the grid with the given number of points in each direction.
+    /// Creates a grid with these numbers of rows and columns.
     ///
     /// # Errors
     /// Returns an error if there are fewer than two rows or columns.
@@ -54,8 +54,8 @@ impl PointGrid {
         self.columns
     }
 
-    /// Returns the point at an index: x = 2·row/(rows − 1) − 1, z = 2·column/(columns − 1) − 1;
-    /// `None` beyond the last index.
+    /// Returns the point at a row and a column: x = 2·row/(rows − 1) − 1, z = 2·column/(columns −
+    /// 1) − 1. Returns `None` beyond the last index.
     #[must_use]
     pub fn xz(&self, row: usize, column: usize) -> Option<[f64; 2]> {
         let inside = row < self.rows && column < self.columns;

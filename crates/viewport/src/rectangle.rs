@@ -1,13 +1,13 @@
-//! Rectangles of pixels, paper and windows.
+//! Rectangles for pixels, paper and windows.
 
 use crate::ViewportError;
 use crate::error::{check_finite, check_positive};
 
-/// An axis-aligned rectangle, by its corner of minimum coordinates and its size.
+/// An axis-aligned rectangle, defined by its corner of minimum coordinates and its size.
 ///
 /// # Guarantees
-/// The width and height are greater than 0. All four numbers are at most 10¹⁰⁰, and the sizes are
-/// at least 10⁻¹⁰⁰, which keeps maps finite in both directions.
+/// The width and height are greater than 0. The magnitudes of all four numbers are at most 10¹⁰⁰,
+/// and the sizes are at least 10⁻¹⁰⁰, which keeps maps and their inverses finite.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Rectangle {
     x: f64,
@@ -20,11 +20,11 @@ const MAX_EXTENT: f64 = 1e100;
 const MIN_EXTENT: f64 = 1e-100;
 
 impl Rectangle {
-    /// Returns the rectangle [x, x + width] × [y, y + height].
+    /// Creates the rectangle [x, x + width] × [y, y + height].
     ///
     /// # Errors
-    /// Returns an error if a number is not finite or too large, or a size is not greater than 0 or
-    /// too small.
+    /// Returns an error if a number is not finite or too large, or if a size is not greater than 0
+    /// or too small.
     pub fn new(x: f64, y: f64, width: f64, height: f64) -> Result<Self, ViewportError> {
         for (name, value) in [("x", x), ("y", y)] {
             if check_finite(name, value)?.abs() > MAX_EXTENT {
@@ -39,7 +39,7 @@ impl Rectangle {
         Ok(Self { x, y, width, height })
     }
 
-    /// Returns the rectangle of this size with its corner at the origin.
+    /// Creates a rectangle of this size with its corner at the origin.
     ///
     /// # Errors
     /// Returns an error if a size is not finite or not greater than 0.
@@ -47,7 +47,7 @@ impl Rectangle {
         Self::new(0.0, 0.0, width, height)
     }
 
-    /// Returns a rectangle of numbers that are known to be valid.
+    /// Creates a rectangle from numbers that are known to be valid.
     pub(crate) const fn new_unchecked(x: f64, y: f64, width: f64, height: f64) -> Self {
         Self { x, y, width, height }
     }
@@ -64,19 +64,19 @@ impl Rectangle {
         self.y
     }
 
-    /// Returns the extent along x, greater than 0.
+    /// Returns the extent along x, which is greater than 0.
     #[must_use]
     pub const fn width(&self) -> f64 {
         self.width
     }
 
-    /// Returns the extent along y, greater than 0.
+    /// Returns the extent along y, which is greater than 0.
     #[must_use]
     pub const fn height(&self) -> f64 {
         self.height
     }
 
-    /// Width divided by height.
+    /// Returns the width divided by the height.
     #[must_use]
     pub fn aspect(&self) -> f64 {
         self.width / self.height

@@ -1,11 +1,11 @@
-//! Tiles: parts of an image that fit together without a seam.
+//! Tiles: parts of an image that fit together without seams.
 
 use crate::{Rectangle, Viewport, ViewportError};
 use homog::{PixelConvention, PixelRect};
 
 impl From<PixelRect> for Rectangle {
-    /// Returns the borders of the pixels, in whole pixels from the corner of the image. An empty
-    /// rectangle becomes one pixel wide or high.
+    /// Returns the borders of the pixels, in whole pixels from the corner of the image. A width or
+    /// height of 0 becomes 1.
     fn from(pixels: PixelRect) -> Self {
         let PixelRect { x, y, width, height } = pixels;
         let [x, y, width, height] = [x, y, width.max(1), height.max(1)].map(f64::from);
@@ -24,7 +24,7 @@ impl From<PixelRect> for Rectangle {
 /// ```
 ///
 /// # Errors
-/// Returns an error if the image or the maximum tile size has no width or no height.
+/// Returns an error if a width or height of the image or of the maximum tile size is 0.
 pub fn tiles(
     image: [u32; 2],
     largest: [u32; 2],
@@ -46,8 +46,8 @@ pub fn tiles(
 }
 
 impl Viewport {
-    /// This viewport for an image that consists of only the tile: shifted by whole pixels and
-    /// otherwise unchanged, so the tiles together show the whole image.
+    /// Returns this viewport for an image that consists of only the tile. It is shifted by whole
+    /// pixels and otherwise unchanged, so the tiles together show the whole image.
     #[must_use]
     pub fn for_tile(&self, tile: PixelRect) -> Self {
         let (area, part) = (self.area(), Rectangle::from(tile));

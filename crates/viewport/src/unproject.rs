@@ -2,10 +2,10 @@
 //!
 //! ```text
 //!                     near          far
-//!                      │             │         All depths of a pixel are one line. Between the
-//!   center ●───────────┼─────────────┼──►      near and the far plane it is the pixel's ray;
-//!                    pixel           │         beyond all depths it runs through the center of
-//!                      │             │         projection, or is parallel if there is none.
+//!                      │             │         The points with all depths of a pixel form a line.
+//!   center ●───────────┼─────────────┼──►      Between the near and far planes, it is the pixel's
+//!                    pixel           │         ray. Extended, it passes through the center of
+//!                      │             │         projection, if the center is not at infinity.
 //! ```
 
 use crate::error::check_finite;
@@ -13,7 +13,7 @@ use crate::{Rectangle, Viewport, ViewportError};
 use glam::{DMat4, DVec4};
 use homog::{Clip, HPoint, Point, Projective, Ray, Screen, Space, Vector};
 
-/// The way back from pixels and depth to a space `S`: world, model or camera space.
+/// The inverse map from pixels and depth to a space `S`: world, model or camera space.
 ///
 /// ```
 /// use homog::{Clip, ClipRange, Projective, View};
@@ -33,21 +33,21 @@ pub struct Unprojector<S: Space> {
     screen_to_source: Projective<Screen, S>,
 }
 
-/// The ray through one position of the image, between the near and far planes.
+/// The ray through a position in the image, with its points on the near and far planes.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct PickRay<S: Space> {
-    /// The ray away from the viewer, with a direction of length 1. It begins at the center of
-    /// projection or, for a parallel projection, on the near plane.
+    /// The ray away from the viewer, with a direction of length 1. It starts at the center of
+    /// projection or, in a parallel projection, on the near plane.
     pub ray: Ray<S>,
     /// The point on the near plane.
     pub near: Point<S>,
-    /// The point on the far plane, not divided; with w = 0 it is at infinity.
+    /// The point on the far plane, before the divide; it is at infinity if w = 0.
     pub far: HPoint<S>,
 }
 
 impl Viewport {
-    /// Returns the complete chain from a space to the screen, M_vp · M (PL-1), not divided.
+    /// Returns the complete map from a space to the screen, M_vp · M, before the divide (PL-1).
     #[must_use]
     pub fn source_to_screen<S: Space>(
         &self,
@@ -56,7 +56,7 @@ impl Viewport {
         Projective::from_raw(self.ndc_to_screen().raw() * source_to_clip.raw())
     }
 
-    /// Returns the way back, given the inverse of the chain up to clip space. The closed-form
+    /// Creates the inverse map from the inverse of the chain up to clip space. The closed-form
     /// inverses of camera and projection lose the fewest digits.
     #[must_use]
     pub fn unprojector<S: Space>(&self, clip_to_source: Projective<Clip, S>) -> Unprojector<S> {
@@ -64,9 +64,9 @@ impl Viewport {
         Unprojector { viewport: *self, screen_to_source: Projective::from_raw(raw) }
     }
 
-    /// Returns the map to apply after the projection to make `area`, in pixels of this viewport's
-    /// convention, fill the whole view: a pick matrix like the one from gluPickMatrix, or the
-    /// sub-view of a tile. Everything outside the area is then outside the volume.
+    /// Returns the map to apply after the projection so that `area`, in pixels of this viewport's
+    /// convention, fills the whole view. It serves as a pick matrix, like `gluPickMatrix`, or as
+    /// the sub-view of a tile. Everything outside the area is then outside the view volume.
     ///
     /// # Errors
     /// Returns an error if the area is so small compared with the viewport that the factors are not
@@ -93,7 +93,7 @@ impl Viewport {
 }
 
 impl<S: Space> Unprojector<S> {
-    /// Returns the map M⁻¹ (UN-1), not divided.
+    /// Returns the map M⁻¹, before the divide (UN-1).
     #[must_use]
     pub const fn screen_to_source(&self) -> Projective<Screen, S> {
         self.screen_to_source
@@ -106,8 +106,8 @@ impl<S: Space> Unprojector<S> {
         divide_point(self.screen_to_source.transform_point(screen))
     }
 
-    /// Returns the center of projection. With w = 0 it is at infinity: the projection is parallel
-    /// along this direction.
+    /// Returns the center of projection. If w = 0, it is at infinity, and the projection is
+    /// parallel to this direction.
     #[must_use]
     pub fn center_of_projection(&self) -> HPoint<S> {
         self.screen_to_source.transform_direction(Vector::Z)
@@ -116,7 +116,7 @@ impl<S: Space> Unprojector<S> {
     /// Returns the ray through a position in the picture (UN-2), from the near to the far plane of
     /// the viewport's clip range.
     ///
-    /// `None` if there is no such ray: the map is singular or a number is not finite.
+    /// Returns `None` if the map is singular or if a number is not finite.
     #[must_use]
     pub fn pick_ray(&self, [x, y]: [f64; 2]) -> Option<PickRay<S>> {
         let at = |z: f64| {
@@ -126,7 +126,7 @@ impl<S: Space> Unprojector<S> {
         let range = self.viewport.range();
         let (near_z, far_z) = (range.near_depth(), range.far_depth());
         let (near, far) = (divide_point(at(near_z))?, at(far_z));
-        // The far plane may be at infinity; halfway in depth the point is always finite.
+        // The far plane may be at infinity, but the point at half the depth is always finite.
         let beyond = match divide_point(far) {
             Some(far) => far,
             None => divide_point(at(near_z * 0.5 + far_z * 0.5))?,
@@ -137,7 +137,8 @@ impl<S: Space> Unprojector<S> {
         far.is_finite().then_some(PickRay { ray: Ray { origin, direction }, near, far })
     }
 
-    /// Rounding must not turn a parallel projection into one from very far away.
+    /// Whether the projection is parallel up to rounding, which must not turn a parallel projection
+    /// into a perspective with a very distant center.
     fn is_parallel(&self) -> bool {
         let raw = self.screen_to_source.raw();
         raw.z_axis.w.abs() <= 1e-14 * raw.z_axis.abs().max_element()

@@ -1,4 +1,4 @@
-//! The viewport: from the canonical square to a rectangle of pixels (VP-1 to VP-3).
+//! The viewport: the map from the canonical square to a rectangle of pixels (VP-1 to VP-3).
 
 use crate::error::check_positive;
 use crate::{DepthRange, Rectangle, ViewportError};
@@ -7,11 +7,11 @@ use homog::{Affine, ClipRange, Ndc, PixelConvention, Point, Screen, Vector, YAxi
 /// A rectangle of pixels on which the canonical square [−1, 1]² is drawn, with the target depth
 /// range.
 ///
-/// The rectangle is in whole pixels from the corner of the image: `x = 10, width = 5` are pixels 10
-/// to 14 in any convention. The convention determines the coordinates: those five pixels cover [10,
-/// 15] with half-integer centers and [9½, 14½] with integer centers. y counts from the bottom row
-/// if it points up, and from the top row if it points down. In both cases the top of the canonical
-/// square, y = +1 or −1 in Vulkan's range, is at the top edge of the picture.
+/// The rectangle is in whole pixels from the corner of the image: in any convention, `x = 10, width
+/// = 5` selects pixels 10 to 14. The convention determines the coordinates: these five pixels cover
+/// [10, 15] with half-integer centers and [9½, 14½] with integer centers. If y points up, it is
+/// measured from the bottom row; if it points down, from the top row. In both cases, the top of the
+/// canonical square (y = +1, or −1 in Vulkan's range) is at the top edge of the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Viewport {
     area: Rectangle,
@@ -21,7 +21,7 @@ pub struct Viewport {
 }
 
 impl Viewport {
-    /// Returns the viewport on `area`, for points in clip space with the given `range`.
+    /// Creates a viewport on `area` for points in a clip space with this `range`.
     #[must_use]
     pub const fn new(
         area: Rectangle,
@@ -32,9 +32,9 @@ impl Viewport {
         Self { area, convention, range, depth }
     }
 
-    /// Returns a whole image with the pipeline's convention: half-integer centers, y down, depth 1
-    /// at the near plane and 0 at the far plane. `range` belongs to the projection: a [`ClipRange`]
-    /// or a `projection::Convention`.
+    /// Creates a viewport on a whole image, with the pipeline's convention: half-integer centers, y
+    /// down, depth 1 at the near plane and 0 at the far plane. `range` is the clip range of the
+    /// projection: a [`ClipRange`] or a `projection::Convention`.
     ///
     /// ```
     /// use homog::{ClipRange, Point};
@@ -62,8 +62,8 @@ impl Viewport {
         Ok(Self::new(area, PixelConvention::IMAGE, range, depth))
     }
 
-    /// Returns a whole image of `nx` by `ny` pixels with the convention of the textbook (Shirley
-    /// and Marschner, ch. 8): integer centers, y up, z kept (VP-1).
+    /// Creates a viewport on a whole image of `nx` by `ny` pixels, with the convention of the
+    /// textbook (Shirley and Marschner, ch. 8): integer centers, y up, z unchanged (VP-1).
     ///
     /// # Errors
     /// Returns an error if the image has no pixels.
@@ -77,19 +77,19 @@ impl Viewport {
         Ok(Self::new(area, PixelConvention::CHAPTER, ClipRange::CHAPTER, DepthRange::KEEP))
     }
 
-    /// This viewport in another pixel convention.
+    /// Returns this viewport with another pixel convention.
     #[must_use]
     pub const fn with_convention(self, convention: PixelConvention) -> Self {
         Self { convention, ..self }
     }
 
-    /// This viewport for another clip space; the depth map does not change.
+    /// Returns this viewport for another clip range; the depth range does not change.
     #[must_use]
     pub const fn with_range(self, range: ClipRange) -> Self {
         Self { range, ..self }
     }
 
-    /// This viewport with another depth range.
+    /// Returns this viewport with another depth range.
     #[must_use]
     pub const fn with_depth(self, depth: DepthRange) -> Self {
         Self { depth, ..self }
@@ -107,7 +107,7 @@ impl Viewport {
         self.convention
     }
 
-    /// Returns the range of the clip space that it accepts.
+    /// Returns the clip range of the points that the viewport accepts.
     #[must_use]
     pub const fn range(&self) -> ClipRange {
         self.range
@@ -123,8 +123,8 @@ impl Viewport {
     ///
     /// ```text
     /// [ w/2   0   0  x + w/2 + c ]      c = −½ for integer centers, 0 for half-integer ones;
-    /// [  0  ±h/2  0  y + h/2 + c ]      + if y runs the same way before and after, − if not;
-    /// [  0    0   s       o      ]      s, o of the depth range
+    /// [  0  ±h/2  0  y + h/2 + c ]      + if y keeps its direction, − if it flips;
+    /// [  0    0   s       o      ]      s and o are from the depth range
     /// [  0    0   0       1      ]
     /// ```
     #[must_use]
@@ -175,8 +175,8 @@ mod tests {
 
     #[test]
     fn the_square_fills_the_image_in_every_convention() {
-        // (y, centers, image of the lower left corner of the square, of the upper right one) for
-        // 640 by 480
+        // (y, centers, image of the square's lower left corner, image of its upper right corner)
+        // for 640 by 480 pixels
         let table = [
             (YAxis::Up, PixelCenters::Integer, [-0.5, -0.5], [639.5, 479.5]),
             (YAxis::Up, PixelCenters::Half, [0.0, 0.0], [640.0, 480.0]),
@@ -205,9 +205,9 @@ mod tests {
         assert_eq!(map.transform_point(Point::new(1.0, -1.0, -1.0)), Point::new(4.0, 2.0, 0.0));
         assert!(Viewport::image_for(0, 2, ClipRange::CHAPTER).is_err());
     }
-    /// Regression: a Vulkan projection on an image was upside down (finding 6.3).
+    /// Regression test: a Vulkan projection was upside down in an image (finding 6.3).
     #[test]
-    fn up_is_up_and_near_is_one_in_every_range() {
+    fn top_stays_up_and_near_is_one_in_every_range() {
         let reversed = ClipRange::ZERO_ONE.reversed();
         let odd = ClipRange::VULKAN.with_depths(0.25, -0.5).expect("allowed");
         for range in [

@@ -1,4 +1,4 @@
-//! Window to viewport in the plane, by both methods of the textbooks (WV-1, WV-2).
+//! The map from a window to a viewport in the plane, by both textbook methods (WV-1, WV-2).
 //!
 //! ```text
 //!   window                         viewport
@@ -13,8 +13,8 @@ use crate::error::check_interval;
 use glam::{DMat3, DVec2};
 use homog::Homography;
 
-/// A rectangle by its limits [min, max] on each axis. With max < min it is mirrored, which is
-/// allowed and mirrors the picture.
+/// A rectangle, defined by its limits [min, max] on each axis. If max < min, the rectangle is
+/// mirrored, which is allowed and mirrors the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Limits {
     /// The limits on the x axis.
@@ -43,11 +43,11 @@ pub struct WindowToViewport {
 }
 
 impl WindowToViewport {
-    /// Returns the map that takes the sides of `window` to the sides of `viewport`.
+    /// Creates the map that takes the sides of `window` to the sides of `viewport`.
     ///
     /// # Errors
-    /// Returns an error if a limit is not finite, the window or the viewport has no width or no
-    /// height, or they differ so much in size that the factors are not finite.
+    /// Returns an error if a limit is not finite, if a width or height of the window or viewport is
+    /// 0, or if they differ so much in size that the factors are not finite.
     pub fn new(window: Limits, viewport: Limits) -> Result<Self, ViewportError> {
         check_interval("window's x", window.x)?;
         check_interval("window's y", window.y)?;
@@ -62,7 +62,7 @@ impl WindowToViewport {
         Ok(map)
     }
 
-    /// Returns the factors (sx, sy).
+    /// Returns the scale factors (sx, sy).
     #[must_use]
     pub fn scale_factors(&self) -> [f64; 2] {
         let factor = |window: [f64; 2], viewport: [f64; 2]| {
@@ -79,8 +79,8 @@ impl WindowToViewport {
     }
 
     /// Returns the image of a point by equal ratios (WV-1): (xv − xv min)/(xv max − xv min) = (xw −
-    /// xw min)/(xw max − xw min). Points outside the window map outside the viewport by the same
-    /// ratio.
+    /// xw min)/(xw max − xw min). Points outside the window map to points outside the viewport by
+    /// the same ratio.
     #[must_use]
     pub fn map_by_ratio(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let image = |x: f64, window: [f64; 2], viewport: [f64; 2]| {
@@ -90,7 +90,8 @@ impl WindowToViewport {
         [image(x, self.window.x, self.viewport.x), image(y, self.window.y, self.viewport.y)]
     }
 
-    /// Returns the image of a point by the matrix of the chain (WV-2): the same up to rounding.
+    /// Returns the image of a point by the matrix of the chain (WV-2). Up to rounding, it is the
+    /// same as [`map_by_ratio`](Self::map_by_ratio) returns.
     #[must_use]
     pub fn map_by_chain(&self, point: [f64; 2]) -> [f64; 2] {
         self.homography().raw().transform_point2(point.into()).into()
@@ -99,7 +100,7 @@ impl WindowToViewport {
     /// Returns the three factors of the chain, in the order in which a point passes through them:
     /// T(−xw min, −yw min) to the origin, S(sx, sy), T(xv min, yv min) to the target position.
     ///
-    /// Both signs in the first factor are minus; one source prints T(−xw min, +yw min) (misprint
+    /// Both signs in the first factor are negative; one source prints T(−xw min, +yw min) (misprint
     /// M18).
     #[must_use]
     pub fn factor_chain(&self) -> [Homography; 3] {

@@ -73,7 +73,7 @@ pub struct EdgeParts {
 /// use projection::{Convention, Orthographic};
 /// use viewport::Viewport;
 ///
-/// // A triangle at z = 0 in front of a line at z = −1, seen along −z through a window from −2 to 2.
+/// // A triangle at z = 0 in front of a line at z = −1, seen along −z in a window from −2 to 2.
 /// let camera = Camera::look_to(Point::new(0.0, 0.0, 5.0), -Vector::Z, Vector::Y)?;
 /// let window = Orthographic::new(-2.0, 2.0, -2.0, 2.0, 1.0, 10.0)?;
 /// let view_to_clip = window.view_to_clip(Convention::CHAPTER);

@@ -27,8 +27,8 @@ fn count_class(classes: &[EdgeClass], class: EdgeClass) -> usize {
     classes.iter().filter(|other| **other == class).count()
 }
 
-/// Two squares side by side; the second one begins `gap` to the right of the first and is bent back
-/// by `fall`.
+/// Returns two squares side by side. The second starts `gap` to the right of the first and is bent
+/// back by `fall`.
 fn two_squares(gap: f32, fall: f32) -> Primitive {
     let (x, right) = (gap, 1.0 + gap);
     triangle_mesh(
@@ -47,8 +47,8 @@ fn two_squares(gap: f32, fall: f32) -> Primitive {
 }
 
 #[test]
-fn tangent_edges_are_between_the_tangent_angle_and_that_of_creases() {
-    // A strip of three squares, bent by 10 and by 20 degrees; creases are above 15.
+fn tangent_edges_are_between_the_tangent_angle_and_the_crease_angle() {
+    // A strip of three squares, bent by 10 and by 20 degrees. The crease angle is 15 degrees.
     let mut corners = vec![[-1.0, 0.0, 0.0], [-1.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     for degrees in [10.0_f64, 30.0] {
         let [x, _, z] = corners[corners.len() - 1];
@@ -77,8 +77,8 @@ fn tangent_edges_are_between_the_tangent_angle_and_that_of_creases() {
 }
 
 #[test]
-fn split_vertices_make_no_boundary() {
-    // Exactly together, and as far apart as 12-bit quantization may move them.
+fn split_vertices_do_not_create_a_boundary() {
+    // First at identical positions, then as far apart as 12-bit quantization can move them.
     for gap in [0.0, 2e-4] {
         let found = edge_classes(vec![two_squares(gap, 0.0)]);
         assert_eq!(count_class(&found, EdgeClass::Boundary), 6, "{found:?}");
@@ -88,15 +88,16 @@ fn split_vertices_make_no_boundary() {
 }
 
 #[test]
-fn a_dihedral_angle_beyond_the_limit_is_a_crease() {
-    // The second square falls by 0.5 per unit: 26.6 degrees; by 0.6: 31 degrees.
+fn a_dihedral_angle_above_the_limit_is_a_crease() {
+    // The second square is bent back by 0.5 per unit, or 26.6 degrees, and then by 0.6, or 31
+    // degrees.
     assert_eq!(count_class(&edge_classes(vec![two_squares(0.0, 0.5)]), EdgeClass::Crease), 0);
     assert_eq!(count_class(&edge_classes(vec![two_squares(0.0, 0.6)]), EdgeClass::Crease), 1);
 }
 
 #[test]
 fn a_fold_is_a_silhouette() {
-    // The second square comes back below the first.
+    // The second square is folded back below the first.
     let fold = triangle_mesh(
         &[[-1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, -1.0]],
         &[0, 1, 2, 1, 3, 2],
@@ -106,7 +107,7 @@ fn a_fold_is_a_silhouette() {
     assert_eq!(count_class(&found, EdgeClass::Boundary), 4);
 }
 
-/// One square on the left, two of half the height on the right.
+/// One square is on the left, and two rectangles of half its height are on the right.
 ///
 /// ```text
 ///  3───2───8
@@ -116,7 +117,7 @@ fn a_fold_is_a_silhouette() {
 ///  0───1───6
 /// ```
 #[test]
-fn a_t_junction_makes_no_boundary() {
+fn a_t_junction_does_not_create_a_boundary() {
     let tee = triangle_mesh(
         &[
             [-1.0, 0.0, 0.0],
@@ -132,14 +133,15 @@ fn a_t_junction_makes_no_boundary() {
         &[0, 1, 2, 0, 2, 3, 4, 6, 7, 4, 7, 5, 5, 7, 8, 5, 8, 2],
     );
     let found = edge_classes(vec![tee]);
-    // The rim: three sides on the left, two below and above, two on the right.
+    // The rim has three sides around the left square and four around the right rectangles.
     assert_eq!(count_class(&found, EdgeClass::Boundary), 7, "{found:?}");
-    // Three diagonals, the line between the right squares, and the two halves of the middle.
+    // These are three diagonals, the line between the right rectangles, and the two halves of the
+    // middle edge.
     assert_eq!(count_class(&found, EdgeClass::Facet), 6);
 }
 
 #[test]
-fn a_face_and_its_back_are_one() {
+fn a_face_and_its_back_count_as_one_face() {
     let mut both = quad_mesh([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
     both.indices.extend([2, 1, 0, 3, 2, 0]);
     assert_eq!(
@@ -149,7 +151,7 @@ fn a_face_and_its_back_are_one() {
 }
 
 #[test]
-fn materials_meet_in_tangent_edges() {
+fn different_materials_meet_at_tangent_edges() {
     let left = quad_mesh([[-1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 1.0, 0.0]]);
     let mut right = quad_mesh([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
     assert_eq!(

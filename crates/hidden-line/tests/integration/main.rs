@@ -1,7 +1,7 @@
 //! Line drawings of scenes with lines that can be computed by hand.
 //!
-//! All are drawn on 800 × 800 pixels, with 100 pixels per unit of the picture, the origin in the
-//! middle and y up; X and Y below are in those units.
+//! All pictures have 800 × 800 pixels. In picture units of 100 pixels, the origin is in the middle
+//! and y points up; X and Y in the comments are in these units.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests fail by panics")]
 #![allow(unreachable_pub, reason = "the modules of a program have no other outside")]

@@ -1,14 +1,14 @@
-//! Random assemblies of parts that nearly touch: their drawings compared with the z-buffer.
+//! Compares drawings of random assemblies, whose parts nearly touch, with the z-buffer.
 //!
 //! ```text
-//!   ┌──────┐┌───────┐     gaps of no width, of a fraction of the touching distance, of some of
-//!   │      │├───┬───┤     them, and of thousands
+//!   ┌──────┐┌───────┐     gaps of zero width, of a fraction of the touching distance, of a few
+//!   │      │├───┬───┤     touching distances, and of thousands
 //!   └──────┘└───┴───┘
 //! ```
 //!
 //! Boxes, plates and prisms are placed face to face along the axes of an assembly, which is
 //! rotated, scaled and moved. It is seen in perspective and parallel projection, from any direction
-//! and straight from the front. Everything follows from the number of the scene.
+//! and straight from the front. The scene number determines everything.
 
 use super::stage::*;
 use camera::{Basis, Slopes, ViewProjection, frame_oblique, frame_perspective};
@@ -22,16 +22,16 @@ use std::sync::Arc;
 /// The fraction of the visible length that the z-buffer may hide.
 const MAX_DISAGREEMENT: f64 = 0.002;
 
-/// The scenes in the test.
+/// The numbers of the tested scenes.
 const SCENES: Range<u64> = 0..60;
 
-/// The worst scenes found in a search among many.
+/// The worst scenes found in a search of many scenes.
 const WORST_SCENES: [u64; 6] = [241, 252, 890, 929, 1010, 1153];
 
-/// The gaps between parts, in touching distances: 1 / 2²¹ of the assembly's diagonal.
+/// The gaps between parts, in touching distances, each 1 / 2²¹ of the assembly's diagonal.
 const GAPS: [f64; 12] = [0.0, 0.0, 0.1, 0.5, 0.9, 1.1, 2.0, 4.0, 8.0, 32.0, 10_000.0, -0.5];
 
-/// Random numbers: splitmix64 (Steele, Lea, Flood 2014).
+/// A random number generator: splitmix64 (Steele, Lea and Flood 2014).
 struct Random(u64);
 
 impl Random {
@@ -42,7 +42,7 @@ impl Random {
         (z ^ (z >> 31)) % end
     }
 
-    /// Returns a random number in an interval, in 2²⁰ steps.
+    /// Returns a random number in an interval, quantized to 2²⁰ steps.
     fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.below(1 << 20) as f64 / f64::from(1 << 20)
     }
@@ -56,8 +56,8 @@ impl Random {
     }
 }
 
-/// Returns a part in the unit cube: a box, or a prism about one of the axes whose sides touch the
-/// cube.
+/// Returns a part in the unit cube: a box, or a prism that touches the sides of the cube, with one
+/// of the coordinate axes as its axis.
 fn unit_part(random: &mut Random) -> Primitive {
     if random.below(3) > 0 {
         return cuboid_mesh([0.0; 3], [1.0; 3]);
@@ -82,8 +82,8 @@ fn unit_part(random: &mut Random) -> Primitive {
     triangle_mesh(&positions, &indices)
 }
 
-/// Returns the parts of a scene as boxes, given by opposite corners: each new one is placed against
-/// a face of an earlier one, with a gap.
+/// Returns the parts of a scene as boxes, specified by opposite corners. Each new box is placed
+/// against a face of an earlier box, with a gap.
 fn stack_boxes(random: &mut Random) -> Vec<[[f64; 3]; 2]> {
     let mut boxes = vec![[[0.0; 3], [0; 3].map(|_| random.between(0.1, 1.0))]];
     // About the diagonal of the result.
@@ -95,7 +95,7 @@ fn stack_boxes(random: &mut Random) -> Vec<[[f64; 3]; 2]> {
         let gap = random.choose(&GAPS) * touching;
         let (mut from, mut to) = ([0.0; 3], [0.0; 3]);
         for k in 0..3 {
-            // Of the same size, flush on one side, or shifted.
+            // The new part has the same size, is flush on one side, or is shifted.
             let size = max[k] - min[k];
             (from[k], to[k]) = match random.below(4) {
                 0 | 1 => (min[k], max[k]),
@@ -116,8 +116,8 @@ fn stack_boxes(random: &mut Random) -> Vec<[[f64; 3]; 2]> {
     boxes
 }
 
-/// Returns the parts of a scene, placed by matrices in f64 or, in every other scene, with the
-/// vertices rounded to single precision.
+/// Returns the parts of a scene, placed by f64 matrices or, in every other scene, with vertices
+/// rounded to single precision.
 fn assembly(random: &mut Random) -> Vec<ModelInstance> {
     let scale = random.choose(&[1e-3, 1.0, 1.0, 25.4, 1e3]);
     let shift = random.choose(&[0.0, 0.0, 1.0, 30.0]) * scale;
@@ -170,7 +170,7 @@ fn random_view(models: &[ModelInstance], random: &mut Random) -> ViewProjection 
     ViewProjection { camera: f.camera, view_to_clip }
 }
 
-/// Builds the scene with a given number.
+/// Builds the scene with this number.
 fn nearly_touching_scene(number: u64) -> TestScene {
     let random = &mut Random(number.wrapping_mul(0xd134_2543_de82_ef95));
     let models = assembly(random);
@@ -178,7 +178,7 @@ fn nearly_touching_scene(number: u64) -> TestScene {
     TestScene { models, view_projection, sections: Vec::new(), uncut: Vec::new() }
 }
 
-/// Returns the drawing of a scene, and its agreement with the z-buffer.
+/// Draws a scene, and returns the drawing and its agreement with the z-buffer.
 fn measure(number: u64) -> (LineDrawing, Agreement) {
     let scene = nearly_touching_scene(number);
     let subject = scene.drawing_subject();
@@ -187,7 +187,8 @@ fn measure(number: u64) -> (LineDrawing, Agreement) {
     (drawing, agreement)
 }
 
-/// Returns the worst of some scenes, with the length that the z-buffer denies and the segments.
+/// Returns the worst scenes of a series, with the length that the z-buffer denies and the denied
+/// segments.
 fn worst_scene(scenes: impl Iterator<Item = u64>) -> (f64, String) {
     let ratio = |number| (measure(number).1.disagreement_ratio(), number);
     let worst = scenes.map(ratio).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
@@ -202,7 +203,7 @@ fn worst_scene(scenes: impl Iterator<Item = u64>) -> (f64, String) {
 #[test]
 fn assemblies_that_nearly_touch_agree_with_the_z_buffer() {
     let scenes = match std::env::var("NEARLY_TOUCHING_SCENES") {
-        // A search among other scenes, such as 1000..3000.
+        // Set this variable to search other scenes, such as 1000..3000.
         Ok(range) => {
             let (first, end) = range.split_once("..").unwrap();
             first.parse().unwrap()..end.parse().unwrap()

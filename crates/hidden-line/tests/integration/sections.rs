@@ -10,7 +10,7 @@ use homog::{Normal, Plane, Point, World};
 use model::{Model, Primitive};
 use std::collections::BTreeMap;
 
-/// Returns the plane at this x; the side with lower x is retained.
+/// Returns the section plane at this x; it retains the side with lower x.
 fn plane_x(at: f64) -> Plane<World> {
     Plane::through(Point::new(at, 0.0, 0.0), Normal::new(-1.0, 0.0, 0.0))
 }
@@ -34,7 +34,7 @@ fn merge_primitives(mut one: Primitive, other: &Primitive) -> Primitive {
     one
 }
 
-/// Returns the point (z, y) of the plane x = 0 with this oblique image.
+/// Returns the point (z, y) in the plane x = 0 that has this oblique image.
 fn project_to_plane([x, y]: [f64; 2]) -> [f64; 2] {
     [-2.0 * x, y - x]
 }
@@ -55,17 +55,17 @@ fn a_cube_cut_in_half_shows_its_cap() {
     ];
     assert_segments_cover(&segments_where(&drawing, is_visible_class(Section)), &cap);
     assert_eq!(segments_where(&drawing, |line| line.class == Section && !line.visible).len(), 0);
-    // Three edges of the remaining half are behind it.
+    // Three edges of the remaining half are behind the cap.
     let hidden =
         [[[-0.5, -0.5], [-0.5, 1.5]], [[-0.5, -0.5], [0.5, -0.5]], [[-0.5, -0.5], [-1.5, -1.5]]];
     assert_segments_cover(&segments_where(&drawing, |line| !line.visible), &hidden);
     assert!(drawing.warnings.is_empty());
 }
 
-/// Hatch lines are inside the matter and nowhere else, equally spaced and at 45°. They are dense
-/// enough to measure its area.
+/// Hatch lines cover only the cut material; they are equally spaced and at 45°. They are dense
+/// enough to measure the area of the cut.
 #[test]
-fn hatching_fills_caps_and_spares_holes() {
+fn hatching_fills_caps_but_not_holes() {
     let tube = merge_primitives(
         cuboid_mesh([-1.0; 3], [1.0; 3]),
         &box_with_hole([-0.9, -0.6, -0.5], [0.9, 0.6, 0.7]),
@@ -78,9 +78,9 @@ fn hatching_fills_caps_and_spares_holes() {
     let mut area = 0.0;
     for line in hatching {
         let [a, b] = line.map(DVec2::from);
-        assert!(((b - a).x - (b - a).y).abs() < 1e-9, "{line:?} rises");
+        assert!(((b - a).x - (b - a).y).abs() < 1e-9, "{line:?} is not at 45°");
         let number = (800.0 + (a.x - a.y) * 100.0) * std::f64::consts::FRAC_1_SQRT_2 / 2.0;
-        assert!((number - number.round()).abs() < 1e-6, "{line:?} is beside the grid: {number}");
+        assert!((number - number.round()).abs() < 1e-6, "{line:?} is not equally spaced: {number}");
         for t in [1e-6, 0.25, 0.5, 0.75, 1.0 - 1e-6] {
             let [z, y] = project_to_plane((a + (b - a) * t).into());
             let within = |z0: f64, z1: f64, y0: f64, y1: f64, by: f64| {
@@ -91,12 +91,12 @@ fn hatching_fills_caps_and_spares_holes() {
         }
         area += segment_length(line) * 0.02;
     }
-    // The picture halves depths: half of 4 − 1.44 square units.
+    // The picture halves depths, so the area is half of 4 − 1.44 square units.
     assert!((area - 1.28).abs() < 0.01, "{area}");
 }
 
 #[test]
-fn a_cap_hides_what_is_behind_it() {
+fn a_cap_hides_everything_behind_it() {
     let solids =
         vec![cuboid_mesh([-1.0; 3], [1.0; 3]), cuboid_mesh([-0.9, -0.3, -0.3], [-0.1, 0.3, 0.3])];
     let drawing = draw_scene_lines(&cut_scene(build_model(solids), &[plane_x(0.0)]));
@@ -139,7 +139,7 @@ fn an_open_section_adds_a_warning() {
     let mut open = cuboid_mesh([-1.0; 3], [1.0; 3]);
     open.indices.drain(24..30);
     let whole = cut_scene(build_model(vec![open.clone()]), &[plane_x(0.0)]);
-    assert!(draw_scene_lines(&whole).warnings.is_empty(), "the cut goes round");
+    assert!(draw_scene_lines(&whole).warnings.is_empty(), "the cut is closed");
     let lengthwise = Plane::through(Point::ORIGIN, Normal::new(0.0, 0.0, -1.0));
     let mut named = build_model(vec![cuboid_mesh([-3.0, -1.0, -1.0], [-2.0, 1.0, 1.0]), open]);
     named.nodes[1].name = Some("tray".to_owned());
@@ -154,7 +154,7 @@ fn an_open_section_adds_a_warning() {
 }
 
 #[test]
-fn parts_of_one_body_in_several_objects_close_together() {
+fn several_objects_of_one_body_are_capped_together() {
     let body = cuboid_mesh([-1.0; 3], [1.0; 3]);
     let (mut one, mut other) = (body.clone(), body);
     one.indices.truncate(18);
@@ -171,7 +171,7 @@ fn adjacent_parts_have_different_hatching() {
         cuboid_mesh([-1.0, y, -1.0], [1.0, y + 0.5, 1.0])
     });
     let drawing = draw_scene_lines(&cut_scene(build_model(boxes.collect()), &[plane_x(0.0)]));
-    // For each object, the direction and the distance in hundredths of a unit.
+    // For each object, the direction and the spacing in hundredths of a unit.
     let mut hatch_lines: BTreeMap<u32, Vec<(bool, f64)>> = BTreeMap::new();
     for line in drawing.segments.iter().filter(|line| line.class == Hatching) {
         let [a, b] = line.ends;
@@ -191,7 +191,7 @@ fn adjacent_parts_have_different_hatching() {
     }
 }
 
-/// In any view, visible and hidden parts make up the whole, and the z-buffer agrees.
+/// In any view, visible and hidden parts add up to whole edges, and the z-buffer agrees.
 #[test]
 fn cut_drawings_agree_with_their_z_buffer_images() {
     let frustum = projection::Frustum::new(-0.5, 0.5, -0.5, 0.5, 1.0, 20.0).unwrap();
@@ -226,23 +226,23 @@ fn cut_drawings_agree_with_their_z_buffer_images() {
     }
 }
 
-/// Asserts that the pieces of each edge that is not hatching follow each other without gap or
-/// overlap.
+/// Asserts that the pieces of each edge, except hatch lines, follow each other without gaps or
+/// overlaps.
 fn assert_closed_outlines(drawing: &LineDrawing) {
     let lines: Vec<_> = drawing.segments.iter().filter(|line| line.class != Hatching).collect();
     for pieces in lines.chunk_by(|a, b| a.edge == b.edge) {
         let sum: f64 = pieces.iter().map(|line| line.ends[0].distance(line.ends[1])).sum();
         let whole = pieces[0].ends[0].distance(pieces[pieces.len() - 1].ends[1]);
-        assert!((sum - whole).abs() < 1e-6, "{sum} of {whole}");
+        assert!((sum - whole).abs() < 1e-6, "the pieces add up to {sum}, not {whole}");
     }
 }
 
-/// For example, spheres whose vertices are on the plane up to rounding.
+/// This occurs, for example, in spheres whose vertices are on the plane up to rounding.
 #[test]
 fn a_section_through_vertices_nearly_on_the_plane_closes() {
     for nudge in [0.0_f32, 1e-7, -1e-7, 3e-8] {
         let mut cube = cuboid_mesh([-1.0; 3], [1.0; 3]);
-        // The middle of the top and of the bottom as corners, slightly off the plane.
+        // The middles of the top and the bottom are vertices, slightly off the plane.
         let first = cube.positions.len() as u32;
         let rim = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
         cube.indices.drain(12..24);

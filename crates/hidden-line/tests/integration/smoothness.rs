@@ -5,7 +5,7 @@ use hidden_line::{DrawOptions, EdgeClass, LineDrawing, SilhouetteMethod, draw};
 use model::{Model, Primitive};
 use std::f64::consts::TAU;
 
-/// Returns a drawing through the window, from the front.
+/// Draws a model from the front, through the window.
 fn draw_front(model: Model, options: &DrawOptions) -> LineDrawing {
     let scene = drawing_scene(model, view_projection(window_projection()));
     draw(&scene.drawing_subject(), options, 1).unwrap()
@@ -15,8 +15,8 @@ fn count(drawing: &LineDrawing, class: EdgeClass) -> usize {
     drawing.segments.iter().filter(|segment| segment.class == class).count()
 }
 
-/// Returns the side of a vertical column with eight sides around the y axis. With `is_smooth` it
-/// has the normals of a cylinder, otherwise the normals of its faces.
+/// Returns the lateral surface of a vertical column with eight sides around the y axis. If
+/// `is_smooth` is true, it has the normals of a cylinder, otherwise the normals of its faces.
 fn column(is_smooth: bool) -> Primitive {
     let (mut positions, mut normals, mut indices) = (Vec::new(), Vec::new(), Vec::new());
     for side in 0..8 {
@@ -35,12 +35,12 @@ fn column(is_smooth: bool) -> Primitive {
 }
 
 #[test]
-fn normals_that_agree_make_an_edge_smooth() {
+fn matching_normals_make_an_edge_smooth() {
     let creases = |is_smooth: bool, asks_normals: bool| {
         let options = DrawOptions { asks_normals, ..DrawOptions::hidden_edges_removed() };
         count(&draw_front(build_model(vec![column(is_smooth)]), &options), EdgeClass::Crease)
     };
-    // Its faces meet at 45°, and three edges are visible inside the outline.
+    // The faces of the column meet at 45°, and three edges are visible inside the outline.
     assert_eq!(creases(false, true), 3);
     assert_eq!(creases(true, true), 0);
     assert_eq!(creases(true, false), 3);
@@ -77,8 +77,8 @@ fn the_interpolated_contour_of_a_ball_is_a_circle() {
     let radius = |[x, y]: [f64; 2]| libm::hypot(x, y);
     assert!(lines.as_flattened().iter().all(|&end| (radius(end) - 2.0).abs() < 0.012));
     let length: f64 = lines.iter().map(|[a, b]| radius([b[0] - a[0], b[1] - a[1]])).sum();
-    assert!((length / (2.0 * TAU) - 1.0).abs() < 0.01, "{length}, and no gaps nor doubles");
-    assert_eq!(smooth.segments.len(), lines.len(), "nothing else is drawn");
+    assert!((length / (2.0 * TAU) - 1.0).abs() < 0.01, "length {length}: gaps or duplicates");
+    assert_eq!(smooth.segments.len(), lines.len(), "something else is drawn");
 }
 
 #[test]

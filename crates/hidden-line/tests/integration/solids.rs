@@ -29,7 +29,7 @@ fn a_cube_shows_nine_edges() {
 }
 
 #[test]
-fn a_cube_within_a_cube_is_hidden() {
+fn a_cube_inside_a_cube_is_hidden() {
     let cubes = vec![cuboid_mesh([-1.0; 3], [1.0; 3]), cuboid_mesh([-0.5; 3], [0.5; 3])];
     let drawing = draw_scene_lines(&drawing_scene(build_model(cubes), oblique_view()));
     assert_eq!(drawing.segments.len(), 24);
@@ -46,7 +46,7 @@ fn a_cube_within_a_cube_is_hidden() {
 }
 
 #[test]
-fn of_the_first_layer_are_lines_behind_one_wall_alone() {
+fn the_first_layer_has_only_lines_behind_one_wall() {
     let wall = cuboid_mesh([-2.0, -1.0, 3.0], [2.0, 1.0, 3.5]);
     let second = cuboid_mesh([0.25, -1.0, 2.0], [2.0, 1.0, 2.5]);
     let wire = line_mesh(&[[-3.0, 0.25, 1.0], [3.0, 0.25, 1.0]]);
@@ -68,7 +68,7 @@ fn of_the_first_layer_are_lines_behind_one_wall_alone() {
     assert!(!of_second.is_empty());
 }
 
-/// A bar comes out of the cube's right side.
+/// A bar protrudes from the cube's right side.
 ///
 /// ```text
 ///          ╱╲
@@ -77,7 +77,7 @@ fn of_the_first_layer_are_lines_behind_one_wall_alone() {
 ///        ╲    │ │    │
 /// ```
 ///
-/// The intersection is a square with two visible sides. The bar hides a part of the cube's lower
+/// The intersection is a square with two visible sides. The bar hides parts of the cube's lower
 /// right edge and of its rear right edge.
 #[test]
 fn a_bar_through_the_side_of_a_cube() {
@@ -111,10 +111,10 @@ fn a_bar_through_the_side_of_a_cube() {
     assert_segments_cover(&segments_where(&drawing, |line| line.visible && line.object == 1), &bar);
 }
 
-/// A column in front of the cube's left: its outline is where x − z/2 of its corners is smallest
-/// and largest.
+/// A column is in front of the left side of the cube. Its outline is where x − z/2 of its corners
+/// is smallest and largest.
 #[test]
-fn a_cylinder_before_a_box() {
+fn a_cylinder_in_front_of_a_box() {
     let sides = 48;
     let corner = |k: usize| {
         let angle = std::f64::consts::TAU * k as f64 / f64::from(sides);
@@ -135,7 +135,8 @@ fn a_cylinder_before_a_box() {
     let right = positions.iter().map(|[x, _, z]| f64::from(*x) - 0.5 * f64::from(*z));
     let right = right.fold(f64::NEG_INFINITY, f64::max);
     assert!(right > -1.0 && right < -0.8, "{right}");
-    // The column hides the left part below its top, at Y = 3 − z/2 for z from 3 to 5.
+    // The column hides the left part of the cube below the column's top, which is at Y = 3 − z/2
+    // for z from 3 to 5.
     let at_bottom = segments_where(&drawing, |line| {
         line.visible && line.object == 0 && line.ends.iter().all(|end| end.y == 550.0)
     });
@@ -156,7 +157,7 @@ fn a_cylinder_before_a_box() {
     }
 }
 
-/// Three strips, each over the next: no painting order gives the correct picture.
+/// Three strips each overlap the next, so no painting order gives the correct picture.
 #[test]
 fn a_cycle_of_three() {
     let strip = |corners: [[f32; 2]; 4], z: fn([f32; 2]) -> f32| {
@@ -209,14 +210,14 @@ fn a_cycle_of_three() {
     );
 }
 
-/// A floor that begins behind the eye, at height −1, and a line below it at height −2: the line is
+/// A floor at height −1 begins behind the eye, and a line runs below it at height −2. The line is
 /// visible where the near plane cuts the floor away.
 #[test]
 fn a_floor_cut_by_the_near_plane() {
     let floor =
         quad_mesh([[-1.0, -1.0, 5.0], [1.0, -1.0, 5.0], [1.0, -1.0, -10.0], [-1.0, -1.0, -10.0]]);
     let line = line_mesh(&[[0.0, -2.0, -1.5], [0.0, -2.0, -15.0]]);
-    // Half the picture is 4 units, and 2 at distance 1: X = 2 x/−z.
+    // Half the picture is 4 units wide, which is 2 at distance 1, so X = 2 x/−z.
     let lens = projection::Frustum::new(-2.0, 2.0, -2.0, 2.0, 1.0, 100.0).unwrap();
     let lens = lens.view_to_clip(projection::Convention::CHAPTER);
     let drawing =
@@ -225,7 +226,8 @@ fn a_floor_cut_by_the_near_plane() {
         &segments_where(&drawing, is_visible_class(Boundary)),
         &[[[-2.0, -2.0], [-0.2, -0.2]], [[2.0, -2.0], [0.2, -0.2]], [[-0.2, -0.2], [0.2, -0.2]]],
     );
-    // The ray to (−2, z) passes the floor's height at z/2, which the near plane keeps from z = −2 on.
+    // The ray to the line at (−2, z) crosses the floor's height at z/2, so the floor, which the
+    // near plane cuts at −1, hides the line from z = −2 on.
     assert_segments_cover(
         &segments_where(&drawing, is_visible_class(Line)),
         &[[[0.0, -8.0 / 3.0], [0.0, -2.0]]],
@@ -234,8 +236,8 @@ fn a_floor_cut_by_the_near_plane() {
     assert_segments_cover(&hidden, &[[[0.0, -2.0], [0.0, -4.0 / 15.0]]]);
 }
 
-/// Two faces meet, seen from the front, and a line runs exactly behind their common edge: together
-/// they hide it. Behind the border of a single face it only touches, and stays visible.
+/// A line that runs exactly behind the common edge of two faces is hidden by both faces together.
+/// Exactly behind the border of a single face, it only touches the face and stays visible.
 #[test]
 fn a_line_exactly_behind_a_shared_edge_is_hidden() {
     let roof = triangle_mesh(

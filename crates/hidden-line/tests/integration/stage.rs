@@ -1,4 +1,4 @@
-//! Test scenes of boxes and strips, and the comparison of drawings with expected segments.
+//! Test scenes made of boxes and strips, and comparison of drawings with expected segments.
 
 use camera::Camera;
 use camera::ViewProjection;
@@ -52,19 +52,19 @@ pub fn drawing_scene(model: Model, view_projection: ViewProjection) -> TestScene
     TestScene { models: vec![instance], view_projection, sections: Vec::new(), uncut: Vec::new() }
 }
 
-/// Looks along −z from the origin.
+/// Returns a view along −z from the origin.
 pub fn view_projection(view_to_clip: Projective<View, Clip>) -> ViewProjection {
     let camera = Camera::look_to(Point::ORIGIN, -Vector::Z, Vector::Y).unwrap();
     ViewProjection { camera, view_to_clip }
 }
 
-/// Returns the window from −4 to 4 with depths from −8 to 8.
+/// Returns the projection through a window from −4 to 4, with depths from −8 to 8.
 pub fn window_projection() -> Projective<View, Clip> {
     let window = Orthographic::new(-4.0, 4.0, -4.0, 4.0, -8.0, 8.0).unwrap();
     window.view_to_clip(Convention::CHAPTER)
 }
 
-/// From the front, the right and above: X = x − z/2, Y = y − z/2.
+/// Returns an oblique view from the front, the right and above: X = x − z/2, Y = y − z/2.
 pub fn oblique_view() -> ViewProjection {
     let oblique = Oblique::by_direction(Vector::new(-0.5, -0.5, -1.0), 0.0).unwrap();
     view_projection(oblique.depth_preserving().then_project(window_projection()))
@@ -80,12 +80,12 @@ pub fn line_mesh(positions: &[[f32; 3]]) -> Primitive {
     Primitive { positions: positions.to_vec(), indices, topology, ..Primitive::default() }
 }
 
-/// Returns a quadrilateral, cut along the diagonal from its first corner.
+/// Returns a quadrilateral, split along the diagonal from its first corner.
 pub fn quad_mesh(corners: [[f32; 3]; 4]) -> Primitive {
     triangle_mesh(&corners, &[0, 1, 2, 0, 2, 3])
 }
 
-/// Returns a box; each face has its own corners, as in files.
+/// Returns a box. Faces do not share vertices, as is common in files.
 pub fn cuboid_mesh(min: [f32; 3], max: [f32; 3]) -> Primitive {
     let corner = |n: usize| [0, 1, 2].map(|axis| if n >> axis & 1 == 0 { min } else { max }[axis]);
     let faces =
@@ -95,10 +95,11 @@ pub fn cuboid_mesh(min: [f32; 3], max: [f32; 3]) -> Primitive {
     triangle_mesh(&positions, &indices)
 }
 
-/// A segment of the picture, given by its ends.
+/// The ends of a segment, in picture units.
 pub type Segment = [[f64; 2]; 2];
 
-/// Returns the drawing with hidden segments retained; the same with two threads.
+/// Returns the drawing with hidden segments retained, and asserts that two threads give the same
+/// result.
 pub fn draw_scene_lines(scene: &TestScene) -> LineDrawing {
     let drawing = draw(&scene.drawing_subject(), &DrawOptions::hidden_edges_retained(), 1).unwrap();
     assert_eq!(
@@ -108,7 +109,7 @@ pub fn draw_scene_lines(scene: &TestScene) -> LineDrawing {
     drawing
 }
 
-/// Returns the lines chosen by a predicate, as segments in units of the picture.
+/// Returns the lines selected by a predicate, as segments in picture units.
 pub fn segments_where(
     drawing: &LineDrawing,
     choose: impl Fn(&EdgeSegment) -> bool,
@@ -135,13 +136,13 @@ pub fn assert_segments_cover(lines: &[Segment], expected: &[Segment]) {
             })
         };
         let at = expected.iter().position(carries);
-        filled[at.unwrap_or_else(|| panic!("{line:?} is not expected: {lines:?}"))] += length(line);
+        filled[at.unwrap_or_else(|| panic!("{line:?} is unexpected: {lines:?}"))] += length(line);
     }
     for (segment, filled) in expected.iter().zip(filled) {
         let segment_total = length(*segment);
         assert!(
             (filled - segment_total).abs() < NEAR,
-            "{segment:?} is filled to {filled}, not {segment_total}"
+            "{segment:?} is covered by a length of {filled}, not {segment_total}"
         );
     }
 }

@@ -6,8 +6,8 @@ use homog::Affine;
 use model::{Model, ModelInstance};
 use std::sync::Arc;
 
-/// Sheets behind each other, each a little larger than the previous one: all borders are visible,
-/// and each one passes over the boxes of all nearer sheets.
+/// Returns sheets behind each other, each a little larger than the previous one. All borders are
+/// visible, and each border passes over the boxes of all nearer sheets.
 fn stack_of_sheets(count: u16) -> Model {
     let sheet = |at: u16| {
         let (size, z) = (2.0 + f32::from(at) / f32::from(count), -f32::from(at) / 1024.0);
@@ -17,7 +17,7 @@ fn stack_of_sheets(count: u16) -> Model {
 }
 
 fn draw_stack(count: u16, max_comparisons: u64, threads: usize) -> LineDrawing {
-    // The stack is a crowd, and this test is about the limit on exact comparisons.
+    // The stack is a crowd, but this test is about the limit on exact comparisons.
     let options =
         DrawOptions { max_comparisons, is_unlimited: true, ..DrawOptions::hidden_edges_removed() };
     draw_model(stack_of_sheets(count), &options, threads)
@@ -36,7 +36,8 @@ fn draw_model(model: Model, options: &DrawOptions, threads: usize) -> LineDrawin
     draw(&scene.drawing_subject(), options, threads).unwrap()
 }
 
-/// Triangles of all sizes at random positions in front of each other, the same in each call.
+/// Returns triangles of all sizes at random positions in front of each other, the same on each
+/// call.
 fn soup(count: usize) -> Model {
     let mut state = 1_u32;
     let mut random = || {
@@ -61,7 +62,7 @@ fn lengths(drawing: &LineDrawing) -> [f64; 2] {
 }
 
 #[test]
-fn a_crowd_is_drawn_nearly_as_exactly_as_without_limits() {
+fn a_crowd_is_drawn_nearly_as_without_limits() {
     let options = DrawOptions::hidden_edges_retained();
     let exact = draw_model(soup(2000), &DrawOptions { is_unlimited: true, ..options }, 2);
     assert_eq!(exact.warnings, []);
@@ -70,18 +71,18 @@ fn a_crowd_is_drawn_nearly_as_exactly_as_without_limits() {
     assert_eq!(crowd, draw_model(soup(2000), &options, 3));
     let ([seen, _], [all, _]) = (lengths(&crowd), lengths(&exact));
     assert!(seen > 0.95 * all && seen < 1.001 * all, "{seen} of {all} pixels are visible");
-    // A tenth of them is fewer faces, and not a crowd.
+    // A tenth of the faces does not form a crowd.
     let few = draw_model(soup(200), &options, 1);
     assert!(!few.warnings.contains(&Warning::CrowdApproximated));
 }
 
 #[test]
-fn too_much_work_is_reported_and_the_same_from_any_number_of_threads() {
+fn too_much_work_is_reported_and_does_not_depend_on_threads() {
     let complete = draw_stack(3000, DrawOptions::default().max_comparisons, 2);
     assert_eq!(complete.warnings, []);
     let cut_off = draw_stack(3000, 0, 1);
     assert_eq!(cut_off.warnings, [Warning::VisibilityIncomplete]);
     assert_eq!(cut_off, draw_stack(3000, 0, 3));
-    // Few faces stay below the minimum work at any limit.
+    // A few faces always stay within the minimum allowance.
     assert_eq!(draw_stack(50, 0, 1).warnings, []);
 }

@@ -1,5 +1,5 @@
-//! Exercises of the chapter and misprints of the sources that belong to viewports: the printed form
-//! fails, the right one passes.
+//! Exercises from the chapter and misprints in the sources that concern viewports: the printed form
+//! fails, and the correct form passes.
 
 use glam::{DMat3, DMat4, DVec2, DVec4};
 use homog::{
@@ -13,7 +13,7 @@ fn rows(rows: [[f64; 4]; 4]) -> DMat4 {
     DMat4::from_cols_array_2d(&rows).transpose()
 }
 
-/// M_orth of the chapter (OR-1).
+/// Returns the chapter's M_orth (OR-1).
 fn orthographic([l, r]: [f64; 2], [b, t]: [f64; 2], [n, f]: [f64; 2]) -> Affine<View, Ndc> {
     let axis = |low: f64, high: f64| (2.0 / (high - low), -(high + low) / (high - low));
     let ((sx, dx), (sy, dy), (sz, dz)) = (axis(l, r), axis(b, t), axis(f, n));
@@ -21,7 +21,7 @@ fn orthographic([l, r]: [f64; 2], [b, t]: [f64; 2], [n, f]: [f64; 2]) -> Affine<
     Affine::from_frame(x, y, z, Point::new(dx, dy, dz))
 }
 
-/// C38, VP-2: the matrix for pixels that are counted from the top.
+/// C38, VP-2: the matrix for pixels that are counted from the top row.
 #[test]
 fn exercise_1_y_counts_from_the_top() {
     let image = Viewport::chapter(640, 480).expect("has pixels");
@@ -37,7 +37,8 @@ fn exercise_1_y_counts_from_the_top() {
     assert_eq!(down.transform_point(Point::new(0.0, -1.0, 0.0)).y(), 479.5);
 }
 
-/// C39: viewport after orthographic projection is one windowing from the view volume to the image.
+/// C39: an orthographic projection followed by a viewport is a single windowing map from the view
+/// volume to the image.
 #[test]
 fn exercise_2_viewport_and_box_make_one_windowing() {
     let (nx, ny) = (640.0, 480.0);
@@ -53,8 +54,8 @@ fn exercise_2_viewport_and_box_make_one_windowing() {
     assert!(product.raw().abs_diff_eq(expected, 1e-12), "{}", product.raw());
 }
 
-/// M18, WV-2: with +yw min in the first translation the lower border of the window does not go to
-/// that of the viewport.
+/// M18, WV-2: with +yw min in the first translation, the lower border of the window does not map to
+/// the lower border of the viewport.
 #[test]
 fn misprint_m18_the_chain_moves_the_window_to_the_origin_by_minus_and_minus() {
     let window = Limits { x: [-1.0, 3.0], y: [2.0, 4.0] };
@@ -70,9 +71,8 @@ fn misprint_m18_the_chain_moves_the_window_to_the_origin_by_minus_and_minus() {
     );
 }
 
-/// M21: gluOrtho2D takes the four borders of a window; the box of six is glOrtho's. With near −1
-/// and far 1 they are the same map up to depth, and with any other near and far they differ in
-/// depth only.
+/// M21: gluOrtho2D has four parameters, the limits of a window; glOrtho has six, the limits of a
+/// box. Changing near and far from −1 and 1 to other values changes only the depth.
 #[test]
 fn misprint_m21_four_borders_make_a_window_and_six_a_box() {
     let flat = orthographic([-2.0, 4.0], [-1.0, 2.0], [1.0, -1.0]);
@@ -86,13 +86,17 @@ fn misprint_m21_four_borders_make_a_window_and_six_a_box() {
     assert_ne!(deep.transform_point(p).z(), p.z());
 }
 
-/// M22, C100, DP-1: (1 − Z)/2 takes the chapter's near plane (+1) to 0; on OpenGL's (−1) it gives
-/// 1, and (1 + Z)/2 is correct.
+/// M22, C100, DP-1: (1 − Z)/2 maps the chapter's near plane (+1) to 0. It maps OpenGL's near plane
+/// (−1) to 1, so (1 + Z)/2 is correct there.
 #[test]
 fn misprint_m22_which_depth_formula_fits_depends_on_where_near_is() {
     let (chapter_near, opengl_near) = (1.0, -1.0);
     assert_eq!(DepthRange::ZERO_ONE_FLIPPED.ndc_to_depth(chapter_near), 0.0);
-    assert_eq!(DepthRange::ZERO_ONE_FLIPPED.ndc_to_depth(opengl_near), 1.0, "near would be far");
+    assert_eq!(
+        DepthRange::ZERO_ONE_FLIPPED.ndc_to_depth(opengl_near),
+        1.0,
+        "near and far are exchanged"
+    );
     assert_eq!(DepthRange::ZERO_ONE.ndc_to_depth(opengl_near), 0.0);
     let negate = DepthRange::NEGATED.ndc_to_depth(chapter_near);
     assert_eq!(
@@ -101,12 +105,12 @@ fn misprint_m22_which_depth_formula_fits_depends_on_where_near_is() {
     );
 }
 
-/// M23, C98, WV-4: rows divide by rows − 1 and columns by columns − 1, and the last index is one
-/// less than the count.
+/// M23, C98, WV-4: rows are divided by rows − 1 and columns by columns − 1, and the last index is
+/// one less than the count.
 #[test]
 fn misprint_m23_counts_are_not_paired_crosswise() {
     let (rows, columns) = (3, 5);
-    let grid = PointGrid::new(rows, columns).expect("two at least");
+    let grid = PointGrid::new(rows, columns).expect("at least two");
     assert_eq!(grid.xz(rows - 1, columns - 1), Some([1.0, 1.0]));
     assert_eq!(grid.xz(rows, columns), None);
     let crosswise = 2.0 * (rows - 1) as f64 / (columns - 1) as f64 - 1.0;
@@ -115,7 +119,7 @@ fn misprint_m23_counts_are_not_paired_crosswise() {
     assert_eq!(grid.points().nth(columns), grid.xz(1, 0));
 }
 
-/// C99: an orthographic box on a viewport with its own origin and size, two of them on one image.
+/// C99: two viewports on one image, each with its own origin and size.
 #[test]
 fn several_viewports_on_one_image() {
     let page = Rectangle::from_size(800.0, 300.0).expect("a page");
@@ -131,8 +135,8 @@ fn several_viewports_on_one_image() {
     );
 }
 
-/// A parallel projection has its center at infinity: rays start on the near plane and all run the
-/// same way.
+/// A parallel projection has its center at infinity: all rays start on the near plane and have the
+/// same direction.
 #[test]
 fn rays_of_a_parallel_projection_are_parallel() {
     let to_ndc = orthographic([-2.0, 4.0], [-1.0, 2.0], [-1.0, -5.0]).raw();
@@ -142,14 +146,14 @@ fn rays_of_a_parallel_projection_are_parallel() {
         .unprojector::<View>(clip_to_view);
     assert_eq!(back.center_of_projection().w(), 0.0);
     for pixel in [[0.0, 0.0], [320.0, 240.0], [640.0, 480.0]] {
-        let pick = back.pick_ray(pixel).expect("there is one");
+        let pick = back.pick_ray(pixel).expect("a ray exists");
         assert_eq!(pick.ray.direction, -Vector::Z);
         assert_eq!(pick.ray.origin, pick.near);
         assert_eq!(pick.near.z(), -1.0);
     }
 }
 
-/// With the far plane at infinity the far point is a direction, and the ray is there all the same.
+/// If the far plane is at infinity, the far point is a direction, and the ray still exists.
 #[test]
 fn rays_reach_to_infinity() {
     // Reversed infinite perspective (IF-3): depth 1 at the near plane, 0 at infinity.
@@ -161,7 +165,7 @@ fn rays_reach_to_infinity() {
         DepthRange::KEEP,
     )
     .unprojector::<View>(Projective::from_raw(raw).inverse().expect("regular"));
-    let pick = back.pick_ray([50.0, 50.0]).expect("there is one");
+    let pick = back.pick_ray([50.0, 50.0]).expect("a ray exists");
     assert_eq!(pick.far.w(), 0.0);
     let expected = (-Vector::Z, Point::ORIGIN, -0.5);
     assert_eq!((pick.ray.direction, pick.ray.origin, pick.near.z()), expected);
@@ -170,7 +174,7 @@ fn rays_reach_to_infinity() {
 }
 
 #[test]
-fn what_has_no_size_is_refused_by_name() {
+fn invalid_sizes_are_rejected_by_name() {
     let message = |error: ViewportError| error.to_string();
     assert_eq!(
         Viewport::chapter(0, 5).map_err(message).unwrap_err(),
@@ -193,7 +197,7 @@ fn what_has_no_size_is_refused_by_name() {
     let unit = Limits { x: [0.0, 1.0], y: [0.0, 1.0] };
     let flat = Limits { x: [0.0, 1.0], y: [2.0, 2.0] };
     let error = WindowToViewport::new(flat, unit).map_err(message).unwrap_err();
-    assert_eq!(error, "window's y is empty: both its ends are 2");
+    assert_eq!(error, "window's y is empty: both ends are 2");
     let tiny = Rectangle::from_size(1e-100, 1.0).expect("allowed");
     assert!(matches!(
         Viewport::image_for(4, 4, ClipRange::CHAPTER).expect("has pixels").pick_matrix(tiny),

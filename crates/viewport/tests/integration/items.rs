@@ -1,10 +1,10 @@
-//! Items of the sources that the laws leave out, each against its formula.
+//! Items from the sources that the laws do not cover, each compared with its formula.
 
 use glam::DMat4;
 use homog::{ClipRange, Ndc, PixelConvention, Point};
 use viewport::{DepthRange, Rectangle, Viewport};
 
-/// VP-1, entry by entry: scale by n/2, center at (n − 1)/2, z as it is.
+/// VP-1, entry by entry: scale n/2, center (n − 1)/2, z unchanged.
 #[test]
 fn c6_the_viewport_matrix_keeps_z() {
     let (nx, ny) = (640.0, 480.0);
@@ -18,7 +18,7 @@ fn c6_the_viewport_matrix_keeps_z() {
     assert_eq!(ours, DMat4::from_cols_array_2d(&rows).transpose());
 }
 
-/// The square is nx pixels wide and the first and last of them have their centers at 0 and nx − 1,
+/// The square is nx pixels wide. The centers of the first and the last pixel are at 0 and nx − 1,
 /// half a pixel from the image's borders.
 #[test]
 fn c5_pixels_have_their_centers_at_integers() {
@@ -32,8 +32,8 @@ fn c5_pixels_have_their_centers_at_integers() {
     }
 }
 
-/// A window twice as wide as high is squeezed into the square; an image of the same aspect
-/// stretches it back, and any other leaves circles as ellipses.
+/// A window twice as wide as high is squeezed into the square. An image of the same aspect ratio
+/// stretches it back; in any other image, circles become ellipses.
 #[test]
 fn c59_an_image_of_the_windows_aspect_undoes_the_squeeze() {
     let window = [2.0, 1.0];
@@ -49,8 +49,8 @@ fn c59_an_image_of_the_windows_aspect_undoes_the_squeeze() {
     assert!((stretch(800, 800) - 0.5).abs() < 1e-15);
 }
 
-/// Third angle: top over front, right beside front, all at one scale, so that edges line up across
-/// the views.
+/// Third-angle projection: the top view is above the front view and the right view is beside it,
+/// all at one scale, so edges line up across the views.
 #[test]
 fn c75_front_top_and_side_line_up_on_a_sheet() {
     let sheet = Rectangle::from_size(900.0, 900.0).expect("a sheet");
@@ -63,7 +63,7 @@ fn c75_front_top_and_side_line_up_on_a_sheet() {
     };
     let (width, height, depth) = (0.4, 0.7, -0.3);
     let front = drawn(front, width, height);
-    assert_eq!(drawn(top, width, -depth).x(), front.x(), "width runs down from top to front");
-    assert_eq!(drawn(side, -depth, height).y(), front.y(), "height runs across to the side");
-    assert!(drawn(top, 0.0, 0.0).y() < front.y(), "y runs down on an image");
+    assert_eq!(drawn(top, width, -depth).x(), front.x(), "top and front do not line up");
+    assert_eq!(drawn(side, -depth, height).y(), front.y(), "front and side do not line up");
+    assert!(drawn(top, 0.0, 0.0).y() < front.y(), "y must point down in an image");
 }

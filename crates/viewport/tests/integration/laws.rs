@@ -1,5 +1,5 @@
 //! Laws of viewports: points mapped to the screen map back, conventions convert into each other,
-//! parts make the whole.
+//! and parts add up to the whole.
 
 use glam::{DMat4, DVec4};
 use homog::{
@@ -33,7 +33,7 @@ fn ndc() -> impl Strategy<Value = Point<Ndc>> {
     [-1.5..1.5, -1.5..1.5, -1.0..1.0].prop_map(Point::from)
 }
 
-/// Returns a frustum in OpenGL's form, with its eye at the origin (GL-1).
+/// Returns an OpenGL frustum with its eye at the origin (GL-1).
 fn frustum(near: f64, far: f64) -> Projective<View, Clip> {
     let (c, e) = (-(far + near) / (far - near), -2.0 * far * near / (far - near));
     Projective::from_raw(DMat4::from_cols(
@@ -49,14 +49,14 @@ proptest! {
 
     /// C97, WV-3.
     #[test]
-    fn what_goes_to_the_screen_comes_back(viewport in viewport(), p in ndc()) {
+    fn points_mapped_to_the_screen_map_back(viewport in viewport(), p in ndc()) {
         let there = viewport.ndc_to_screen().transform_point(p);
         let back = viewport.screen_to_ndc().transform_point(there);
-        prop_assert!((back - p).length() < 1e-10, "{p:?} came back as {back:?}");
+        prop_assert!((back - p).length() < 1e-10, "{p:?} maps back to {back:?}");
     }
 
     #[test]
-    fn upper_stays_upper_and_left_stays_left(viewport in viewport()) {
+    fn up_stays_up_and_left_stays_left(viewport in viewport()) {
         let map = viewport.ndc_to_screen();
         let [low, high] = [-1.0, 1.0].map(|c| map.transform_point(Point::new(c, c, 0.0)));
         prop_assert!(low.x() < high.x());
@@ -64,8 +64,8 @@ proptest! {
         prop_assert_eq!(upwards, viewport.convention().y == homog::YAxis::Up);
     }
 
-    /// VP-4: a viewport on the whole image, in one convention and then converted, is the viewport
-    /// in the other.
+    /// VP-4: converting the pixels of a whole-image viewport to another convention gives the same
+    /// result as the viewport in that convention.
     #[test]
     fn conventions_convert_into_each_other(
         size in (1..4000_u32, 1..4000_u32),
@@ -83,7 +83,7 @@ proptest! {
         prop_assert!((back.transform_point(convert.transform_point(q)) - q).length() < 1e-12 * 4000.0);
     }
 
-    /// C53, C95, C96: also beyond the window.
+    /// C53, C95, C96; also for points outside the window.
     #[test]
     fn both_methods_of_window_to_viewport_agree(
         limits in prop::collection::vec(-100.0..100.0, 8),
@@ -102,9 +102,9 @@ proptest! {
         }
     }
 
-    /// Each pixel is in exactly one tile, and no tile is larger than asked for.
+    /// Each pixel is in exactly one tile, and no tile is larger than requested.
     #[test]
-    fn tiles_make_the_whole(image in [1..70_u32, 1..70_u32], largest in [1..40_u32, 1..40_u32]) {
+    fn tiles_cover_the_image_once(image in [1..70_u32, 1..70_u32], largest in [1..40_u32, 1..40_u32]) {
         let mut times = vec![0; (image[0] * image[1]) as usize];
         for PixelRect { x, y, width, height } in tiles(image, largest).expect("not empty") {
             prop_assert!((1..=largest[0]).contains(&width) && (1..=largest[1]).contains(&height));
@@ -117,8 +117,9 @@ proptest! {
         prop_assert!(times.iter().all(|&times| times == 1));
     }
 
-    /// In a tile a point has the pixel position it has in the whole, less the tile's corner; and
-    /// the pick matrix of the tile with a viewport of the tile's size gives the same.
+    /// The pixel position of a point in a tile is its position in the whole image minus the tile's
+    /// corner. The pick matrix of the tile, followed by a viewport of the tile's size, gives the
+    /// same position.
     #[test]
     fn a_tile_shows_its_part_of_the_whole(
         p in ndc(),
@@ -139,8 +140,8 @@ proptest! {
         prop_assert!((by_pick - in_tile).length() < 1e-9, "{by_pick:?} is not {in_tile:?}");
     }
 
-    /// C1, C26, UN-1 and UN-2: an unprojected point projects back, and the ray of a pixel runs from
-    /// the eye through it.
+    /// C1, C26, UN-1, UN-2: an unprojected point projects back, and the ray of a pixel runs from
+    /// the eye through the pixel.
     #[test]
     fn rays_run_from_the_eye_through_their_pixel(
         viewport in viewport(),
@@ -155,7 +156,7 @@ proptest! {
         let again = viewport.source_to_screen(view_to_clip).transform_point(point).divide().expect("in front");
         prop_assert!((again - screen).length() < 1e-8 * 1e4, "{again:?} is not {screen:?}");
 
-        let pick = back.pick_ray([screen.x(), screen.y()]).expect("there is one");
+        let pick = back.pick_ray([screen.x(), screen.y()]).expect("a ray exists");
         prop_assert!((pick.ray.origin - Point::ORIGIN).length() < 1e-9 * near);
         prop_assert!((pick.near.z() + near).abs() < 1e-9 * near);
         let along = (point - Point::ORIGIN).normalized().expect("not the eye");
@@ -163,7 +164,7 @@ proptest! {
     }
 
     #[test]
-    fn contained_pictures_touch_two_borders_and_covering_ones_reach_all(
+    fn contained_pictures_fit_and_covering_pictures_leave_no_margin(
         picture in [0.1..10.0, 0.1..10.0],
         place in rectangle(),
         align in [0.0..1.0, 0.0..1.0],
