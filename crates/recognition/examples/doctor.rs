@@ -5,11 +5,12 @@
 //! cargo run -p alberti-recognition --example doctor -- 1 0 0 0 …    sixteen numbers, row by row
 //! ```
 
-#![allow(clippy::print_stdout, reason = "an example speaks on its standard output")]
+#![allow(clippy::print_stdout, reason = "examples write to standard output")]
 
 use recognition::recognize;
 
-/// Ortho(−1, 3, −2, 1, 2, 6) with + (far + near)/(far − near) at the end of its third row.
+/// Ortho(−1, 3, −2, 1, 2, 6), with +(far + near)/(far − near) instead of −(far + near)/(far − near)
+/// at the end of the third row.
 const SLIDE: [f64; 16] =
     [0.5, 0.0, 0.0, -0.5, 0.0, 2.0 / 3.0, 0.0, 1.0 / 3.0, 0.0, 0.0, -0.5, 2.0, 0.0, 0.0, 0.0, 1.0];
 
@@ -21,17 +22,17 @@ fn main() {
     show("The matrix", rows);
 
     let found = recognize(rows);
-    println!("It can be read as");
+    println!("Possible readings:");
     for reading in found.readings.iter().take(4) {
         println!("  {:?}, times {} (cost {})", reading.meaning, reading.factor, reading.cost);
     }
     for suspicion in &found.suspicions {
         let misprint = suspicion.misprint;
-        let id = misprint.id().unwrap_or("not numbered");
+        let id = misprint.id().unwrap_or("unnumbered");
         println!("{:?}: a misprint ({id}): {}.", suspicion.strength, misprint.description());
         println!("Remedy: {}.", misprint.remedy());
         if let Some(remedied) = suspicion.remedied {
-            show("Then it is", remedied);
+            show("The matrix without the misprint", remedied);
         }
     }
 }

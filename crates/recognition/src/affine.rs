@@ -1,5 +1,5 @@
-//! Readings of affine matrices as maps of space: translation, scale, windowing, shear, and a model
-//! transform of translation, rotation and scale.
+//! Readings of affine matrices as maps of space: translations, scales, windowing, shears, and model
+//! transforms of translation, rotation and scale.
 
 use super::matrix_reading::factor_cost;
 use super::rigid::{axis_angle, is_square_frame, largest_error};
@@ -34,7 +34,7 @@ pub(crate) fn read_affine(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
         read_diagonal(diagonal, offset, &mut push);
     } else if diagonal.into_iter().all(|entry| entry.is(1.0)) && slanted <= 2 {
         let entries = off_diagonal.map(|(i, j)| unit[i][j]);
-        // Row-vector matrices add x and y to z; for columns that is an oblique projection.
+        // Row-vector matrices that add x and y to z are oblique projections for column vectors.
         let rare = if unit[2][0].is_zero() || unit[2][1].is_zero() { 0 } else { 4 };
         let cost = 4 + rare + 2 * (total_digits(&entries) + total_digits(&offset));
         let linear = [0, 1, 2].map(|i| [0, 1, 2].map(|j| unit[i][j].simplest()));
@@ -77,14 +77,15 @@ fn read_diagonal(
         new.map(|at| numbers[at].digits()).sum()
     };
     let digits = different(&scale) + different(&offset);
-    // A view volume would map z as well.
+    // A view volume would also map z.
     let planar = scale[2].is(1.0) && offset[2].is_zero();
     let base = if planar { 4 } else { 6 };
     let (scale, offset) = (scale.map(Rounded::simplest), offset.map(Rounded::simplest));
     push(MatrixMeaning::Windowing { scale, offset }, base + 2 * digits + mirrored);
 }
 
-/// Translation, rotation and scale of the axes: perpendicular columns, not all of length 1.
+/// Adds the reading as a translation, rotation and scale of the axes: perpendicular columns, not
+/// all of length 1.
 fn read_model_transform(unit: &Entries<4>, push: &mut impl FnMut(MatrixMeaning, u32)) {
     let columns = [0, 1, 2].map(|j| [0, 1, 2].map(|i| unit[i][j]));
     let lengths = columns.map(|[x, y, z]| (x * x + y * y + z * z).sqrt());

@@ -1,5 +1,5 @@
-//! Readings of the classical projections, either onto a plane and therefore singular, or with depth
-//! kept (MV-1, AX-1, OB-1, OB-2, ONE-1, TWO-1, THREE-1).
+//! Readings of the classical projections, either onto a plane, which makes them singular, or
+//! depth-preserving (MV-1, AX-1, OB-1, OB-2, ONE-1, TWO-1, THREE-1).
 
 use super::matrix_reading::factor_cost;
 use super::parallel::{oblique_by_slants, oblique_cost};
@@ -11,7 +11,7 @@ use glam::DVec3;
 use homog::Normal;
 use projection::{Axonometric, NPoint, PrincipalPlane};
 
-/// Adds the readings as a classical projection.
+/// Adds the readings as classical projections.
 pub(crate) fn read_classical(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let factor = m[3][3];
     if factor.is_zero() {
@@ -34,7 +34,8 @@ pub(crate) fn read_classical(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     }));
 }
 
-/// x, y, z or 0, and w = z/d: the view from the origin, on the plane z = d.
+/// Adds the reading as a perspective from the origin onto the plane z = d: x, y, z or 0, and w =
+/// z/d.
 fn read_central(m: &Entries<4>) -> Option<MatrixReading> {
     let factor = m[0][0];
     if factor.is_zero() || m[3][2].is_zero() {
@@ -60,14 +61,14 @@ fn is_zero_row(row: &[Rounded; 4]) -> bool {
     row.iter().all(|entry| entry.is_zero())
 }
 
-/// diag(0, 1, 1, 1) and similar matrices: T_yoz, T_zox, T_xoy (MV-1 to MV-3).
+/// Adds the reading as diag(0, 1, 1, 1) or a similar matrix: T_yoz, T_zox, T_xoy (MV-1 to MV-3).
 fn read_principal_view(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     let dropped = (0..3).find(|&i| is_zero_row(&m[i]))?;
     let kept = (0..3).filter(|&i| i != dropped).all(|i| is_unit_row(&m[i], i));
     kept.then_some((MatrixMeaning::PrincipalView { plane: PrincipalPlane::ALL[dropped] }, 2))
 }
 
-/// x' = x + (z − z_p) slant, y' likewise, and z' = z_p or z (OB-1, OB-2).
+/// Adds the readings with x' = x + (z − z_p) slant, y' likewise, and z' = z_p or z (OB-1, OB-2).
 fn read_oblique(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     let [x, y, z, _] = m;
     let keeps_axes = x[0].is(1.0) && x[1].is_zero() && y[0].is_zero() && y[1].is(1.0);
@@ -76,7 +77,7 @@ fn read_oblique(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     if !keeps_axes || !(flat || kept) {
         return None;
     }
-    // With depth kept, the plane is where the shear leaves points unchanged.
+    // If depth is preserved, the plane is where the shear leaves points unchanged.
     let steeper = if x[2].value.abs() >= y[2].value.abs() { x } else { y };
     let slanted = !steeper[2].is_zero();
     let plane = if flat || !slanted { z[3] } else { -steeper[3] / steeper[2] };
@@ -94,7 +95,7 @@ fn read_oblique(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     Some((meaning, cost))
 }
 
-/// Returns a rotated ground plan with heights added to y' (`Planometric`). Heights are y, as in the
+/// Reads a rotated ground plan with heights added to y' (`Planometric`). Heights are y, as in the
 /// library, or z, as on a map.
 fn read_planometric(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     let [x, y, z, _] = m;
@@ -121,7 +122,8 @@ fn read_planometric(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     Some((meaning, 5 + 2 * (turn.digits() + height.digits())))
 }
 
-/// Two rows of a rotation and a row of zeros: onto the picture plane (AX-1).
+/// Adds the reading of two rows of a rotation and a row of zeros: an axonometric projection onto
+/// the picture plane (AX-1).
 fn read_axonometric(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     let [x, y, z, _] = m;
     let (a, b) = ([x[0], x[1], x[2]], [y[0], y[1], y[2]]);
@@ -138,7 +140,7 @@ fn read_axonometric(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     (same(0, u) && same(1, v)).then_some((meaning, 8))
 }
 
-/// Makes coordinates equal if rounding cannot distinguish them: an isometric normal stays
+/// Makes coordinates equal if rounding cannot distinguish them, so that an isometric normal stays
 /// isometric.
 fn equalize_lengths(normal: DVec3, error: f64) -> DVec3 {
     let mut lengths = normal.to_array();
@@ -150,7 +152,7 @@ fn equalize_lengths(normal: DVec3, error: f64) -> DVec3 {
     lengths.into()
 }
 
-/// Returns the identity, or the identity with z dropped, above (p, q, r, 1).
+/// Reads the identity, or the identity with z dropped, above the row (p, q, r, 1).
 fn read_n_point(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     let (kept, flat) = (is_unit_row(&m[2], 2), is_zero_row(&m[2]));
     if !(is_unit_row(&m[0], 0) && is_unit_row(&m[1], 1) && (kept || flat)) {
@@ -164,7 +166,8 @@ fn read_n_point(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
         term => term.digits().min((Rounded::ONE / term).digits()),
     };
     let digits: u32 = terms.into_iter().map(fewest).sum();
-    // Vanishing points inside the unit cube are more likely a translation for row vectors.
+    // A matrix with vanishing points inside the unit cube is more likely a translation for row
+    // vectors.
     let close = kept && terms.into_iter().any(|term| term.value.abs() > 1.0);
     let cost = if close { 11 } else { 3 };
     Some((MatrixMeaning::NPoint { projection, onto_plane: flat }, cost + 2 * digits))

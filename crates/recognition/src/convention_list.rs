@@ -1,14 +1,15 @@
-//! The conventions in which a matrix is tried, with their rarity.
+//! Convention list: the conventions in which a matrix is tried, with their rarity.
 
 use homog::NdcY;
 use projection::Convention;
 
 const DOWN: NdcY = NdcY::Down;
 
-/// All sixteen combinations of depth range, handedness and direction of y, the usual ones first.
+/// All sixteen combinations of depth range, handedness and y direction, with common conventions
+/// first.
 ///
-/// The second number is a cost in addition to the digits of the parameters. Reversed and
-/// left-handed depth in [−1, 1], which no interface uses, is the rarest.
+/// The second number is a cost in addition to the digits of the parameters. Reversed left-handed
+/// depth in [−1, 1], which no graphics API uses, is the rarest.
 pub(crate) const CONVENTIONS: [(Convention, u32); 16] = [
     (Convention::OPENGL, 0),
     (Convention::CHAPTER, 1),
@@ -28,18 +29,18 @@ pub(crate) const CONVENTIONS: [(Convention, u32); 16] = [
     (Convention::CHAPTER.left_handed().with_ndc_y(DOWN), 10),
 ];
 
-/// Returns the conventions for a camera in the world: all that look along −z, and those along +z
-/// with y up.
+/// Returns the conventions for a camera in the world: all conventions that look along −z, and those
+/// that look along +z with y up.
 ///
-/// A view space that looks along +z with y down is a right-handed one rotated about x, so such a
-/// product is also one that looks along −z.
+/// A view space that looks along +z with y down is a right-handed view space rotated about x, so
+/// the same product is also a product that looks along −z.
 pub(crate) fn placed_conventions() -> impl Iterator<Item = (Convention, u32)> {
     CONVENTIONS
         .into_iter()
         .filter(|(convention, _)| convention.ahead() < 0.0 || convention.top() > 0.0)
 }
 
-/// Returns the conventions whose view space looks in this direction: −1 or +1.
+/// Returns the conventions whose view space looks in the z direction `ahead`, −1 or +1.
 pub(crate) fn conventions_looking(ahead: f64) -> impl Iterator<Item = (Convention, u32)> {
     CONVENTIONS.into_iter().filter(move |(convention, _)| convention.ahead() == ahead)
 }

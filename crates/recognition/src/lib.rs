@@ -1,5 +1,5 @@
-//! Meanings of matrices: the projection, camera, viewport or transform that sixteen or nine numbers
-//! represent, its parameters, and any known misprint that explains the numbers better.
+//! Recognition of matrices: the projection, camera, viewport or transform that sixteen or nine
+//! numbers represent, its parameters, and any known misprint that explains the numbers better.
 //!
 //! ```text
 //!   entries ─► precision ─► every reader ─► readings with a cost ─► sorted ─► suspicions
@@ -9,11 +9,11 @@
 //! ```
 //!
 //! The numbers of a matrix do not determine its meaning: the OpenGL matrix of (N, F) is the
-//! zero-to-one matrix of (2FN/(F+N), F). People write numbers with few digits, windows with left <
-//! right and bottom < top, and 0 < near < far. The reading with the fewest digits therefore comes
-//! first, and usual conventions precede rare ones (minimum description length, Rissanen 1978). A
-//! matrix is called a misprint only if it has no such reading, or if a misprinted one needs clearly
-//! fewer digits.
+//! zero-to-one matrix of (2FN/(F+N), F). However, people choose numbers with few digits, windows
+//! with left < right and bottom < top, and 0 < near < far. The reading that needs the fewest digits
+//! is therefore listed first, and common conventions precede rare conventions (minimum description
+//! length, Rissanen 1978). A matrix is reported as a misprint only if it has no such reading, or if
+//! its reading as a misprint needs clearly fewer digits.
 //!
 //! ```
 //! use projection::{Convention, Fov, Perspective};
@@ -33,16 +33,16 @@
 //! # Ok::<(), projection::ProjectionError>(())
 //! ```
 //!
-//! | to get | use |
+//! | result | function |
 //! | --- | --- |
-//! | the meaning of a 4×4 matrix, or a misprint in it | [`recognize`] |
+//! | the meaning of a 4×4 matrix, or its misprint | [`recognize`] |
 //! | the meaning of a 3×3 matrix | [`recognize_planar`] |
 //! | the error in a matrix for a known projection | [`misprint_of`] |
-//! | the numbers of a matrix in text or source code | [`parse_matrix`] |
+//! | the numbers of a matrix, from text or source code | [`parse_matrix`] |
 //! | a matrix as source code or LaTeX | [`CodeLanguage::format_matrix`] |
 //! | the parameters of a matrix in a known convention | [`projection::decompose()`] |
 //!
-//! Column vectors, f64. Example: `doctor`, which reads sixteen numbers.
+//! All matrices are for column vectors, in f64. The example `doctor` identifies sixteen numbers.
 #![no_std]
 
 extern crate alloc;

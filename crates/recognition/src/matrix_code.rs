@@ -5,7 +5,7 @@
 //! | C, GLSL, Rust | by columns, as in OpenGL, glTF and glam | array, `mat4`, `[[f64; 4]; 4]` |
 //! | Python, LaTeX | by rows | list of lists, `bmatrix` |
 //!
-//! Numbers have the fewest digits that read back as the same f64.
+//! Numbers are written with the fewest digits that read back as the same f64.
 
 use alloc::borrow::ToOwned as _;
 use alloc::format;
@@ -13,7 +13,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt::Write as _;
 
-/// An output language for matrices.
+/// A language in which a matrix can be written.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum CodeLanguage {
@@ -30,7 +30,7 @@ pub enum CodeLanguage {
 }
 
 impl CodeLanguage {
-    /// Returns the matrix with these rows as a statement, or as a formula in LaTeX.
+    /// Returns the matrix with these rows as a statement in the language, or as a LaTeX formula.
     ///
     /// ```
     /// use recognition::CodeLanguage;
@@ -68,7 +68,7 @@ impl CodeLanguage {
     }
 }
 
-/// Returns a number with a point or an exponent, which every language reads as floating point.
+/// Formats a number with a point or an exponent, so that every language reads it as floating point.
 fn number(x: f64) -> String {
     format!("{:?}", x + 0.0)
 }
@@ -81,7 +81,7 @@ fn lines<const N: usize>(vectors: [[f64; N]; N], open: &str, close: &str) -> Str
     })
 }
 
-/// Rows of a bmatrix; powers of ten are written out.
+/// Formats the rows of a `bmatrix`; powers of ten are written as factors.
 fn latex_lines<const N: usize>(rows: [[f64; N]; N]) -> String {
     rows.iter().fold(String::new(), |mut text, row| {
         let entries: Vec<String> = row.iter().map(|&x| latex_number(x)).collect();
@@ -106,7 +106,7 @@ mod tests {
     const ROWS: [[f64; 3]; 3] = [[1.0, 0.5, -0.0], [0.0, 1e-9, 2.0], [0.0, 0.0, 1.0]];
 
     #[test]
-    fn languages_have_their_order_and_brackets() {
+    fn each_language_has_its_order_and_brackets() {
         let code = |language: CodeLanguage| language.format_matrix(ROWS);
         let python = "matrix = [  # row by row\n    [1.0, 0.5, 0.0],\n    [0.0, 1e-9, 2.0],\n    [0.0, 0.0, 1.0],\n]\n";
         assert_eq!(code(CodeLanguage::Python), python);

@@ -1,4 +1,4 @@
-//! Reads a 4×4 matrix: every reader is tried, and the reading with the fewest digits comes first.
+//! Reads a 4×4 matrix: tries every reader and lists the reading with the fewest digits first.
 
 use crate::rounded::{Entries, Rounded, coarser_measures, measure_entries};
 use crate::{
@@ -19,14 +19,14 @@ pub(crate) const COARSER: u32 = 8;
 /// One meaning of a matrix.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct MatrixReading {
-    /// The meaning with its parameters, with the factor removed.
+    /// The meaning with its parameters, after removing the factor.
     pub meaning: MatrixMeaning,
-    /// The common factor of all entries: a multiple is the same map. It is negative if w is
-    /// negative in front of the eye, as in the textbook's M_per (PE-3; Shirley and Marschner, ch.
-    /// 8).
+    /// The common factor of all entries; a multiple of a matrix is the same map. The factor is
+    /// negative if w is negative in front of the eye, as in the textbook's M_per (PE-3; Shirley and
+    /// Marschner, ch. 8).
     pub factor: f64,
-    /// Twice the digits of the parameters, with a penalty for rare conventions and mirrored
-    /// windows. A lower cost is more likely.
+    /// Twice the number of digits of the parameters, with a penalty for rare conventions and
+    /// mirrored windows. A reading with a lower cost is more likely.
     pub cost: u32,
 }
 
@@ -34,9 +34,9 @@ pub struct MatrixReading {
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct Recognition {
-    /// The meanings, the most likely first; never empty.
+    /// The meanings, most likely first; never empty.
     pub readings: Vec<MatrixReading>,
-    /// Misprints that explain the entries better, or as well; the most likely first.
+    /// The misprints that explain the entries at least as well, most likely first.
     pub suspicions: Vec<Suspicion>,
 }
 
@@ -57,19 +57,20 @@ impl Recognition {
         self.readings.iter().skip(1).filter(move |reading| reading.cost <= most)
     }
 
-    /// Returns the misprint, if reading the matrix as one is clearly better.
+    /// Returns the misprint, if it explains the matrix clearly better than any other reading.
     #[must_use]
     pub fn misprint(&self) -> Option<&Suspicion> {
         self.suspicions.iter().find(|found| found.strength == SuspicionStrength::Likely)
     }
 }
 
-/// Recognizes a 4×4 matrix for column vectors, given by its rows.
+/// Recognizes a 4×4 matrix for column vectors, specified by its rows.
 ///
-/// If an entry is not finite, or outside 1e-40 to 1e40, the only reading is an unnamed map.
+/// If an entry is not finite, or if its magnitude is nonzero and outside 1e-40 to 1e40, the only
+/// reading is an unnamed map.
 ///
-/// Entries may be rounded. Their precision (a number of decimals, or f32) is estimated from the
-/// entries themselves, and parameters get the fewest digits that reproduce the rounded matrix.
+/// Entries may be rounded. Their precision, such as a number of decimals or f32, is estimated from
+/// the entries themselves, and parameters get the fewest digits that reproduce the rounded matrix.
 ///
 /// ```
 /// use projection::Convention;
@@ -110,12 +111,12 @@ pub(crate) fn least_cost(entries: &Entries<4>) -> u32 {
     cost(entries).min(cost(&transpose(entries)) + suspicion::SLIP)
 }
 
-/// Rows and columns exchanged.
+/// Exchanges rows and columns.
 pub(crate) fn transpose(entries: &Entries<4>) -> Entries<4> {
     [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| entries[j][i]))
 }
 
-/// Returns all readings, the most likely first.
+/// Returns all readings, most likely first.
 pub(crate) fn readings_of(entries: &Entries<4>) -> Vec<MatrixReading> {
     let mut found = Vec::new();
     let moderate = entries.as_flattened().iter().all(|entry| is_moderate(entry.value));
@@ -144,7 +145,7 @@ pub(crate) fn readings_of(entries: &Entries<4>) -> Vec<MatrixReading> {
     }
     found.retain(|reading| reading.factor.is_finite() && reading.factor != 0.0);
     found.push(unnamed_reading(entries));
-    // Stable: at equal cost the earlier reader comes first.
+    // The sort is stable, so at equal cost the result of the earlier reader is first.
     found.sort_by_key(|reading| reading.cost);
     found
 }
@@ -165,7 +166,7 @@ fn unnamed_reading(entries: &Entries<4>) -> MatrixReading {
     MatrixReading { meaning, factor: 1.0, cost }
 }
 
-/// Returns the cost of a common factor: none for 1.
+/// Returns the cost of a common factor: 0 for a factor of 1.
 pub(crate) fn factor_cost(factor: Rounded) -> u32 {
     if factor.is(1.0) { 0 } else { 2 + 2 * factor.digits() }
 }

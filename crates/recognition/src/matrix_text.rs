@@ -1,5 +1,4 @@
-//! Matrices in text: sixteen or nine numbers as people and programs write them, including source
-//! code.
+//! Matrix text: sixteen or nine numbers as people and programs write them, including source code.
 //!
 //! ```text
 //!  1 0 0 2  0 1 0 1/2  0 0 1 -1e3  0 0 0 1              row by row
@@ -12,12 +11,12 @@ use alloc::borrow::ToOwned as _;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-/// A matrix for column vectors, by rows: translation is in the last column.
+/// A matrix for column vectors, listed by rows, with the translation in the last column.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum GivenMatrix {
-    /// A matrix of space, in homogeneous coordinates.
+    /// A matrix in space, in homogeneous coordinates.
     Space([[f64; 4]; 4]),
-    /// A matrix of the plane, in homogeneous coordinates.
+    /// A matrix in the plane, in homogeneous coordinates.
     Plane([[f64; 3]; 3]),
 }
 
@@ -26,24 +25,25 @@ pub enum GivenMatrix {
 pub struct ParsedMatrix {
     /// The matrix.
     pub matrix: GivenMatrix,
-    /// For example `column by column, as in mat constructors`; `None` for plain numbers.
+    /// The order and the reason for it, such as `column by column, as in mat constructors`; `None`
+    /// for plain numbers.
     pub order: Option<&'static str>,
 }
 
-/// The reason why a text is not a matrix.
+/// The reason why a text could not be parsed as a matrix.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MatrixTextError {
     /// A word is not a number.
     #[error("`{0}` is not a number")]
     NotANumber(String),
-    /// There are neither sixteen nor nine numbers.
+    /// The count is neither sixteen nor nine numbers.
     #[error("expected 16 numbers, or 9 for a 3 × 3 matrix, found {0}")]
     WrongCount(usize),
 }
 
-/// Words in source code that reveal the order of the numbers, in lower case; the first one found
-/// counts.
+/// Words in source code that reveal the order of the numbers, in lower case; the first match in
+/// this list applies.
 const ORDERS: [(&str, bool, &str); 13] = [
     ("column by column", true, "column by column, as its comment says"),
     ("row by row", false, "row by row, as its comment says"),
@@ -60,11 +60,11 @@ const ORDERS: [(&str, bool, &str); 13] = [
     ("(", false, "row by row, as assumed for source code; --column-major reads columns"),
 ];
 
-/// Parses the rows of a matrix from sixteen or nine numbers, separated by any brackets, commas and
-/// spaces, or from source code.
+/// Parses the rows of a matrix from source code, or from sixteen or nine numbers that are separated
+/// by brackets, commas or spaces.
 ///
-/// Rows are for column vectors: translation is in the last column. Numbers stored column by column,
-/// as in OpenGL, are transposed here; `column_major` applies this to any input.
+/// The rows are for column vectors, with the translation in the last column. Numbers stored column
+/// by column, as in OpenGL, are transposed; `column_major` transposes any input.
 ///
 /// ```
 /// use recognition::{GivenMatrix, parse_matrix};
@@ -77,7 +77,7 @@ const ORDERS: [(&str, bool, &str); 13] = [
 /// ```
 ///
 /// # Errors
-/// Returns an error if a word is not a number, or there are neither sixteen nor nine numbers.
+/// Returns an error if a word is not a number, or if there are neither sixteen nor nine numbers.
 pub fn parse_matrix(text: &str, column_major: bool) -> Result<ParsedMatrix, MatrixTextError> {
     if !is_code(text) {
         let matrix = matrix_of(&split_words(text), column_major)?;
@@ -98,7 +98,7 @@ pub fn parse_matrix(text: &str, column_major: bool) -> Result<ParsedMatrix, Matr
     Ok(ParsedMatrix { matrix, order: Some(order) })
 }
 
-/// Whether a text has names or comments in addition to numbers.
+/// Whether a text contains names or comments in addition to numbers.
 fn is_code(text: &str) -> bool {
     let signs = ["=", "mat", "Mat", "vec", "array", "Array", "//", "/*", "#", "\\begin", "set("];
     signs.iter().any(|sign| text.contains(sign))
@@ -125,7 +125,7 @@ fn split_words(text: &str) -> Vec<&str> {
     text.split(between).filter(|word| !word.is_empty()).collect()
 }
 
-/// Returns a number in source code without its type suffix: `1.0f`, `1_f64`.
+/// Returns a number in source code without its type suffix, as in `1.0f` or `1_f64`.
 fn without_suffix(word: &str) -> &str {
     let suffixes = ["_f32", "_f64", "f32", "f64", "lf", "LF", "f", "F"];
     suffixes.iter().find_map(|suffix| word.strip_suffix(suffix)).unwrap_or(word)
@@ -141,7 +141,7 @@ fn matrix_of(words: &[&str], columns: bool) -> Result<GivenMatrix, MatrixTextErr
     }
 }
 
-/// Returns the rows of N × N numbers listed by rows, or by columns.
+/// Returns the rows of N × N numbers, which are listed by rows or by columns.
 fn arrange<const N: usize>(listed: &[f64], columns: bool) -> [[f64; N]; N] {
     let at = |row: usize, column: usize| if columns { N * column + row } else { N * row + column };
     core::array::from_fn(|row| core::array::from_fn(|column| listed[at(row, column)]))
@@ -153,7 +153,7 @@ fn arrange<const N: usize>(listed: &[f64], columns: bool) -> [[f64; N]; N] {
 /// finite.
 ///
 /// # Errors
-/// Returns an error if the word is neither.
+/// Returns an error if the word is neither a number nor a fraction.
 pub fn parse_number(word: &str) -> Result<f64, MatrixTextError> {
     let fault = || MatrixTextError::NotANumber(word.to_owned());
     let parse = |digits: &str| digits.replace('−', "-").parse::<f64>().map_err(|_| fault());

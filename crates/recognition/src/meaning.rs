@@ -7,14 +7,13 @@ use projection::{
     PrincipalPlane, Window,
 };
 
-/// The angles and proportions of a perspective, read from its matrix with as many digits as are
-/// significant.
+/// The angles and proportions of a perspective, read from its matrix with all significant digits.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct Lens {
-    /// The horizontal angle of view: from the left to the right edge.
+    /// The horizontal angle of view in degrees, from the left to the right edge.
     pub fov_x_degrees: f64,
-    /// The vertical angle of view: from the bottom to the top edge.
+    /// The vertical angle of view in degrees, from the bottom to the top edge.
     pub fov_y_degrees: f64,
     /// The ratio of the window's width to its height.
     pub aspect: f64,
@@ -26,66 +25,67 @@ pub struct Lens {
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum MatrixMeaning {
-    /// Every point stays in place.
+    /// The identity.
     Identity,
-    /// Every point moves by a vector (HO-4).
+    /// A translation (HO-4).
     Translation {
-        /// The vector.
+        /// The translation vector.
         by: [f64; 3],
     },
-    /// Scale about the origin.
+    /// A scale about the origin.
     Scale {
-        /// Along x, y and z.
+        /// The factors along x, y and z.
         factors: [f64; 3],
     },
-    /// Scale and translation along each axis, as from a window to a viewport (WI-2, WV-2).
+    /// A scale and translation along each axis, as from a window to a viewport (WI-2, WV-2).
     Windowing {
         /// The scale along x, y and z.
         scale: [f64; 3],
-        /// The offset, added after the scale.
+        /// The offset, applied after the scale.
         offset: [f64; 3],
     },
-    /// Reflection in the plane normal · p = distance (Householder).
+    /// A reflection in the plane normal · p = distance (Householder).
     Reflection {
         /// The normal, with length 1.
         normal: [f64; 3],
         /// The distance from the origin along the normal.
         distance: f64,
     },
-    /// Rotation about an axis through the origin.
+    /// A rotation about an axis through the origin.
     Rotation {
         /// The axis, with length 1.
         axis: [f64; 3],
-        /// The angle, 0 to 180, counterclockwise when the axis points at the viewer.
+        /// The angle in degrees, from 0 to 180, counterclockwise when the axis points at the
+        /// viewer.
         angle_degrees: f64,
-        /// The equivalent camera at the origin, if there is one.
+        /// The equivalent camera at the origin, if it exists.
         camera: CameraReading,
     },
     /// The camera transform M_cam: rotation and translation (CA-2).
     Camera(CameraReading),
     /// The inverse of a camera transform: the pose of a camera in the world (C2W).
     CameraPose(CameraReading),
-    /// A shear, which adds coordinates to others, and a translation.
+    /// A shear, which adds multiples of coordinates to other coordinates, and a translation.
     Shear {
-        /// The rows of the linear part, 1 on the diagonal.
+        /// The rows of the linear part, with 1 on the diagonal.
         linear: [[f64; 3]; 3],
         /// The translation.
         offset: [f64; 3],
     },
-    /// Scale of the axes, then a rotation, then a translation: a model matrix.
+    /// A model matrix: a scale along the axes, then a rotation, then a translation.
     ModelTransform {
         /// The translation, applied last.
         translation: [f64; 3],
         /// The axis of the rotation, with length 1.
         axis: [f64; 3],
-        /// The angle of the rotation, 0 to 180.
+        /// The angle of the rotation in degrees, from 0 to 180.
         angle_degrees: f64,
         /// The scale along x, y and z, applied first; negative if the axes are mirrored.
         scale: [f64; 3],
     },
     /// The viewport transform M_vp (VP-1 to VP-3).
     Viewport(ViewportReading),
-    /// Camera intrinsics K (OpenCV).
+    /// The camera intrinsics K (OpenCV).
     Intrinsics(IntrinsicsReading),
     /// The textbook's P (PE-1; Shirley and Marschner, ch. 8), with signed n and f.
     ChapterP {
@@ -101,7 +101,7 @@ pub enum MatrixMeaning {
         /// z of the far plane.
         f: f64,
     },
-    /// A perspective: view to clip space (GL-1, PE-2, D3D-1 …).
+    /// A perspective, from view to clip space (GL-1, PE-2, D3D-1 and others).
     Perspective {
         /// The window on the near plane, with near and far as distances.
         frustum: Frustum,
@@ -110,7 +110,7 @@ pub enum MatrixMeaning {
         /// The convention in which it has these parameters.
         convention: Convention,
     },
-    /// The inverse of a perspective: clip to view space (IV-1).
+    /// The inverse of a perspective, from clip to view space (IV-1).
     InversePerspective {
         /// The window on the near plane, with near and far as distances.
         frustum: Frustum,
@@ -126,7 +126,7 @@ pub enum MatrixMeaning {
         /// The convention in which it has these parameters.
         convention: Convention,
     },
-    /// A perspective whose near plane is inclined (Lengyel 2005).
+    /// A perspective with an inclined near plane (Lengyel 2005).
     ObliqueNear {
         /// The window at distance 1 in front of the eye.
         slopes: Window,
@@ -135,14 +135,14 @@ pub enum MatrixMeaning {
         /// The convention in which it has these parameters.
         convention: Convention,
     },
-    /// A box without foreshortening: view to clip space (OR-1, GL-3).
+    /// An orthographic box, from view to clip space (OR-1, GL-3).
     Orthographic {
         /// The window, with near and far as distances.
         volume: Orthographic,
         /// The convention in which it has these parameters.
         convention: Convention,
     },
-    /// An oblique prism: view to clip space (VV-1).
+    /// An oblique prism, from view to clip space (VV-1).
     ObliqueVolume {
         /// The length and angle of the depth axis.
         projection: Oblique,
@@ -151,30 +151,31 @@ pub enum MatrixMeaning {
         /// The convention in which it has these parameters.
         convention: Convention,
     },
-    /// The shear of an oblique projection, with depth kept (OB-1).
+    /// The depth-preserving shear of an oblique projection (OB-1).
     ObliqueShear {
         /// The length and angle of the depth axis.
         projection: Oblique,
     },
-    /// An oblique or, with length 0, an orthographic projection onto a plane z = const (OB-2).
+    /// An oblique projection onto a plane z = const (OB-2), or an orthographic projection if the
+    /// length is 0.
     ObliqueOntoPlane {
         /// The length, angle and plane.
         projection: Oblique,
     },
     /// The projection onto a coordinate plane (MV-1 to MV-3).
     PrincipalView {
-        /// The plane.
+        /// The coordinate plane.
         plane: PrincipalPlane,
     },
     /// An axonometric projection onto its picture plane (AX-1).
     AxonometricOntoPlane {
-        /// Isometric, dimetric or trimetric.
+        /// The orientation, which may be isometric, dimetric or trimetric.
         projection: Axonometric,
     },
     /// A plan oblique projection: the ground plan keeps its shape, and heights are drawn
-    /// vertically. With height 1 it is the military projection.
+    /// vertically. It is the military projection if the height factor is 1.
     Planometric {
-        /// The angle by which the plan is rotated, counterclockwise.
+        /// The angle in degrees by which the plan is rotated counterclockwise.
         turn_degrees: f64,
         /// The scale factor of heights.
         height: f64,
@@ -185,7 +186,7 @@ pub enum MatrixMeaning {
     },
     /// A one-, two- or three-point perspective (ONE-1, TWO-1, THREE-1).
     NPoint {
-        /// Its p, q and r.
+        /// The terms p, q and r.
         projection: NPoint,
         /// True if z is dropped.
         onto_plane: bool,
@@ -193,12 +194,12 @@ pub enum MatrixMeaning {
     /// The perspective projection from the origin onto a plane z = const: w = z / `plane_z`
     /// (Foley, van Dam and others 1990, equation 6.5).
     CentralOntoPlane {
-        /// The plane of the picture; negative in front of a camera that looks along −z.
+        /// The z of the picture plane; negative in front of a camera that looks along −z.
         plane_z: f64,
         /// True if z is dropped.
         onto_plane: bool,
     },
-    /// A camera and a perspective: world to clip space.
+    /// A camera and a perspective, from world to clip space.
     CameraPerspective {
         /// The camera in the world.
         camera: CameraReading,
@@ -210,8 +211,8 @@ pub enum MatrixMeaning {
         /// view space.
         convention: Convention,
     },
-    /// A perspective and a viewport in one matrix, with a window centered on the line of sight:
-    /// view or world space to pixels (PL-1).
+    /// A perspective and a viewport in one matrix, from view or world space to pixels (PL-1). The
+    /// window is centered on the line of sight.
     PerspectiveToPixels {
         /// The width and height in pixels; depth is unchanged.
         size: [f64; 2],
@@ -219,7 +220,7 @@ pub enum MatrixMeaning {
         y_down: bool,
         /// True if pixel centers have integer coordinates.
         integer_centers: bool,
-        /// The camera in the world, unless the map starts in view space.
+        /// The camera in the world; `None` if the map starts in view space.
         camera: Option<CameraReading>,
         /// The window on the near plane, with near and far as distances.
         frustum: Frustum,
@@ -228,7 +229,8 @@ pub enum MatrixMeaning {
         /// The convention in which it has these parameters.
         convention: Convention,
     },
-    /// A camera and an orthographic box; the eye, which may be anywhere, is placed at the origin.
+    /// A camera and an orthographic box. The matrix does not determine the eye, which is placed at
+    /// the origin.
     CameraOrthographic {
         /// The orientation of the camera.
         camera: CameraReading,
@@ -245,13 +247,13 @@ pub enum MatrixMeaning {
 }
 
 impl MatrixMeaning {
-    /// Returns false for maps of which only the kind is known.
+    /// Returns whether the meaning is more specific than an unnamed affine or projective map.
     #[must_use]
     pub const fn is_named(&self) -> bool {
         !matches!(self, Self::Affine | Self::Projective)
     }
 
-    /// Returns the convention for the parameters, if the meaning has one.
+    /// Returns the convention of the parameters, if the meaning has a convention.
     #[must_use]
     pub const fn convention(&self) -> Option<Convention> {
         match self {

@@ -1,16 +1,16 @@
-//! Known misprints of projection matrices, with their corrections.
+//! Known misprints of projection matrices, and their corrections.
 //!
-//! Books, lessons and slides that teach these matrices misprint some of them, and programs copy the
+//! Some of these matrices are misprinted in books, lessons and slides, and programs copy the
 //! errors. [`misprint_of`] compares a matrix with all known misprints of the intended projection,
-//! and is certain; [`crate::recognize`] weighs misprints against other readings, given only the
-//! sixteen numbers.
+//! so its result is certain. [`crate::recognize`] has only the sixteen numbers, so it weighs
+//! misprints against other readings.
 
 use glam::{DMat4, DVec4};
 use homog::{Clip, Projective, View};
 use projection::{ApexMovedFrustum, Convention, Frustum, Orthographic, Perspective};
 
-/// A known misprint: its number from M1 to M28 and, in parentheses, its row in the table of
-/// misprints in the formula collection.
+/// A known misprint. The descriptions begin with its number, from M1 to M28, and its row in the
+/// formula collection's table of misprints, in parentheses.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 #[non_exhaustive]
 pub enum Misprint {
@@ -18,31 +18,32 @@ pub enum Misprint {
     PerspectiveLeftOut,
     /// M6 (9): the third row of a translation repeats t_y where t_z belongs.
     RepeatedTranslation,
-    /// M8 (16): the textbook's depth (near +1; Shirley and Marschner, ch. 8) where OpenGL's (near
-    /// −1) is meant, or vice versa.
+    /// M8 (16): the textbook's depth (near +1; Shirley and Marschner, ch. 8) where OpenGL's depth
+    /// (near −1) is intended, or vice versa.
     DepthReversed,
-    /// M8, PE-3: the textbook's original sign, w < 0 in front of the eye.
+    /// M8, PE-3: the textbook's original sign, with w < 0 in front of the eye.
     NegativeW,
-    /// M11 (18): the third row of M_cam's translation is (0, 0, 0, −z_e); every z becomes the same.
+    /// M11 (18): the third row of M_cam's translation is (0, 0, 0, −z_e), so every z becomes the
+    /// same.
     ThirdRowFlat,
-    /// M12 (32): the offsets are in the fourth column: another projection, with its apex moved
-    /// (LW-1), not glFrustum.
+    /// M12 (32): the offsets are in the fourth column, so the matrix is not glFrustum but a
+    /// projection with its apex moved (LW-1).
     ApexMoved,
     /// M14 (26): the bottom row is (0, 0, −1, 1) instead of (0, 0, −1, 0).
     BottomRowOne,
-    /// M15 (33): the depth offset of Ortho has the wrong sign; near and far map outside [−1, 1].
+    /// M15 (33): the depth offset of Ortho has the wrong sign, so near and far map outside [−1, 1].
     OrthoOffsetSign,
     /// M16 (34): (right − left)/(right − left) = 1 instead of (right + left)/(right − left).
     FrustumOffsetOne,
     /// M17 (35): tan(fovy)/2 instead of tan(fovy/2).
     HalfOfTangent,
-    /// M19 (43): degrees instead of radians.
+    /// M19 (43): the angle is in degrees instead of radians.
     Degrees,
     /// The last row has the wrong sign: w is the distance behind the eye, but depth is not.
     LastRowNegated,
     /// One entry of a rotation has the wrong sign, which changes lengths and angles.
     WrongSign,
-    /// (24): the matrix is for row vectors but is used with columns.
+    /// (24): the matrix is for row vectors but is used with column vectors.
     Transposed,
 }
 
@@ -76,7 +77,7 @@ impl Misprint {
         Self::Transposed,
     ];
 
-    /// Its number from M1 to M28; `None` if it has none.
+    /// Returns the number of the misprint, from M1 to M28; `None` if it is unnumbered.
     #[must_use]
     pub const fn id(self) -> Option<&'static str> {
         match self {
@@ -94,7 +95,7 @@ impl Misprint {
         }
     }
 
-    /// Returns the error, in one sentence.
+    /// Returns a description of the error, in one sentence.
     #[must_use]
     pub const fn description(self) -> &'static str {
         match self {
@@ -122,8 +123,8 @@ impl Misprint {
             Self::HalfOfTangent => "the tangent was halved instead of the angle",
             Self::Degrees => "the angle was read as radians but is in degrees",
             Self::LastRowNegated => {
-                "the last row is negated: w does not match the depth row, and no plane in front \
-                 is near or far"
+                "the last row is negated: w does not match the depth row, so no plane in \
+                 front of the eye maps to the near or far depth"
             }
             Self::WrongSign => "one sign is wrong: with it flipped, the matrix is rigid",
             Self::Transposed => "rows and columns are swapped: this matrix is for row vectors",
@@ -255,7 +256,7 @@ fn apex_moved(frustum: Frustum) -> Option<DMat4> {
 }
 
 /// Returns the misprint that turns the intended matrix into `matrix`; `None` if the matrix is
-/// correct up to a positive factor, or wrong in an unknown way. Entries may differ by one part in a
+/// correct up to a positive factor or wrong in an unknown way. Entries may differ by one part in a
 /// million, as in f32 programs.
 ///
 /// ```

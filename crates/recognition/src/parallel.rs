@@ -8,7 +8,7 @@ use super::{MatrixMeaning, MatrixReading};
 use alloc::vec::Vec;
 use projection::{Convention, Oblique, Orthographic};
 
-/// Adds the readings as an orthographic box (OR-1, GL-3) or an oblique prism (VV-1).
+/// Adds the readings as orthographic boxes (OR-1, GL-3) or oblique prisms (VV-1).
 pub(crate) fn read_boxes(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let zeros = [m[0][1], m[1][0], m[2][0], m[2][1], m[3][0], m[3][1], m[3][2]];
     let factor = m[3][3];
@@ -29,8 +29,9 @@ pub(crate) fn read_boxes(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     }
 }
 
-/// Boxes gain nothing from reversed depth, and few programs reverse it. The depth of the textbook
-/// (Shirley and Marschner, ch. 8) does not count as reversed.
+/// Returns the rarity of a convention for boxes, which gain nothing from reversed depth, so few
+/// programs reverse it. The depth of the textbook (Shirley and Marschner, ch. 8) does not count as
+/// reversed.
 pub(crate) fn box_rarity(convention: Convention, rarity: u32) -> u32 {
     let reversed = convention.near_depth() > convention.far_depth();
     if reversed && convention != Convention::CHAPTER { rarity + 3 } else { rarity }
@@ -39,7 +40,7 @@ pub(crate) fn box_rarity(convention: Convention, rarity: u32) -> u32 {
 fn box_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixMeaning, u32)> {
     let [x, y, z, _] = unit;
     let (ahead, top) = (Rounded::exact(convention.ahead()), Rounded::exact(convention.top()));
-    // A volume maps z as well; a map that leaves z unchanged is a map of the plane.
+    // A volume also maps z; a map that leaves z unchanged is a map of the plane.
     let mut cost = if z[2].is(1.0) && z[3].is_zero() { MIRRORED } else { 2 };
     let mut edges = |scale: Rounded, offset: Rounded| {
         cost += if scale.value < 0.0 { MIRRORED } else { 0 };
@@ -68,28 +69,28 @@ fn box_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixMeani
     if slants.into_iter().all(Rounded::is_zero) {
         return Some((MatrixMeaning::Orthographic { volume, convention }, cost));
     }
-    // In the view space that looks along −z.
+    // The slants are for a view space that looks along −z.
     let [slant_x, slant_y] = slants.map(|slant| slant * -ahead);
     let projection = oblique_by_slants(slant_x, slant_y, 0.0)?;
     let cost = cost + 2 + oblique_cost(slant_x, slant_y);
     Some((MatrixMeaning::ObliqueVolume { projection, volume, convention }, cost))
 }
 
-/// Returns whether a window has whole pixels from the upper left corner: left 0, top 0, bottom
-/// below it.
+/// Returns whether a window is in whole pixels from the upper left corner: left 0, top 0, and a
+/// positive bottom.
 fn is_from_top_left([l, r, b, t]: [Rounded; 4]) -> bool {
     let is_side = |side: Rounded| side.value > 1.5 && side.is(libm::round(side.value));
     l.is_zero() && t.is_zero() && is_side(r) && is_side(b)
 }
 
-/// Twice the digits of two edges, or of only one if they are opposite.
+/// Returns twice the digits of two edges, or of only one edge if they are opposite.
 fn pair_cost(low: Rounded, high: Rounded) -> u32 {
     let second = if (low + high).is_zero() { 0 } else { low.digits() };
     2 * (high.digits() + second)
 }
 
-/// Returns the cost of near and far in addition to their digits: they should be in front of the eye
-/// and in order.
+/// Returns the cost of near and far in addition to their digits. It is 0 if they are in front of
+/// the eye and in ascending order.
 fn order_cost(near: Rounded, far: Rounded) -> u32 {
     match (near.value, far.value) {
         (near, far) if near > far => MIRRORED,
@@ -99,8 +100,8 @@ fn order_cost(near: Rounded, far: Rounded) -> u32 {
     }
 }
 
-/// Returns the oblique projection with x' = x + slant z, y' likewise, onto z = `plane_z`: by length
-/// and angle if these have fewer digits.
+/// Returns the oblique projection with x' = x + slant z, y' likewise, onto z = `plane_z`. It is
+/// defined by its length and angle if these have fewer digits than the slants.
 pub(crate) fn oblique_by_slants(x: Rounded, y: Rounded, plane_z: f64) -> Option<Oblique> {
     let (length, phi) = length_and_angle(x, y);
     let direction = if length.digits() + phi.digits() < x.digits() + y.digits() {
@@ -112,7 +113,7 @@ pub(crate) fn oblique_by_slants(x: Rounded, y: Rounded, plane_z: f64) -> Option<
     Oblique::by_direction(homog::Vector::new(direction[0], direction[1], -1.0), plane_z).ok()
 }
 
-/// Returns the drawn length of a unit of depth, and its angle in degrees.
+/// Returns the length at which a unit of depth is drawn, and its angle in degrees.
 fn length_and_angle(x: Rounded, y: Rounded) -> (Rounded, Rounded) {
     let length = (x * x + y * y).sqrt();
     let value = libm::atan2(y.value, x.value).to_degrees();
@@ -121,7 +122,7 @@ fn length_and_angle(x: Rounded, y: Rounded) -> (Rounded, Rounded) {
     (length, Rounded { value, error })
 }
 
-/// Twice the digits of length and angle, or of the two slants.
+/// Returns twice the digits of the length and angle, or of the two slants, whichever is less.
 pub(crate) fn oblique_cost(x: Rounded, y: Rounded) -> u32 {
     let (length, angle) = length_and_angle(x, y);
     let angle = if x.is_zero() { 1 } else { angle.digits() };

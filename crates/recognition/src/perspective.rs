@@ -11,8 +11,7 @@ use projection::{ApexMovedFrustum, Convention, Frustum};
 /// The cost of a mirrored window in addition to the digits of a reading.
 pub(crate) const MIRRORED: u32 = 12;
 
-/// Adds the readings as a frustum (GL-1, PE-2) or as the lesson's frustum with its apex moved
-/// (LW-1).
+/// Adds the readings as frusta (GL-1, PE-2) or as the lesson's frustum with its apex moved (LW-1).
 pub(crate) fn read_frusta(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let zeros = [m[0][1], m[1][0], m[2][0], m[2][1], m[3][0], m[3][1], m[3][3]];
     if !zeros.into_iter().all(Rounded::is_zero) || m[3][2].is_zero() {
@@ -36,7 +35,7 @@ pub(crate) fn read_frusta(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     }
 }
 
-/// Returns the frustum of a matrix with the bottom row (0, 0, ±1, 0).
+/// Reads the frustum of a matrix with the bottom row (0, 0, ±1, 0).
 fn frustum_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixMeaning, u32)> {
     let [x, y, z, w] = unit;
     let ahead = Rounded::exact(w[2].value.signum());
@@ -60,7 +59,7 @@ fn frustum_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixM
         (window[2 * axis], window[2 * axis + 1]) = (edge(-Rounded::ONE), edge(Rounded::ONE));
         cost += if scale.value < 0.0 { MIRRORED } else { 0 };
     }
-    // Described by the window, or by the apex and the window around it.
+    // The lens is described by the window, or by the apex and the window around it.
     let [around_x, around_y] = apex;
     let [l, r, b, t] = window;
     let centered = [l - around_x, r - around_x, b - around_y, t - around_y];
@@ -69,8 +68,8 @@ fn frustum_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixM
         .min(window.into_iter().map(Rounded::digits).sum());
     let digits = near.digits() + far.map_or(0, Rounded::digits) + lens;
     let meaning = named_frustum(window, near, far, apex, convention)?;
-    // Rounded to a few decimals, near 0.1 in one convention is near 0.05 in another: people choose
-    // powers of ten.
+    // Rounded to a few decimals, near = 0.1 in one convention is near = 0.05 in another. People
+    // prefer powers of ten.
     let usual = if near.is_power_of_ten() { 0 } else { 2 };
     Some((meaning, cost + usual + 2 * digits))
 }
@@ -111,8 +110,8 @@ pub(crate) fn read_lens([l, r, b, t]: [Rounded; 4], near: Rounded) -> Lens {
     }
 }
 
-/// Returns the fewest digits that describe the lens: by its window, by its two scales, or, if it is
-/// centered, by an angle and an aspect ratio.
+/// Returns the minimum number of digits that describe the lens: by its window or, if it is
+/// centered, by its two scales or by an angle and an aspect ratio.
 pub(crate) fn lens_digits(
     window: [Rounded; 4],
     near: Rounded,
@@ -131,7 +130,7 @@ pub(crate) fn lens_digits(
 }
 
 /// Returns the distances at which factor + offset/D equals the near and far depths, if 0 < near <
-/// far; no far plane if rounding may hide it.
+/// far. The far distance is `None` if it may be infinite within rounding.
 pub(crate) fn depth_planes(
     factor: Rounded,
     offset: Rounded,
@@ -205,14 +204,14 @@ fn p_reading(
     Some(MatrixReading { meaning, factor: factor.simplest(), cost })
 }
 
-/// Returns the zeros of the inverse of a frustum's matrix (IV-1).
+/// Whether a matrix has its zeros where the inverse of a frustum's matrix has them (IV-1).
 fn is_inverse_shaped(m: &Entries<4>) -> bool {
     let zeros = [m[0][1], m[0][2], m[1][0], m[1][2], m[2][0], m[2][1], m[2][2], m[3][0], m[3][1]];
     let needed = [m[0][0], m[1][1], m[2][3], m[3][2]];
     zeros.into_iter().all(Rounded::is_zero) && !needed.into_iter().any(Rounded::is_zero)
 }
 
-/// Adds the readings as the inverse of a frustum's matrix: clip to view space (IV-1).
+/// Adds the readings as the inverse of a frustum's matrix, from clip to view space (IV-1).
 pub(crate) fn read_inverse_frusta(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     if !is_inverse_shaped(m) {
         return;

@@ -1,7 +1,8 @@
-//! Readings of a perspective and a viewport in one matrix: view or world space to pixels (PL-1).
+//! Readings of a perspective and a viewport in one matrix, from view or world space to pixels
+//! (PL-1).
 //!
-//! Sixteen numbers do not separate the size of the image from the window unless the window is
-//! centered on the line of sight: then that line meets the image at its center.
+//! Sixteen numbers do not distinguish the size of the image from the window unless the window is
+//! centered on the line of sight. In that case, the line of sight meets the image at its center.
 
 use super::perspective::read_frusta;
 use super::placed::read_placed_perspective;
@@ -9,7 +10,7 @@ use super::rounded::{Entries, Rounded};
 use super::{MatrixMeaning, MatrixReading};
 use alloc::vec::Vec;
 
-/// The smallest image, in pixels, that can be distinguished from an off-center window.
+/// The minimum size of an image, in pixels, that can be distinguished from an off-center window.
 const LEAST_SIZE: f64 = 16.0;
 
 /// An image and its pixel convention.
@@ -20,7 +21,7 @@ struct Pixels {
     integer_centers: bool,
 }
 
-/// Adds the readings as a perspective to pixels, with integer centers or half-integer ones.
+/// Adds the readings as a perspective to pixels, with integer or half-integer centers.
 pub(crate) fn read_perspective_to_pixels(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let [x, y, _, w] = m;
     let dot = |a: &[Rounded; 4], b: &[Rounded; 4]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -45,7 +46,7 @@ pub(crate) fn read_perspective_to_pixels(m: &Entries<4>, found: &mut Vec<MatrixR
     }
 }
 
-/// M_vp⁻¹ M, with the depth row unchanged. The offsets of points on the line of sight are
+/// Computes M_vp⁻¹ M, with the depth row unchanged. The offsets of points on the line of sight are
 /// exactly 0.
 fn without_viewport(m: &Entries<4>, pixels: &Pixels) -> Entries<4> {
     let shift = if pixels.integer_centers { 0.5 } else { 0.0 };
@@ -55,7 +56,8 @@ fn without_viewport(m: &Entries<4>, pixels: &Pixels) -> Entries<4> {
             (Rounded::exact(sign * 2.0 / size), Rounded::exact(size / 2.0 - shift));
         [0, 1, 2, 3].map(|j| {
             let entry = m[at][j] - center * m[3][j];
-            // Pixels are large compared with the remainder, so their rounding is its error.
+            // Pixel coordinates are large compared with the remainder, so their rounding determines
+            // its error.
             let noise = 4.0 * f64::EPSILON * (size * m[3][j].value).abs();
             Rounded { error: entry.error + noise, ..entry } * scale
         })

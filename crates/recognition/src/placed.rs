@@ -1,11 +1,11 @@
-//! Readings of a camera and its projection in one matrix, world to clip space, and of an inclined
-//! near plane.
+//! Readings of a camera and its projection in one matrix, from world to clip space, and of an
+//! inclined near plane.
 //!
 //! Take the rows x, y, w of a central matrix. The line of sight is the linear part of w, the part
 //! of x perpendicular to it points right, and the eye is where all three rows vanish. The part of y
-//! perpendicular to it points up. The numbers do not say whether these axes belong to a left-handed
-//! world (Direct3D) or to a right-handed one with y down in clip space (Vulkan). The reading whose
-//! up direction points up in the world is more likely.
+//! perpendicular to it points up. The numbers do not determine whether these axes are from a
+//! left-handed world (Direct3D) or from a right-handed world with y down in clip space (Vulkan).
+//! The reading whose up direction points up in the world is more likely.
 
 use super::convention_list::placed_conventions;
 use super::matrix_reading::factor_cost;
@@ -22,7 +22,7 @@ use projection::{Convention, Decomposed, Frustum, Orthographic, decompose};
 /// The cost of a camera that is upside down in the world, if a rival reading has it right side up.
 const UPSIDE_DOWN: u32 = 6;
 
-/// Adds the readings as a camera with a perspective, in a right- or left-handed world.
+/// Adds the readings as a camera with a perspective, in a right-handed or left-handed world.
 pub(crate) fn read_placed_perspective(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let linear = [m[3][0], m[3][1], m[3][2]];
     let length = length_of(linear);
@@ -49,7 +49,7 @@ pub(crate) fn read_placed_perspective(m: &Entries<4>, found: &mut Vec<MatrixRead
     }
 }
 
-/// Equal within twice the error: a length of three rounded numbers.
+/// Whether a length computed from three rounded numbers may be `expected`, within twice its error.
 fn is_close(number: Rounded, expected: f64) -> bool {
     number.is_within(expected, number.error + 1e-12)
 }
@@ -66,7 +66,7 @@ fn linear_part(row: &[Rounded; 4]) -> [Rounded; 3] {
     [row[0], row[1], row[2]]
 }
 
-/// `vector` without its component along a vector of length 1.
+/// Returns `vector` without its component along a unit vector.
 fn beside(vector: [Rounded; 3], unit: [Rounded; 3]) -> [Rounded; 3] {
     let along = dot(vector, unit);
     [0, 1, 2].map(|i| vector[i] - unit[i] * along)
@@ -81,17 +81,17 @@ fn is_square(a: [Rounded; 3], b: [Rounded; 3]) -> bool {
     dot(a, b).is_within(0.0, 1e-11 * values(a).length() * values(b).length())
 }
 
-/// A camera in the world, with the rows of the projection after it.
+/// A camera in the world, with the rows of its projection.
 struct PlacedFrame {
     eye: DVec3,
     eye_error: f64,
     right: DVec3,
     up: DVec3,
     gaze: DVec3,
-    /// x' = scale x − center D, for x and y.
+    /// The factors in x' = scale x − center D, for x and y.
     scale: [Rounded; 2],
     center: [Rounded; 2],
-    /// Depth z' = factor D + offset.
+    /// The factor and offset in z' = factor D + offset.
     depth: [Rounded; 2],
 }
 
@@ -152,7 +152,7 @@ impl PlacedFrame {
             let sum = c + Rounded::exact(side);
             if sum.is_zero() { Rounded::exact(0.0) } else { sum / s * near }
         };
-        // Rounded centers that may be 0 are 0, because most cameras are symmetric.
+        // Rounded centers that may be 0 are treated as 0, because most cameras are symmetric.
         let [cx, cy] = [cx, cy].map(|c| if is_close(c, 0.0) { Rounded::exact(0.0) } else { c });
         let window = [edge(cx, sx, -1.0), edge(cx, sx, 1.0), edge(cy, sy, -1.0), edge(cy, sy, 1.0)];
         let [l, r, b, t] = window.map(Rounded::simplest);
@@ -163,7 +163,7 @@ impl PlacedFrame {
             + far.map_or(0, Rounded::digits)
             + lens_digits(window, near, sy, sx)
             + self.eye_digits();
-        // A camera that is upside down in OpenGL's convention is so in all conventions.
+        // A camera that is upside down in OpenGL's convention is upside down in all conventions.
         let rivaled = convention.ahead() > 0.0 || convention.top() < 0.0;
         let turned = match sy.value < 0.0 {
             true => MIRRORED,
@@ -179,7 +179,8 @@ impl PlacedFrame {
         self.eye.to_array().into_iter().map(number).sum()
     }
 
-    /// For the same right axis and line of sight, up is reversed in a left-handed world.
+    /// Returns the camera in this convention. For the same right axis and line of sight, the up
+    /// direction is reversed in a left-handed world.
     fn camera(&self, convention: Convention) -> CameraReading {
         let clean = |v: DVec3, error: f64| v.to_array().map(|x| shorten(x, error));
         let turn = self.scale[0].error / self.scale[0].value.abs();
@@ -192,10 +193,10 @@ impl PlacedFrame {
     }
 }
 
-/// Returns the cost of an upside-down camera whose numbers may describe one that is right side up
-/// in another convention.
+/// Returns the cost of an upside-down camera whose numbers may also describe an upright camera in
+/// another convention.
 ///
-/// Up is y, or z for a camera whose right axis is level only then.
+/// The world's up axis is y, or z if only that makes the camera's right axis level.
 fn posture_cost(camera: &CameraReading) -> u32 {
     let level = |axis: usize| camera.right[axis].abs() < 1e-6;
     let upwards = if (level(2) && !level(1)) || camera.up[1].abs() < 1e-6 {
@@ -210,7 +211,7 @@ fn rows_dot(row: &[Rounded; 4], point: DVec3) -> f64 {
     values(linear_part(row)).dot(point)
 }
 
-/// Adds the readings as a camera with an orthographic box: perpendicular rows.
+/// Adds the readings as a camera with an orthographic box, whose rows are perpendicular.
 pub(crate) fn read_placed_box(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let factor = m[3][3];
     if factor.is_zero() || ![m[3][0], m[3][1], m[3][2]].into_iter().all(Rounded::is_zero) {

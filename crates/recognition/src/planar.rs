@@ -11,20 +11,21 @@ use glam::DMat3;
 
 /// The meaning of a 3×3 matrix for column vectors (x, y, w).
 #[derive(Clone, Copy, PartialEq, Debug)]
-#[expect(clippy::large_enum_variant, reason = "there are few, and they are plain numbers")]
+#[expect(clippy::large_enum_variant, reason = "few are created, and they contain only numbers")]
 pub enum PlanarMatrix {
-    /// A map of the plane that leaves w unchanged; the z of the meaning is not used.
+    /// A map of the plane that leaves w unchanged; ignore z in the meaning.
     Plane(MatrixMeaning),
-    /// The intrinsic matrix of a camera: from camera x, y and z to pixels.
+    /// The intrinsic matrix of a camera, from camera x, y and z to pixels.
     Intrinsics(IntrinsicsReading),
-    /// A rotation of space, without homogeneous coordinates.
+    /// A rotation in space, without homogeneous coordinates.
     SpatialRotation {
         /// The axis, with length 1.
         axis: [f64; 3],
-        /// The angle, 0 to 180, counterclockwise when the axis points at the viewer.
+        /// The angle in degrees, from 0 to 180, counterclockwise when the axis points at the
+        /// viewer.
         angle_degrees: f64,
     },
-    /// A projective map of the plane, which sends a line to infinity (HO-3).
+    /// A projective map of the plane, which maps a line to infinity (HO-3).
     Homography,
     /// A map onto a line or a point.
     Singular,
@@ -35,15 +36,15 @@ pub enum PlanarMatrix {
 pub struct PlanarReading {
     /// The meaning.
     pub meaning: PlanarMatrix,
-    /// The common factor of all entries: a multiple is the same map.
+    /// The common factor of all entries; a multiple of a matrix is the same map.
     pub factor: f64,
-    /// Twice the digits of its parameters, with a penalty for rare maps. A lower cost is more
-    /// likely.
+    /// Twice the number of digits of the parameters, with a penalty for rare maps. A reading with a
+    /// lower cost is more likely.
     pub cost: u32,
 }
 
-/// Recognizes a 3×3 matrix, given by rows, for column vectors. Returns the readings, the most
-/// likely first, and whether the transposed matrix is clearly better.
+/// Recognizes a 3×3 matrix for column vectors, specified by its rows. Returns the readings, most
+/// likely first, and whether the transposed matrix has a clearly better reading.
 ///
 /// ```
 /// use recognition::{MatrixMeaning, PlanarMatrix, recognize_planar};
@@ -88,8 +89,8 @@ fn planar_readings(entries: &Entries<3>) -> Vec<PlanarReading> {
     found
 }
 
-/// Returns the identity above (p, q, 1): a correct matrix for column vectors, just as a translation
-/// is for row vectors.
+/// Reads the identity above the row (p, q, 1), which is a correct matrix for column vectors and
+/// also a translation for row vectors.
 fn is_simple_homography([x, y, w]: &Entries<3>) -> Option<u32> {
     let identity = x[0].is(1.0) && y[1].is(1.0) && w[2].is(1.0);
     let zeros = [x[1], x[2], y[0], y[2]].into_iter().all(Rounded::is_zero);
@@ -97,7 +98,7 @@ fn is_simple_homography([x, y, w]: &Entries<3>) -> Option<u32> {
     (identity && zeros && digits > 0).then_some(3 + 2 * digits)
 }
 
-/// Reads the bottom row (0, 0, s) as a map of space that leaves z unchanged.
+/// Reads a matrix with the bottom row (0, 0, s) as a map of space that leaves z unchanged.
 fn read_affine_plane([x, y, w]: &Entries<3>, found: &mut Vec<PlanarReading>) {
     if !(w[0].is_zero() && w[1].is_zero()) || w[2].is_zero() {
         return;

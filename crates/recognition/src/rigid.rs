@@ -7,21 +7,21 @@ use super::{MatrixMeaning, MatrixReading};
 use alloc::vec::Vec;
 use glam::{DMat3, DVec3};
 
-/// A camera's matrix from world to view space (CA-2): its position and its axes in the world.
+/// A camera, from its matrix from world to view space (CA-2): its position and axes in the world.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct CameraReading {
     /// The position of the camera.
     pub eye: [f64; 3],
-    /// The gaze direction, with length 1: −w in the textbook (Shirley and Marschner, ch. 8).
+    /// The gaze direction, with length 1: the textbook's −w (Shirley and Marschner, ch. 8).
     pub gaze: [f64; 3],
-    /// Up in the picture, with length 1: v in the textbook.
+    /// The up direction in the picture, with length 1: the textbook's v.
     pub up: [f64; 3],
-    /// Right in the picture, with length 1: u in the textbook.
+    /// The right direction in the picture, with length 1: the textbook's u.
     pub right: [f64; 3],
 }
 
-/// Returns whether three unit vectors are perpendicular within their rounding.
+/// Returns whether three unit vectors are perpendicular up to rounding.
 pub(crate) fn is_square_frame(axes: &[[Rounded; 3]; 3]) -> bool {
     let dot = |a: [Rounded; 3], b: [Rounded; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let slack = 1e-12 + largest_error(axes);
@@ -29,12 +29,13 @@ pub(crate) fn is_square_frame(axes: &[[Rounded; 3]; 3]) -> bool {
     square(0, 1) && square(1, 2) && square(2, 0)
 }
 
-/// Returns the largest error of any entry; ±1 may be rounded too.
+/// Returns the largest error of any entry, because even ±1 may be rounded.
 pub(crate) fn largest_error(rows: &[[Rounded; 3]; 3]) -> f64 {
     rows.as_flattened().iter().fold(0.0, |error: f64, entry| error.max(entry.error))
 }
 
-/// Returns the rows of a 3×3 matrix, made exactly orthonormal; `None` unless they nearly are.
+/// Returns the rows of a 3×3 matrix, made exactly orthonormal; `None` unless they are nearly
+/// orthonormal.
 pub(crate) fn orthonormal_rows(rows: &[[Rounded; 3]; 3]) -> Option<[DVec3; 3]> {
     let unit = rows.iter().all(|[x, y, z]| {
         let square = *x * *x + *y * *y + *z * *z;
@@ -52,7 +53,7 @@ pub(crate) fn orthonormal_rows(rows: &[[Rounded; 3]; 3]) -> Option<[DVec3; 3]> {
     Some([u, v, if turned.dot(w) < 0.0 { -turned } else { turned }])
 }
 
-/// Adds the reading of a rigid matrix: rotation, camera or reflection.
+/// Adds the readings of a rigid matrix: rotation, camera, model transform or reflection.
 pub(crate) fn read_rigid(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let factor = m[3][3];
     if factor.is_zero() || ![m[3][0], m[3][1], m[3][2]].into_iter().all(Rounded::is_zero) {
@@ -93,7 +94,7 @@ pub(crate) fn read_rigid(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
         push(MatrixMeaning::Rotation { axis, angle_degrees, camera }, 6);
         return;
     }
-    // Few cameras roll in a world whose y or z is up.
+    // Few cameras roll in a world where y or z is up.
     let is_level = |camera: &CameraReading| camera.right[1..].iter().any(|x| x.abs() < 1e-9);
     let roll_cost = |camera: &CameraReading| if is_level(camera) { 0 } else { 4 };
     push(MatrixMeaning::Camera(camera), 6 + roll_cost(&camera) + 2 * digits(eye));
@@ -111,9 +112,9 @@ pub(crate) fn read_rigid(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     push(MatrixMeaning::CameraPose(pose), 8 + roll_cost(&pose) + 2 * digits(offset));
 }
 
-/// Returns the cost of a rotation in a model transform: a coordinate axis and few digits of the
-/// angle are common, most of all the z axis of two-dimensional pictures, about which cameras seldom
-/// roll.
+/// Returns the cost of a rotation in a model transform. Rotations about coordinate axes by angles
+/// with few digits are common, especially about the z axis in two-dimensional pictures; cameras
+/// seldom roll about it.
 fn turn_cost(axis: [f64; 3], angle: Rounded) -> u32 {
     match axis.map(|x| x == 0.0) {
         [true, true, false] => 2 + 2 * angle.digits(),
@@ -127,12 +128,12 @@ pub(crate) fn shorten(value: f64, error: f64) -> f64 {
     Rounded { value, error: error.max(1e-13) }.simplest()
 }
 
-/// e in R e = −t, by the transpose.
+/// Solves R e = −t for the eye e, with the transpose of R.
 fn eye_of(rows: &[[Rounded; 3]; 3], offset: [Rounded; 3]) -> [Rounded; 3] {
     [0, 1, 2].map(|j| -(rows[0][j] * offset[0] + rows[1][j] * offset[1] + rows[2][j] * offset[2]))
 }
 
-/// I − 2nnᵀ and a shift along n: the reflection in the plane n·p = distance.
+/// Reads I − 2nnᵀ with a shift along n as the reflection in the plane n·p = distance.
 fn reflection(rows: &[[Rounded; 3]; 3], offset: [Rounded; 3]) -> Option<(MatrixMeaning, u32)> {
     let symmetric = (0..3).all(|i| (0..i).all(|j| rows[i][j].equals(rows[j][i])));
     let trace = rows[0][0] + rows[1][1] + rows[2][2];

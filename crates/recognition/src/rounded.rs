@@ -1,13 +1,14 @@
-//! Numbers with their possible rounding error, and the number of digits they need.
+//! Rounded numbers: values with their possible rounding errors, and the number of digits that they
+//! need.
 //!
-//! A matrix printed with three decimals, stored as f32 or computed in f64 says the same thing with
-//! different precision. The precision is estimated from the entries and propagated through sums,
-//! products and quotients to first order: near = 0.0999 ± 0.0002 is read as 0.1.
+//! The same matrix may be printed with three decimals, stored as f32 or computed in f64, with
+//! different precision. The precision is estimated from the entries and propagated to first order
+//! through sums, products and quotients: near = 0.0999 ± 0.0002 is read as 0.1.
 
 use alloc::vec::Vec;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// The digit count of a parameter that no short decimal describes.
+/// The digit count of a parameter that has no short decimal.
 const MANY_DIGITS: u32 = 8;
 
 /// A number and its maximum error.
@@ -17,7 +18,7 @@ pub(crate) struct Rounded {
     pub(crate) error: f64,
 }
 
-/// The entries of a matrix by rows, with their precision.
+/// The entries of a matrix, row by row, with their precision.
 pub(crate) type Entries<const N: usize> = [[Rounded; N]; N];
 
 impl Rounded {
@@ -27,22 +28,22 @@ impl Rounded {
         Self { value, error: 0.0 }
     }
 
-    /// Returns a function of this number with the given value and derivative.
+    /// Returns the result of a function of this number, from its value and derivative.
     pub(crate) fn mapped(self, value: f64, derivative: f64) -> Self {
         Self { value, error: self.error * derivative.abs() + 4.0 * f64::EPSILON * value.abs() }
     }
 
-    /// Returns whether the number may be `expected`.
+    /// Returns whether the number may be `expected`, within its error.
     pub(crate) fn is(self, expected: f64) -> bool {
         self.is_within(expected, 0.0)
     }
 
-    /// Returns whether the number may be `expected`, with some slack for lengths and angles.
+    /// Returns whether the number may be `expected`, with additional slack for lengths and angles.
     pub(crate) fn is_within(self, expected: f64, slack: f64) -> bool {
         self.error.is_finite() && (self.value - expected).abs() <= self.error + slack
     }
 
-    /// Returns whether two numbers may be equal.
+    /// Returns whether two numbers may be equal, within their errors.
     pub(crate) fn equals(self, other: Self) -> bool {
         (self - other).is(0.0)
     }
@@ -63,8 +64,8 @@ impl Rounded {
         self.mapped(libm::atan(self.value).to_degrees(), slope)
     }
 
-    /// Returns the shortest decimal within the error; the number itself if none has up to seven
-    /// digits.
+    /// Returns the shortest decimal within the error, or the number itself if that decimal has more
+    /// than seven digits.
     pub(crate) fn simplest(self) -> f64 {
         if self.is_zero() {
             return 0.0;
@@ -74,7 +75,8 @@ impl Rounded {
         short.next().unwrap_or(self.value)
     }
 
-    /// Returns whether the number may be 0.01, 0.1, 1, 10 and so on, within its error.
+    /// Returns whether the number may be a power of ten, such as 0.01, 0.1, 1 or 10, within its
+    /// error.
     pub(crate) fn is_power_of_ten(self) -> bool {
         let simplest = self.simplest();
         let exponent = libm::round(libm::log10(simplest.abs())) as i32;
@@ -82,8 +84,8 @@ impl Rounded {
         simplest == if exponent < 0 { 1.0 / power } else { power }
     }
 
-    /// Returns the significant digits of the shortest decimal within the error, or of the terms of
-    /// a small fraction such as 16/9; 0 for zero, 8 if neither exists.
+    /// Returns the number of significant digits of the shortest decimal within the error, or a
+    /// small cost for a simple fraction such as 16/9; 0 for zero, and 8 if neither exists.
     pub(crate) fn digits(self) -> u32 {
         if self.is_zero() || !self.value.is_finite() {
             return 0;
@@ -101,7 +103,7 @@ impl Rounded {
     }
 }
 
-/// Returns the decimal with this many significant digits nearest to x.
+/// Returns the decimal nearest to x with this many significant digits.
 fn round_to_digits(x: f64, digits: u32) -> f64 {
     let exponent = libm::floor(libm::log10(x.abs())) as i32;
     let decimals = digits as i32 - 1 - exponent;
@@ -113,14 +115,15 @@ fn power_of_ten(exponent: u32) -> f64 {
     (0..exponent.min(300)).fold(1.0, |power, _| power * 10.0)
 }
 
-/// Returns the entries, with the error due to their decimals, f32 or f64 arithmetic.
+/// Returns the entries with their error, which depends on their decimals or on f32 or f64
+/// arithmetic.
 ///
 /// | entries | error |
 /// | --- | --- |
-/// | 0 and ±1, and all if none has more than two decimals | 0 |
-/// | at most 3 to 12 decimals | 0.6 units of the last decimal |
+/// | 0 and ±1, and all entries if none has more than two decimals | 0 |
+/// | at most 3 to 12 decimals | 0.6 units in the last decimal |
 /// | f32 numbers | 2.4e-7 relative, 1.2e-7 of the largest |
-/// | others | 1e-14 relative, 1e-15 of the largest |
+/// | other numbers | 1e-14 relative, 1e-15 of the largest |
 pub(crate) fn measure_entries<const N: usize>(rows: [[f64; N]; N]) -> Entries<N> {
     let entries = rows.as_flattened();
     let largest = entries.iter().fold(0.0, |size: f64, entry| size.max(entry.abs()));
@@ -140,11 +143,12 @@ pub(crate) fn measure_entries<const N: usize>(rows: [[f64; N]; N]) -> Entries<N>
     })
 }
 
-/// Returns all entries with the precision of the coarser ones, for matrices assembled from numbers
-/// of different precision; finer precisions first.
+/// Returns all entries with the precision of the coarser entries, once for each possible precision,
+/// finest first. This is for matrices assembled from numbers of different precision.
 ///
-/// At least three entries, and two thirds of those with more than two decimals, must have at most
-/// the assumed number of decimals. Entries with more keep their own precision.
+/// At least three of the entries with more than two decimals, and at least two thirds of them, must
+/// have at most the assumed number of decimals. Entries with more decimals keep their own
+/// precision.
 pub(crate) fn coarser_measures<const N: usize>(rows: [[f64; N]; N]) -> Vec<Entries<N>> {
     let decimals = |x: f64| (0..=12).find(|&n| has_decimals(x, n)).unwrap_or(13);
     let mut found: Vec<u32> = rows.as_flattened().iter().map(|&x| decimals(x)).collect();
@@ -166,7 +170,7 @@ pub(crate) fn coarser_measures<const N: usize>(rows: [[f64; N]; N]) -> Vec<Entri
     (3..most).rev().filter(|&n| found.contains(&n) && usual(n)).map(measure).collect()
 }
 
-/// Returns whether x has at most the given number of decimals.
+/// Returns whether x has at most this number of decimals.
 fn has_decimals(x: f64, decimals: u32) -> bool {
     let shifted = x * power_of_ten(decimals);
     (shifted - libm::round(shifted)).abs() <= 4.0 * f64::EPSILON * shifted.abs()
@@ -223,7 +227,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn digits_follow_the_precision() {
+    fn digits_depend_on_the_precision() {
         assert_eq!(Rounded { value: 0.0999, error: 2e-4 }.simplest(), 0.1);
         assert_eq!(Rounded { value: 0.0999, error: 2e-6 }.simplest(), 0.0999);
         assert_eq!(Rounded::exact(640.0).digits(), 2);

@@ -1,8 +1,8 @@
-//! Known misprints that explain a matrix better than its best reading, or as well.
+//! Suspicions: known misprints that explain a matrix at least as well as its best reading.
 //!
 //! Each test undoes one misprint and reads the result. A misprint is assumed only if that reading
-//! needs clearly fewer digits, or if the matrix as given makes no sense: every misprint is also the
-//! correct matrix of something less likely.
+//! needs clearly fewer digits, or if the original matrix has no meaningful reading, because every
+//! misprint is also the correct matrix of something less likely.
 
 use super::matrix_reading::{is_moderate, readings_of, transpose};
 use super::rounded::{Entries, Rounded};
@@ -13,18 +13,19 @@ use projection::{Convention, Frustum};
 
 /// The saving in cost required to assume a misprint.
 pub(crate) const SLIP: u32 = 6;
-/// The margin below which a misprint is as likely as the correct matrix, and above which it is more
-/// likely.
+/// The difference in cost up to which a misprint and a correct matrix are equally likely. Beyond
+/// it, the misprint is more likely.
 const MARGIN: u32 = 4;
-/// The maximum extra cost, compared with the best reading, of a misprint that is still reported.
+/// The maximum extra cost, compared with the best reading, at which a misprint is still reported.
 const TOLD: u32 = 4;
 
 /// The confidence in a suspicion.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum SuspicionStrength {
-    /// The matrix as given makes no sense, or clearly less than without the misprint.
+    /// The original matrix has no meaningful reading, or a clearly less likely reading than without
+    /// the misprint.
     Likely,
-    /// Its numbers are also the correct matrix of something else, which is equally likely.
+    /// The same numbers are also the correct matrix of something else, which is equally likely.
     Equal,
 }
 
@@ -34,20 +35,22 @@ pub enum SuspicionStrength {
 pub struct Suspicion {
     /// The misprint.
     pub misprint: Misprint,
-    /// The confidence.
+    /// The confidence in the suspicion.
     pub strength: SuspicionStrength,
-    /// The rows of the probable intended matrix; `None` if the missing numbers cannot be recovered.
+    /// The rows of the matrix that was probably intended; `None` if the missing numbers cannot be
+    /// recovered.
     pub remedied: Option<[[f64; 4]; 4]>,
 }
 
-/// A misprint undone: the cost of the best reading then, and the matrix.
+/// A misprint with its corrected matrix and the cost of the best reading of that matrix.
 struct Remedy {
     misprint: Misprint,
     cost: u32,
     remedied: Option<[[f64; 4]; 4]>,
 }
 
-/// Returns the possible misprints in a matrix with these readings, the most certain first.
+/// Returns the possible misprints in a matrix with these readings, in descending order of
+/// certainty.
 pub(crate) fn suspicions_of(m: &Entries<4>, readings: &[MatrixReading]) -> Vec<Suspicion> {
     if !m.as_flattened().iter().all(|entry| is_moderate(entry.value)) {
         return Vec::new();
@@ -86,7 +89,7 @@ fn matrix_of(m: &Entries<4>) -> [[f64; 4]; 4] {
     m.map(|row| row.map(|entry| entry.value))
 }
 
-/// Returns the best reading of the corrected entries with an accepted meaning, and its cost.
+/// Returns the remedy with the best reading of the corrected entries whose meaning is accepted.
 fn remedy(
     misprint: Misprint,
     remedied: &Entries<4>,
@@ -101,7 +104,8 @@ fn is_central(meaning: &MatrixMeaning) -> bool {
     matches!(meaning, MatrixMeaning::Perspective { .. } | MatrixMeaning::ApexMoved { .. })
 }
 
-/// (24) Rows and columns exchanged: for row vectors, or stored column by column.
+/// Undoes (24), rows and columns exchanged: the matrix is for row vectors or stored column by
+/// column.
 fn undo_transposition(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let transposed = transpose(m);
     let symmetric = (0..4).all(|i| (0..4).all(|j| m[i][j].equals(m[j][i])));
@@ -114,7 +118,8 @@ fn undo_transposition(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     remedy(Misprint::Transposed, &transposed, MatrixMeaning::is_named)
 }
 
-/// M11: a rigid motion that has lost its z; the third row is the cross product of the first two.
+/// Undoes M11: in a rigid motion, the third column is zero; it is restored as the cross product of
+/// the first two.
 fn undo_flat_third_row(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
     let column = (0..3).all(|i| m[i][2].is_zero());
     if !column || m[2][3].is_zero() || !m[3][3].is(1.0) || !m[3][..3].iter().all(|x| x.is_zero()) {
@@ -132,8 +137,8 @@ fn undo_flat_third_row(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
     remedy(Misprint::ThirdRowFlat, &remedied, rigid)
 }
 
-/// M14: a bottom row (0, 0, −1, 1) below the depth row of a perspective (Eq7), or below the
-/// identity or a scale of x and y (Eq4, Eq5).
+/// Undoes M14: the bottom row is (0, 0, −1, 1), below the depth row of a perspective (Eq7), or
+/// below the identity or a scale of x and y (Eq4, Eq5).
 fn undo_bottom_row_one(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
     let [x, y, z, w] = m;
     let opposite = !w[3].is_zero() && (w[2] + w[3]).is_zero();
@@ -156,7 +161,7 @@ fn undo_bottom_row_one(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
     remedy(Misprint::BottomRowOne, &remedied, is_central)
 }
 
-/// M15: a box in front of the eye, if the sign of the depth offset is flipped.
+/// Undoes M15: with the sign of the depth offset flipped, the matrix is a box in front of the eye.
 fn undo_ortho_offset_sign(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
     let mut remedied = *m;
     remedied[2][3] = -m[2][3];
@@ -170,12 +175,12 @@ fn undo_ortho_offset_sign(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
     if m[2][3].is_zero() {
         return None;
     }
-    // Every such box is also a Direct3D box with reversed depth and another far plane.
+    // Every such box is also a Direct3D box with reversed depth and a different far plane.
     let found = remedy(Misprint::OrthoOffsetSign, &remedied, ahead)?;
     Some(Remedy { cost: found.cost + 2, ..found })
 }
 
-/// Returns the scales of x and y of a centered perspective, if the matrix is one in every respect.
+/// Returns the scales of x and y if the matrix is a complete centered perspective.
 fn centered_scales(m: &Entries<4>) -> Option<[Rounded; 2]> {
     let central = !m[3][2].is_zero() && m[3][3].is_zero();
     let centered = m[0][2].is_zero() && m[1][2].is_zero() && m[0][3].is_zero();
@@ -190,7 +195,7 @@ fn with_scale_y(m: &Entries<4>, [x, y]: [Rounded; 2], scale_y: Rounded) -> Entri
     changed
 }
 
-/// M17: 2/tan(fovy) in place of 1/tan(fovy/2).
+/// Undoes M17: 2/tan(fovy) instead of 1/tan(fovy/2).
 fn undo_half_of_tangent(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let [x, y] = centered_scales(m).filter(|_| is_central(&best.meaning))?;
     let tangent = Rounded::exact(2.0) / y;
@@ -200,7 +205,7 @@ fn undo_half_of_tangent(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> 
     remedy(Misprint::HalfOfTangent, &with_scale_y(m, [x, y], scale), is_central)
 }
 
-/// M19: a scale that results from treating a multiple of five degrees as radians.
+/// Undoes M19: a scale that results from treating a multiple of five degrees as radians.
 fn undo_degrees(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let [x, y] = centered_scales(m).filter(|_| best.meaning.is_named())?;
     let degrees = (2..=34_u32).map(|fives| f64::from(fives * 5)).find(|degrees| {
@@ -213,11 +218,11 @@ fn undo_degrees(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     remedy(Misprint::Degrees, &with_scale_y(m, [x, y], scale), is_central)
 }
 
-/// Returns the last row (0, 0, 1, 0) below the depth row of a camera that looks along −z, or vice
-/// versa.
+/// Undoes a negated last row: (0, 0, 1, 0) below the depth row of a camera that looks along −z, or
+/// vice versa.
 fn undo_last_row_sign(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let bare = m[3][0].is_zero() && m[3][1].is_zero() && m[3][3].is_zero();
-    // Upside down and seen from behind, it is a camera at the origin.
+    // Upside down and seen from behind, the matrix is also a camera at the origin.
     let turned = matches!(best.meaning, MatrixMeaning::CameraPerspective { .. });
     if (best.meaning.is_named() && !(turned && best.factor < 0.0)) || !bare || m[3][2].is_zero() {
         return None;
@@ -227,7 +232,7 @@ fn undo_last_row_sign(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     remedy(Misprint::LastRowNegated, &remedied, is_central)
 }
 
-/// Returns a rotation or a camera, except for the sign of one entry.
+/// Undoes a wrong sign: the matrix is a rotation or a camera, except for the sign of one entry.
 fn undo_wrong_sign(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let affine = m[3][..3].iter().all(|entry| entry.is_zero()) && m[3][3].is(1.0);
     if best.meaning.is_named() || !affine {
@@ -244,7 +249,7 @@ fn undo_wrong_sign(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     })
 }
 
-/// M12: not glFrustum with the same parameters.
+/// Undoes M12: the matrix differs from glFrustum with the same parameters.
 fn tell_moved_apex(_: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let MatrixMeaning::ApexMoved { frustum, convention } = best.meaning else { return None };
     let through = Frustum::from_window(frustum.window(), frustum.near(), frustum.far()).ok()?;
@@ -252,7 +257,7 @@ fn tell_moved_apex(_: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     Some(Remedy { misprint: Misprint::ApexMoved, cost: best.cost, remedied })
 }
 
-/// M16: a window that begins exactly at x = 0 but neither begins nor ends at y = 0.
+/// Undoes M16: a window that begins exactly at x = 0 but neither begins nor ends at y = 0.
 fn tell_frustum_offset_one(_: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let MatrixMeaning::Perspective { frustum, .. } = best.meaning else { return None };
     let w = frustum.window();
@@ -262,7 +267,7 @@ fn tell_frustum_offset_one(_: &Entries<4>, best: &MatrixReading) -> Option<Remed
     told.then_some(Remedy { misprint, cost: best.cost, remedied: None })
 }
 
-/// M6: t_y in place of t_z.
+/// Undoes M6: t_y instead of t_z.
 fn tell_repeated_translation(_: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let MatrixMeaning::Translation { by: [x, y, z] } = best.meaning else { return None };
     let told = y == z && y != 0.0 && x != y && x != 0.0;

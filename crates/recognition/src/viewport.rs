@@ -1,25 +1,26 @@
-//! Readings as a map to pixels: the viewport (VP-1 to VP-3) and camera intrinsics (OpenCV).
+//! Readings as maps to pixels: viewports (VP-1 to VP-3) and camera intrinsics (OpenCV).
 
 use super::rounded::{Entries, Rounded};
 use super::{MatrixMeaning, MatrixReading};
 use alloc::vec::Vec;
 
-/// A viewport: from [−1, 1]² to a rectangle of pixels, and from depth [−1, 1] to a depth range.
+/// A viewport, which maps [−1, 1]² to a rectangle of pixels and the depths [−1, 1] to a depth
+/// range.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct ViewportReading {
-    /// The column of the left edge.
+    /// The column coordinate of the left edge.
     pub x: f64,
-    /// The row of the edge from which rows are counted.
+    /// The row coordinate of the edge from which rows are counted.
     pub y: f64,
     /// The width in pixels.
     pub width: f64,
     /// The height in pixels.
     pub height: f64,
-    /// True if rows count from the top: y = +1 maps to the smaller row.
+    /// True if rows count from the top, so that y = +1 maps to the smaller row.
     pub y_down: bool,
     /// True if pixel centers have integer coordinates, as in the textbook (Shirley and Marschner,
-    /// ch. 8): the image begins at −½.
+    /// ch. 8), so that the image begins at −½.
     pub integer_centers: bool,
     /// The depths to which z = −1 and z = +1 map.
     pub depth: [f64; 2],
@@ -33,15 +34,15 @@ pub struct IntrinsicsReading {
     pub fx: f64,
     /// The focal length in pixel heights.
     pub fy: f64,
-    /// The column of the principal point.
+    /// The column coordinate of the principal point.
     pub cx: f64,
-    /// The row of the principal point.
+    /// The row coordinate of the principal point.
     pub cy: f64,
     /// The skew of the pixel axes; 0 in most cameras.
     pub skew: f64,
 }
 
-/// Adds the reading as a viewport, if its size and origin are whole pixels.
+/// Adds the reading as a viewport, if its size and origin are in whole pixels.
 pub(crate) fn read_viewport(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let zeros = [m[0][1], m[0][2], m[1][0], m[1][2], m[2][0], m[2][1]];
     let bottom = [m[3][0], m[3][1], m[3][2]];
@@ -78,11 +79,12 @@ pub(crate) fn read_viewport(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     }
 }
 
-/// Returns the intrinsics from a matrix with the rows (fx, skew, cx), (0, fy, cy), (0, 0, 1), up to
-/// a factor.
+/// Reads the intrinsics from a matrix with the rows (fx, skew, cx), (0, fy, cy), (0, 0, 1), up to a
+/// factor.
 ///
-/// If scales are below 20, or the principal point is not right of and below the first pixel, the
-/// matrix is another map. The caller distinguishes viewports, whose offsets equal their scales.
+/// If scales are below 20, or if the principal point is not to the right of and below the first
+/// pixel, the matrix is a different map. The caller excludes viewports, whose offsets equal their
+/// scales.
 pub(crate) fn intrinsics_of(k: &Entries<3>) -> Option<(IntrinsicsReading, u32)> {
     let zeros = [k[1][0], k[2][0], k[2][1]];
     if !zeros.into_iter().all(Rounded::is_zero) || !k[2][2].is(1.0) {
@@ -103,7 +105,7 @@ pub(crate) fn intrinsics_of(k: &Entries<3>) -> Option<(IntrinsicsReading, u32)> 
     Some((IntrinsicsReading { fx, fy, cx, cy, skew }, 3 + 2 * digits))
 }
 
-/// Adds the reading as a 4×4 intrinsic matrix: K with a row and a column of the identity.
+/// Adds the reading as a 4×4 intrinsic matrix: K extended by a row and a column of the identity.
 pub(crate) fn read_intrinsics(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let zeros = [m[0][3], m[1][3], m[2][3], m[3][0], m[3][1], m[3][2]];
     if !zeros.into_iter().all(Rounded::is_zero) || !m[3][3].is(1.0) {

@@ -26,7 +26,7 @@
 //! | the map M_vp (VP-1 to VP-3) | [`Viewport::ndc_to_screen`] |
 //! | its inverse (WV-3) | [`Viewport::screen_to_ndc`] |
 //! | another pixel convention (VP-4) | `homog::PixelConvention::convert_to` |
-//! | map from a window to a viewport in the plane, by two methods | [`WindowToViewport`] (WV-1, WV-2) |
+//! | map a window to a viewport in the plane, in two ways | [`WindowToViewport`] (WV-1, WV-2) |
 //! | fit a picture into a rectangle of another shape | [`FitPolicy`] |
 //! | several viewports on a page | [`Rectangle::split_grid`], [`Rectangle::inset_rectangle`] |
 //! | millimeters, dots per inch, scale 1:n | [`Paper`], [`Resolution`], [`DrawingScale`] |

@@ -1,7 +1,7 @@
-//! The matrices of the literature, entry by entry, without the builders of the crate.
+//! The matrices of the literature, entry by entry, without the crate's builders.
 //!
-//! Rows, for column vectors. Formula ids are those of `docs/formulas.md`; N and F are distances, n
-//! and f the textbook's signed coordinates.
+//! Matrices are listed by rows, for column vectors. Formula ids are from `docs/formulas.md`. N and
+//! F are distances; n and f are the textbook's signed coordinates.
 
 pub(crate) type Rows = [[f64; 4]; 4];
 
@@ -17,12 +17,12 @@ pub(crate) fn scaled(m: Rows, factor: f64) -> Rows {
     m.map(|row| row.map(|entry| entry * factor))
 }
 
-/// As printed, with this number of decimals.
+/// Rounds a matrix as if printed with this number of decimals.
 pub(crate) fn rounded(m: Rows, decimals: usize) -> Rows {
     m.map(|row| row.map(|x| format!("{x:.decimals$}").parse::<f64>().expect("a number") + 0.0))
 }
 
-/// As a program with f32 matrices prints it.
+/// Rounds a matrix to f32, as in programs with f32 matrices.
 pub(crate) fn single(m: Rows) -> Rows {
     m.map(|row| row.map(|x| f64::from(x as f32)))
 }
@@ -41,7 +41,7 @@ pub(crate) fn gl_frustum([l, r, b, t]: [f64; 4], n: f64, f: f64) -> Rows {
     ]
 }
 
-/// Returns a lens above a depth row (a, b) and the bottom row (0, 0, w, 0).
+/// Returns a lens with the depth row (a, b) and the bottom row (0, 0, w, 0).
 pub(crate) fn lens(fovy_degrees: f64, aspect: f64, [a, b, w]: [f64; 3]) -> Rows {
     let c = cot_half(fovy_degrees);
     [[c / aspect, 0.0, 0.0, 0.0], [0.0, c, 0.0, 0.0], [0.0, 0.0, a, b], [0.0, 0.0, w, 0.0]]
@@ -77,7 +77,7 @@ pub(crate) fn flip_y(mut m: Rows) -> Rows {
     m
 }
 
-/// Returns a box above a depth row (a, b).
+/// Returns a box with the depth row (a, b).
 fn fit([l, r, b, t]: [f64; 4], [a, c]: [f64; 2]) -> Rows {
     [
         [2.0 / (r - l), 0.0, 0.0, -(r + l) / (r - l)],
@@ -137,7 +137,7 @@ pub(crate) fn lesson_frustum([l, r, b, t]: [f64; 4], n: f64, f: f64) -> Rows {
     ]
 }
 
-/// VP-1; y down negates the scale of y (VP-2).
+/// VP-1; if y points down, the scale of y is negated (VP-2).
 pub(crate) fn m_vp(nx: f64, ny: f64, y_down: bool) -> Rows {
     let y = if y_down { -ny / 2.0 } else { ny / 2.0 };
     [
@@ -175,7 +175,7 @@ pub(crate) fn unit(a: [f64; 3]) -> [f64; 3] {
     a.map(|x| x / length)
 }
 
-/// CA-1 and CA-2: eye, gaze and view-up.
+/// CA-1 and CA-2, from eye, gaze and view-up.
 pub(crate) fn m_cam(eye: [f64; 3], gaze: [f64; 3], up: [f64; 3]) -> Rows {
     let w = unit(gaze.map(|x| -x));
     let u = unit(cross(up, w));
@@ -183,7 +183,7 @@ pub(crate) fn m_cam(eye: [f64; 3], gaze: [f64; 3], up: [f64; 3]) -> Rows {
     [row(u), row(cross(w, u)), row(w), [0.0, 0.0, 0.0, 1.0]]
 }
 
-/// Returns the view space of OpenCV and COLMAP from that of OpenGL: y and z negated.
+/// Converts OpenGL's view space to the view space of OpenCV and COLMAP: negates y and z.
 pub(crate) fn opencv(view: Rows) -> Rows {
     let mut turned = flip_y(view);
     turned[2] = turned[2].map(|x| -x + 0.0);

@@ -1,5 +1,5 @@
-//! Matrices as people type them: with entries of different precision, for row vectors, and from
-//! projections that the builders do not print.
+//! Matrices as people type them: with entries of different precision, for row vectors, and of
+//! projections that the builders do not produce.
 
 use super::formulas::*;
 use glam::DMat4;
@@ -10,7 +10,8 @@ fn recognized(rows: Rows) -> Recognition {
     recognize(rows)
 }
 
-/// An isometric camera at (5, 5, 5): 1/√2, 1/√6 and 1/√3 with five or six decimals, −5√3 with more.
+/// An isometric camera at (5, 5, 5), with 1/√2, 1/√6 and 1/√3 to four, five or six decimals and
+/// −5√3 to more.
 #[test]
 fn one_entry_with_more_digits_does_not_hide_a_camera() {
     let round = |x: f64, digits: usize| format!("{x:.digits$}").parse::<f64>().expect("a number");
@@ -27,21 +28,21 @@ fn one_entry_with_more_digits_does_not_hide_a_camera() {
             let found = recognized(rows).first().meaning;
             let MatrixMeaning::Camera(camera) = found else { panic!("{rows:?}: {found:?}") };
             assert!(camera.eye.iter().all(|x| (x - 5.0).abs() < 2e-3), "{:?}", camera.eye);
-            // And for row vectors.
+            // The same matrix for row vectors.
             let turned = recognized(transposed(rows));
             assert_eq!(turned.misprint().map(|m| m.misprint), Some(Misprint::Transposed));
         }
     }
 }
 
-/// A matrix stored column by column has a far-fetched reading as it stands.
+/// Without transposition, a matrix stored column by column has only a far-fetched reading.
 #[test]
 fn a_stored_translation_is_not_a_three_point_perspective() {
     for by in [[3.0, 4.0, 5.0], [10.0, -2.0, 0.5], [0.0, 0.0, -5.0]] {
         let found = recognized(transposed(translation(by)));
         assert_eq!(found.misprint().map(|m| m.misprint), Some(Misprint::Transposed), "{by:?}");
     }
-    // Three vanishing points outside of the unit cube are sensible.
+    // Three vanishing points outside the unit cube are plausible.
     let mut rows = scale([1.0; 3]);
     rows[3] = [0.1, 0.2, 0.3, 1.0];
     assert_eq!(recognized(rows).misprint(), None);
@@ -51,9 +52,9 @@ fn a_stored_translation_is_not_a_three_point_perspective() {
     assert_eq!(found.misprint().map(|m| m.misprint), Some(Misprint::Transposed));
 }
 
-/// C77, C78: cos 60° and sin 60° with three or four decimals are exactly these.
+/// C77, C78: sines and cosines with three or four decimals are read as these projections.
 #[test]
-fn rounded_cavalier_and_cabinet_projections_have_their_names() {
+fn rounded_cavalier_and_cabinet_projections_are_named() {
     for (length, class) in [(1.0, ProjectionClass::Cavalier), (0.5, ProjectionClass::Cabinet)] {
         for degrees in [30.0, 45.0, 60.0, -135.0_f64] {
             let (sin, cos) = libm::sincos(degrees.to_radians());
@@ -73,7 +74,7 @@ fn rounded_cavalier_and_cabinet_projections_have_their_names() {
 }
 
 #[test]
-fn the_military_projection_has_a_name() {
+fn the_military_projection_is_named() {
     for (turn, decimals) in [(30.0, 4), (45.0, 3), (45.0, 12), (-20.0, 6)] {
         let military = Planometric::military(f64::to_radians(turn)).expect("valid");
         let of = |matrix: DMat4| rounded(matrix.transpose().to_cols_array_2d(), decimals);
@@ -89,7 +90,7 @@ fn the_military_projection_has_a_name() {
             };
             assert_eq!(found, expected, "{turn}, {decimals}");
         }
-        // The plan of x and y, heights along z.
+        // The plan is in x and y, with heights along z.
         let (s, c) = libm::sincos(turn.to_radians());
         let rows = [[c, -s, 0.0, 0.0], [s, c, 0.5, 0.0], [0.0; 4], [0.0, 0.0, 0.0, 1.0]];
         let found = recognized(rounded(rows, decimals)).first().meaning;
@@ -147,10 +148,11 @@ fn a_perspective_to_pixels_is_read() {
     }
 }
 
-/// M13 (+mid_y), M18 (+yw_min) and M22 ((1 − z)/2) print right matrices of other numbers: nothing
-/// in the sixteen of them is wrong, so they are read as printed and have no row in the table.
+/// M13 (+mid_y), M18 (+yw_min) and M22 ((1 − z)/2) print correct matrices for other parameters.
+/// Nothing in the sixteen numbers is wrong, so they are read as printed and have no row in the
+/// table.
 #[test]
-fn slips_that_print_another_right_matrix_are_read_as_that() {
+fn misprints_that_are_other_correct_matrices_are_read_as_printed() {
     let m13 = recognized(translation([-1.0, 0.5, 0.0]));
     assert_eq!(m13.first().meaning, MatrixMeaning::Translation { by: [-1.0, 0.5, 0.0] });
     let m18 = recognized(product(scale([100.0, 50.0, 1.0]), translation([-2.0, 1.0, 0.0])));
@@ -164,9 +166,10 @@ fn slips_that_print_another_right_matrix_are_read_as_that() {
     }
 }
 
-/// An angle has as many digits as the entries: sin and cos of 30° with four decimals.
+/// An angle has as many digits as the entries, for example the sine and cosine of 30° with four
+/// decimals.
 #[test]
-fn angles_have_the_digits_of_the_entries() {
+fn angles_have_as_many_digits_as_the_entries() {
     for (decimals, off) in [(3, 0.06), (4, 6e-3), (6, 6e-5)] {
         let turned = rounded(product(rotation_x(20.0), rotation_y(-35.0)), decimals);
         let MatrixMeaning::Rotation { angle_degrees, .. } = recognized(turned).first().meaning

@@ -1,6 +1,6 @@
-//! Recognition of matrices: a table of 120 from books, interfaces and programs, half of
-//! them wrong, and 10,000 random ones.
-// Test names say what they check.
+//! Tests of recognition: a table of 120 matrices from books, graphics APIs and programs, half of
+//! them wrong, and 10,000 random matrices.
+// The names of the tests describe what they check.
 #![allow(missing_docs)]
 
 mod formulas;
@@ -11,7 +11,7 @@ mod planar;
 mod random_matrices;
 mod right_matrices;
 mod rigid;
-#[allow(dead_code, reason = "the laws of `projection` need more of them")]
+#[allow(dead_code, reason = "the law tests of `projection` use more of them")]
 #[path = "../../../projection/tests/integration/laws/samples.rs"]
 mod samples;
 mod table;
@@ -21,7 +21,7 @@ use glam::{DMat4, DVec4};
 use projection::AxonometricKind;
 use recognition::{MatrixMeaning, recognize};
 
-/// 1/√2, 1/√6 and √(2/3) with three to nine decimals.
+/// The entries are 1/√2, 1/√6 and √(2/3) with three to nine decimals.
 #[test]
 fn a_rounded_isometric_projection_is_isometric() {
     for decimals in 3..10 {
@@ -37,8 +37,8 @@ fn a_rounded_isometric_projection_is_isometric() {
     }
 }
 
-/// (x, y, z) and w = z/d, in all multiples and with either sign of d (Foley, van Dam and others
-/// 1990, equation 6.5; with d < 0 the slides' projection onto the plane z = d).
+/// (x, y, z) with w = z/d, in all multiples and with either sign of d (Foley, van Dam and others
+/// 1990, equation 6.5). With d < 0, it is the slides' projection onto the plane z = d.
 #[test]
 fn the_perspective_from_the_origin_onto_a_plane_is_recognized() {
     for (plane, multiple) in [(2.0, 1.0), (-2.0, 1.0), (0.5, 1.0), (-3.0, -3.0), (4.0, 4.0)] {
@@ -53,14 +53,14 @@ fn the_perspective_from_the_origin_onto_a_plane_is_recognized() {
         assert_eq!((found.first().meaning, found.first().factor), (expected, multiple));
         assert_eq!(found.misprint(), None, "{plane}");
     }
-    // A third, rounded to four decimals.
+    // One third, rounded to four decimals.
     let rounded = DVec4::new(0.0, 0.0, 1.0, 0.3333);
     let found = recognize(rows_of(DMat4::from_cols(DVec4::X, DVec4::Y, rounded, DVec4::ZERO)));
     let expected = MatrixMeaning::CentralOntoPlane { plane_z: 3.0, onto_plane: false };
     assert_eq!(found.first().meaning, expected);
 }
 
-/// As textbooks of computer vision print it: the picture plane has no depth.
+/// Computer vision textbooks print this form, where the picture plane has no depth.
 #[test]
 fn the_perspective_onto_a_plane_may_drop_z() {
     let rows = DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::W, DVec4::ZERO);
@@ -71,7 +71,7 @@ fn the_perspective_onto_a_plane_may_drop_z() {
 proptest::proptest! {
     #![proptest_config(samples::cases(512))]
 
-    /// Any numbers have a reading, if only as a map without a name, and nothing panics.
+    /// Any numbers have a reading, at least as an unnamed map, and nothing panics.
     #[test]
     fn any_matrix_has_a_reading(entries in proptest::array::uniform16(any_entry())) {
         let found = recognize(rows_of(DMat4::from_cols_array(&entries)));

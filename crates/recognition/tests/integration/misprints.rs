@@ -1,5 +1,5 @@
-//! Misprints that are projection matrices: the printed form fails, the right one passes, and the
-//! doctor knows both.
+//! Misprints of projection matrices: the printed form fails, the correct form passes, and
+//! recognition identifies both.
 
 use super::samples::{self, convention, distance, frustum, orthographic, perspective};
 use glam::{DMat4, DVec4};
@@ -39,7 +39,7 @@ fn image(matrix: DMat4, x: f64, y: f64, z: f64) -> Option<Point<Ndc>> {
     Projective::<View, Clip>::from_raw(matrix).transform_point(Point::new(x, y, z)).divide()
 }
 
-/// Both corners that define the volume go where they should.
+/// Whether both corners that define the volume map to the corners of the cube.
 fn fits(matrix: DMat4, far_scale: f64) -> bool {
     let ends =
         [(LEFT, BOTTOM, -NEAR, [-1.0; 3]), (RIGHT * far_scale, TOP * far_scale, -FAR, [1.0; 3])];
@@ -49,13 +49,18 @@ fn fits(matrix: DMat4, far_scale: f64) -> bool {
 }
 
 fn printed(misprint: Misprint, wanted: IntendedProjection) -> DMat4 {
-    let matrix = misprint.misprinted_matrix(wanted).expect("the slip applies");
+    let matrix = misprint.misprinted_matrix(wanted).expect("the misprint applies");
     assert_eq!(misprint_of(matrix, wanted), Some(misprint));
-    assert_eq!(misprint_of(wanted.correct_matrix(), wanted), None, "the right matrix is healthy");
+    assert_eq!(
+        misprint_of(wanted.correct_matrix(), wanted),
+        None,
+        "the correct matrix has a misprint"
+    );
     matrix.raw()
 }
 
-/// The doctor finds the misprint from the numbers, and its remedy is the wanted matrix.
+/// Asserts that the misprint is recognized from the numbers and that its remedy is the intended
+/// matrix.
 fn cured(matrix: DMat4, misprint: Misprint, wanted: DMat4) {
     let told = recognize(rows_of(matrix)).suspicions;
     let found = told.iter().find(|found| found.misprint == misprint).expect("recognized");
@@ -69,7 +74,7 @@ fn m4_without_p_nothing_is_foreshortened() {
     let slip = printed(Misprint::PerspectiveLeftOut, wanted_frustum());
     assert!(!fits(slip, FAR / NEAR) && fits(wanted_frustum().correct_matrix().raw(), FAR / NEAR));
     let (near, far) = (image(slip, 1.0, 0.0, -2.0), image(slip, 1.0, 0.0, -6.0));
-    assert_eq!(near.map(Point::x), far.map(Point::x), "the same size near and far");
+    assert_eq!(near.map(Point::x), far.map(Point::x), "near and far must have the same size");
 }
 
 /// C29, C100.
@@ -95,7 +100,10 @@ fn m8_the_raw_sign_of_w_is_the_same_map_but_fails_the_clip_test() {
         |p: HPoint<Clip>| p.x().abs() <= p.w() && p.y().abs() <= p.w() && p.z().abs() <= p.w();
     assert!(!inside(raw) && inside(turned));
     let found = recognize(per.rows());
-    assert!(found.first().factor < 0.0 && found.misprint().is_none(), "a convention of sign");
+    assert!(
+        found.first().factor < 0.0 && found.misprint().is_none(),
+        "only the sign convention differs"
+    );
 }
 
 #[test]
@@ -124,7 +132,7 @@ fn m11_the_flat_third_row_gives_every_point_the_same_depth() {
     cured(turn * printed, Misprint::ThirdRowFlat, turn * right);
 }
 
-/// C63, C66: and the lesson's steps multiply to it.
+/// C63, C66; the product of the lesson's steps is the same matrix.
 #[test]
 fn m12_the_lessons_frustum_is_another_projection() {
     let lesson = ApexMovedFrustum::new(LEFT, RIGHT, BOTTOM, TOP, NEAR, FAR).expect("valid");
@@ -133,7 +141,7 @@ fn m12_the_lessons_frustum_is_another_projection() {
     assert!(!fits(slip, FAR / NEAR));
     let gl = wanted_frustum().correct_matrix().raw();
     let near = |m| image(m, 0.3, -0.4, -NEAR).expect("in front");
-    assert!((near(slip) - near(gl)).length() < 1e-14, "they agree on the near plane");
+    assert!((near(slip) - near(gl)).length() < 1e-14, "they must agree on the near plane");
     cured(slip, Misprint::ApexMoved, gl);
     let steps = lesson.steps(Convention::OPENGL);
     let product =
@@ -146,7 +154,7 @@ fn m14_a_one_in_the_bottom_row_makes_w_the_distance_plus_one() {
     let slip = printed(Misprint::BottomRowOne, lens(1.0));
     assert!(
         (image(slip, 0.0, 0.0, -NEAR).expect("w = 3").z() + 2.0 / 3.0).abs() < 1e-12,
-        "n = 2 goes to −0.667"
+        "n = 2 must map to −0.667"
     );
     assert!(
         (image(lens(1.0).correct_matrix().raw(), 0.0, 0.0, -NEAR).expect("w = 2").z() + 1.0).abs()
@@ -194,7 +202,7 @@ fn m19_forty_five_degrees_are_not_forty_five_radians() {
             Perspective::new(Fov::Vertical(45.0), 2.0, NEAR, FAR),
             Err(ProjectionError::OutOfRange { .. })
         ),
-        "out of (0, π)"
+        "outside (0, π)"
     );
     let wanted = lens(45_f64.to_radians());
     let slip = printed(Misprint::Degrees, wanted);
@@ -252,7 +260,7 @@ fn m24_the_canonical_cube_has_side_two() {
     let corner =
         |s: f64| inverse.transform_hpoint(HPoint::new(s, s, -1.0, 1.0)).divide().expect("finite");
     assert!((corner(1.0) - Point::new(RIGHT, TOP, -NEAR)).length() < 1e-14);
-    assert!((corner(0.5) - Point::new(RIGHT, TOP, -NEAR)).length() > 0.1, "½ is not the side");
+    assert!((corner(0.5) - Point::new(RIGHT, TOP, -NEAR)).length() > 0.1, "the side must not be ½");
 }
 
 #[test]
@@ -278,7 +286,7 @@ fn printed_31_only_symmetric_frusta_are_perspectives() {
     let aside = Frustum::new(LEFT, RIGHT, BOTTOM, TOP, NEAR, FAR).expect("valid");
     assert!(
         matches!(Perspective::try_from(aside), Err(ProjectionError::OffCenter)),
-        "an error, not nothing"
+        "an error is expected"
     );
 }
 
@@ -292,7 +300,7 @@ fn printed_39_and_40_q_and_r_belong_to_y_and_z() {
     assert_eq!(found, [false, true, true]);
     assert!(
         matches!(NPoint::new(0.0, 0.0, 0.0), Err(ProjectionError::NoVanishingPoint)),
-        "not all may be 0"
+        "all three are 0"
     );
 }
 
@@ -318,7 +326,7 @@ fn row_vectors_are_recognized() {
 }
 
 #[test]
-fn every_finding_has_a_sentence_and_a_remedy() {
+fn every_misprint_has_a_description_and_a_remedy() {
     for misprint in Misprint::ALL {
         assert!(misprint.description().len() > 10 && misprint.remedy().len() > 10);
     }
@@ -329,7 +337,7 @@ proptest! {
     #![proptest_config(samples::cases(64))]
 
     #[test]
-    fn right_matrices_are_no_misprints(p in perspective(), o in orthographic()) {
+    fn correct_matrices_are_not_misprints(p in perspective(), o in orthographic()) {
         let bounded = Perspective::new(Fov::Vertical(p.fov_y()), p.aspect(), p.near(), p.far())
             .expect("valid");
         let likely = |matrix: DMat4| {
@@ -356,19 +364,19 @@ proptest! {
             for misprint in Misprint::ALL {
                 let Some(slip) = misprint.misprinted_matrix(wanted) else { continue };
                 let slip = slip.raw();
-                // Where the slip changes nothing or equals another one, as for centered windows, any
-                // name will do.
+                // If the misprint changes nothing or equals another misprint, as for centered
+                // windows, any name is accepted.
                 if let Some(found) = misprint_of(Projective::from_raw(slip * factor), wanted) {
                     let same =
                         found.misprinted_matrix(wanted).is_some_and(|other| distance(other.raw(), slip) < 1e-5);
-                    prop_assert!(found == misprint || same, "{misprint:?} is taken for {found:?}");
+                    prop_assert!(found == misprint || same, "{misprint:?} is read as {found:?}");
                 }
             }
         }
     }
 
     #[test]
-    fn nothing_makes_the_doctor_panic(
+    fn recognition_never_panics(
         entries in prop::array::uniform16(-2.0_f64..2.0),
         c in convention(),
     ) {

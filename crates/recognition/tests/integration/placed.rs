@@ -1,5 +1,5 @@
-//! Cameras and projections in one matrix: Direct3D's left-handed worlds beside right-handed ones,
-//! and boxes of pixels from the upper left corner.
+//! Cameras and projections in one matrix: in Direct3D's left-handed worlds and in right-handed
+//! worlds, and boxes of pixels from the upper left corner.
 
 use super::formulas::*;
 use projection::Convention;
@@ -16,7 +16,7 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     })
 }
 
-/// XMMatrixLookToLH for column vectors: the rows x = up × z, y = z × x, z.
+/// XMMatrixLookToLH for column vectors, with the rows x = up × z, y = z × x, and z.
 fn look_to_lh(eye: [f64; 3], gaze: [f64; 3]) -> Rows {
     let z = unit(gaze);
     let x = unit(cross([0.0, 1.0, 0.0], z));
@@ -49,7 +49,8 @@ fn check_camera(found: &MatrixMeaning, eye: [f64; 3], gaze: [f64; 3], context: &
     assert!((frustum.near() - 1.0).abs() < 1e-3 && (frustum.far() / 50.0 - 1.0).abs() < 1e-2);
 }
 
-/// Level, turned by a yaw, and turned by yaw and pitch; exact, printed, and for row vectors.
+/// The camera is level, turned by a yaw, and turned by yaw and pitch; the matrix is exact, rounded,
+/// and for row vectors.
 #[test]
 fn a_camera_of_direct3d_is_upright_in_a_left_handed_world() {
     for (eye, gaze) in [
@@ -73,7 +74,7 @@ fn a_camera_of_direct3d_is_upright_in_a_left_handed_world() {
     }
 }
 
-/// Vulkan in a right-handed world whose y or z is up; OpenGL may look in any direction.
+/// Vulkan in a right-handed world where y or z is up; OpenGL may look in any direction.
 #[test]
 fn a_camera_of_vulkan_is_upright_in_a_right_handed_world() {
     let vulkan = |degrees: f64| -> Rows {
@@ -103,7 +104,7 @@ fn a_camera_of_vulkan_is_upright_in_a_right_handed_world() {
     }
 }
 
-/// glOrtho(0, w, h, 0, −1, 1): the usual matrix of plane pictures.
+/// glOrtho(0, w, h, 0, −1, 1), the common matrix for two-dimensional pictures.
 #[test]
 fn a_box_of_pixels_from_the_upper_left_is_opengls() {
     for [width, height] in [[800.0, 600.0], [1920.0, 1080.0], [640.0, 480.0]] {
@@ -121,7 +122,8 @@ fn a_box_of_pixels_from_the_upper_left_is_opengls() {
     }
 }
 
-/// A box determines less of its camera than a pyramid: up is right side up in every convention.
+/// A box determines less of its camera than a frustum does, so the camera is read as upright in
+/// every convention.
 #[test]
 fn a_camera_with_a_box_is_upright() {
     let (eye, gaze) = ([4.0, 3.0, 6.0], [-4.0, -3.0, -6.0]);

@@ -1,10 +1,10 @@
-//! 3×3 matrices: the textbook's examples, intrinsics, rotations and maps of the plane.
+//! 3×3 matrices: textbook examples, intrinsics, rotations and maps of the plane.
 
 use recognition::{MatrixMeaning, PlanarMatrix, PlanarReading, recognize_planar};
 
 type Rows3 = [[f64; 3]; 3];
 
-/// C16: the square with the image (−3,0), (3,0), (1,3), (−1,3).
+/// C16: the map of the square to (−3,0), (3,0), (1,3), (−1,3).
 const EXAMPLE: Rows3 = [[2.0, 0.0, -1.0], [0.0, 3.0, 0.0], [0.0, 2.0 / 3.0, 1.0 / 3.0]];
 
 fn first(rows: Rows3) -> PlanarReading {
@@ -26,7 +26,7 @@ fn transposed(m: Rows3) -> Rows3 {
     std::array::from_fn(|i| std::array::from_fn(|j| m[j][i]))
 }
 
-/// C16 and C17: a multiple is the same map.
+/// C16 and C17: a multiple of a matrix is the same map.
 #[test]
 fn the_textbooks_example_and_its_triple_are_projective_maps() {
     for rows in [EXAMPLE, EXAMPLE.map(|row| row.map(|entry| 3.0 * entry))] {
@@ -66,7 +66,7 @@ fn intrinsics_are_recognized_and_their_transpose_is_for_row_vectors() {
 }
 
 #[test]
-fn maps_of_the_plane_have_their_names() {
+fn maps_of_the_plane_are_named() {
     let moved = |x: f64, y: f64| [[1.0, 0.0, x], [0.0, 1.0, y], [0.0, 0.0, 1.0]];
     assert_eq!(plane(moved(0.0, 0.0)), MatrixMeaning::Identity);
     assert_eq!(plane(moved(2.0, 3.0)), MatrixMeaning::Translation { by: [2.0, 3.0, 0.0] });
@@ -79,7 +79,7 @@ fn maps_of_the_plane_have_their_names() {
     assert!(matches!(found, MatrixMeaning::Reflection { .. }), "{found:?}");
 }
 
-/// COLMAP's R: a rotation of space has no row (0, 0, 1).
+/// COLMAP's R: a rotation in space has no row (0, 0, 1).
 #[test]
 fn rotations_of_space_are_distinguished_from_maps_of_the_plane() {
     let (s, c) = libm::sincos(0.5);

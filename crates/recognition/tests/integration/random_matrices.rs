@@ -1,4 +1,5 @@
-//! 10,000 random matrices of everything `alberti matrix` builds, read back to their parameters.
+//! 10,000 random matrices, of every kind that `alberti matrix` builds, whose parameters are read
+//! back.
 
 use super::formulas::{self, Rows};
 use super::table::{Expected, is_expected};
@@ -20,7 +21,8 @@ impl Random {
         mixed ^ (mixed >> 31)
     }
 
-    /// Returns a number between two others: of three digits, as people write them, or of all.
+    /// Returns a number in an interval, with three digits, as people write numbers, or with all
+    /// digits.
     fn number(&mut self, low: f64, high: f64) -> f64 {
         let part = (self.bits() >> 11) as f64 / (1_u64 << 53) as f64;
         let x = low + (high - low) * part;
@@ -43,7 +45,7 @@ impl Random {
     }
 }
 
-/// The conventions that `--convention` has, plain and reversed.
+/// The conventions that `--convention` accepts, plain and reversed.
 const CONVENTIONS: [Convention; 8] = [
     Convention::OPENGL,
     Convention::CHAPTER,
@@ -159,7 +161,7 @@ fn matrix_of(rows: Rows) -> DMat4 {
     DMat4::from_cols_array_2d(&rows).transpose()
 }
 
-/// Everything that is built from parameters.
+/// The builders for every kind of matrix with parameters.
 const BUILDERS: [fn(&mut Random) -> Option<Built>; 12] = [
     perspective,
     frustum,
@@ -191,16 +193,16 @@ fn ten_thousand_random_matrices_are_read_back() {
             lost.push(format!("{expected:?} is read as {:?}", found.first().meaning));
         }
         if let Some(misprint) = found.misprint() {
-            called.push(format!("{expected:?} is called {:?}", misprint.misprint));
+            called.push(format!("{expected:?} is reported as {:?}", misprint.misprint));
         }
     }
-    println!("{first} first, {equal} among the first six");
+    println!("{first} are the first reading, {equal} are among the first six");
     assert_eq!((lost.first(), called.first()), (None, None), "{} and {}", lost.len(), called.len());
-    assert!(first > 9_500, "{first} are the first reading, {equal} are listed beside it");
+    assert!(first > 9_500, "{first} are the first reading, {equal} are listed after it");
 }
 
 #[test]
-fn rounded_matrices_are_not_called_misprints() {
+fn rounded_matrices_are_not_reported_as_misprints() {
     let mut random = Random(4);
     let mut called = Vec::new();
     for count in 0..10_000 {
@@ -211,7 +213,10 @@ fn rounded_matrices_are_not_called_misprints() {
         {
             let found = recognize(printed);
             if let Some(misprint) = found.misprint() {
-                called.push(format!("{expected:?} is called {:?}: {printed:?}", misprint.misprint));
+                called.push(format!(
+                    "{expected:?} is reported as {:?}: {printed:?}",
+                    misprint.misprint
+                ));
             }
         }
     }

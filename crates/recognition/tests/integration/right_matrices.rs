@@ -1,4 +1,4 @@
-//! Sixty right matrices: the sources' own, and those of interfaces, engines and libraries.
+//! Sixty correct matrices from the sources and from graphics APIs, engines and libraries.
 
 use super::formulas::*;
 use super::table::{Expected, Row, Verdict};
@@ -31,7 +31,7 @@ pub(crate) fn rows() -> Vec<Row> {
     all
 }
 
-/// Returns the textbook and the notes (S0, S1).
+/// Returns the rows for the textbook and the notes (S0, S1).
 fn chapter() -> Vec<Row> {
     let p = Expected::P;
     let volume = |near, far| Expected::Frustum(Convention::CHAPTER, WINDOW, near, far);
@@ -72,8 +72,8 @@ fn chapter() -> Vec<Row> {
     ]
 }
 
-/// Returns the slides (S4) and the lesson (S3); the moved apex is another projection, not a
-/// misprint.
+/// Returns the rows for the slides (S4) and the lesson (S3). Here, the moved apex is a different
+/// projection, not a misprint.
 fn slides_and_lesson() -> Vec<Row> {
     let gl_box = |window, n, f| Expected::Box(Convention::OPENGL, window, n, f);
     let (a, b) = (0.5 * libm::sqrt(2.0), libm::sqrt(3.0) / 4.0);
@@ -119,7 +119,7 @@ fn slides_and_lesson() -> Vec<Row> {
     ]
 }
 
-/// Returns the slides' matrices by vanishing points.
+/// Returns the rows for the slides' matrices with vanishing points.
 fn point_perspectives() -> Vec<Row> {
     let n_point = |third: [f64; 4], last: [f64; 4]| -> Rows {
         [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], third, last]
@@ -148,7 +148,7 @@ fn n_shear(x: f64, y: f64) -> Rows {
     [[1.0, 0.0, x, 0.0], [0.0, 1.0, y, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
 }
 
-/// OpenGL, Vulkan, Direct3D, Metal and WebGPU, with glm and cglm as they build them.
+/// Returns the rows for OpenGL, Vulkan, Direct3D, Metal and WebGPU, as glm and cglm build them.
 fn interfaces() -> Vec<Row> {
     let lens = |c, fovy, aspect, n, f| Expected::Lens(c, fovy, aspect, n, f);
     let wide = 16.0 / 9.0;
@@ -210,7 +210,7 @@ fn interfaces() -> Vec<Row> {
     ]
 }
 
-/// three.js, Unity, OpenCV, COLMAP.
+/// Returns the rows for three.js, Unity, OpenCV and COLMAP.
 fn engines_and_vision() -> Vec<Row> {
     let gl_convention = Convention::OPENGL;
     let page = [-8.0, 8.0, -4.5, 4.5];
@@ -236,7 +236,8 @@ fn engines_and_vision() -> Vec<Row> {
         row("OpenCV K", k(525.0, 525.0, 319.5, 239.5), {
             Expected::Intrinsics([525.0, 525.0, 319.5, 239.5])
         }),
-        // Its camera looks along +z: gaze, as of a camera that looks along −z, is turned around.
+        // COLMAP's camera looks along +z, so the gaze, which is read for a camera that looks along
+        // −z, is reversed.
         row("COLMAP pose", opencv(view), {
             Expected::Camera([2.0, -1.0, 5.0], unit([2.0, -1.0, 4.0]))
         }),
@@ -259,7 +260,7 @@ fn inverse_gl(fovy: f64, aspect: f64, n: f64, f: f64) -> Rows {
     ]
 }
 
-/// Transforms without a camera.
+/// Returns the rows for transforms without a camera.
 fn transforms() -> Vec<Row> {
     let rotation = [[0.0, -1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
     let mut turn = scale([1.0; 3]);

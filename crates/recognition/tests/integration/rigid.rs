@@ -1,4 +1,4 @@
-//! Rigid matrices as cameras, poses and model transforms, and those with a wrong sign.
+//! Rigid matrices as cameras, poses and model transforms, and rigid matrices with a wrong sign.
 
 use super::formulas::*;
 use glam::DMat4;
@@ -35,7 +35,7 @@ fn a_rotation_about_z_and_a_translation_is_a_model_transform_first() {
     }
 }
 
-/// The inverse of a camera transform: its last column is the eye.
+/// The matrix is the inverse of a camera transform, so its last column is the eye.
 #[test]
 fn a_pose_is_read_as_the_camera_in_the_world() {
     let (eye, gaze) = ([3.0, 4.0, 5.0], [-3.0, -4.0, -5.0]);
@@ -55,7 +55,7 @@ fn a_pose_is_read_as_the_camera_in_the_world() {
     ));
 }
 
-/// glm::perspective with +1 in its last row.
+/// The matrix is glm::perspective with +1 in its last row.
 #[test]
 fn a_negated_last_row_is_named() {
     for (degrees, n, f) in [(60.0, 0.1, 100.0), (45.0, 1.0, 50.0)] {
@@ -69,7 +69,7 @@ fn a_negated_last_row_is_named() {
     }
 }
 
-/// A look-at with the sign of any entry of its rotation turned.
+/// The matrix is a look-at with the sign of one entry of its rotation flipped.
 #[test]
 fn the_one_wrong_sign_of_a_camera_is_found() {
     let exact = m_cam([4.0, 3.0, 6.0], [-4.0, -2.0, -6.0], [0.1, 1.0, 0.0]);

@@ -1,11 +1,11 @@
-//! The rows of the table and how they are judged.
+//! The rows of the table, and the verdicts on their matrices.
 
 use super::formulas::Rows;
 use super::{right_matrices, wrong_matrices};
 use projection::{Convention, PrincipalPlane};
 use recognition::{MatrixMeaning, Misprint, Recognition, SuspicionStrength, recognize};
 
-/// The meaning of a matrix, from its source.
+/// The expected meaning of a matrix, from its source.
 #[derive(Clone, Debug)]
 pub(crate) enum Expected {
     /// Convention; left, right, bottom, top; near, far.
@@ -46,19 +46,19 @@ pub(crate) enum Expected {
 pub(crate) struct Row {
     pub(crate) name: &'static str,
     pub(crate) matrix: Rows,
-    /// The reading, with its factor; or the slip.
+    /// The expected reading with its factor, or the expected misprint.
     pub(crate) verdict: Verdict,
-    /// How far parameters may be off, relative to 1 or to themselves.
+    /// The tolerance of the parameters, relative to their size or to 1, whichever is larger.
     pub(crate) tolerance: f64,
 }
 
-/// The report that is expected.
+/// The expected report.
 pub(crate) enum Verdict {
-    /// The first reading, and the common factor.
+    /// The first reading and the common factor.
     Reading(Expected, f64),
-    /// The misprint that is suspected first.
+    /// The misprint that is suspected.
     Slip(Misprint),
-    /// The reading and the misprint are the same numbers: both must be told.
+    /// The reading and the misprint have the same numbers, so both must be reported.
     Both(Expected, Misprint),
 }
 
@@ -74,7 +74,7 @@ fn edges(w: projection::Window) -> [f64; 4] {
     [w.left(), w.right(), w.bottom(), w.top()]
 }
 
-/// True if the meaning has the expected parameters.
+/// Whether the meaning has the expected parameters.
 pub(crate) fn is_expected(meaning: &MatrixMeaning, expected: &Expected, tolerance: f64) -> bool {
     let same = |a: f64, b: f64| near(a, b, tolerance);
     let depth = |a: (f64, f64), n: f64, f: f64| same(a.0 / n, 1.0) && same(n / a.1, n / f);
@@ -179,7 +179,7 @@ fn recognized(rows: Rows) -> Recognition {
     recognize(rows)
 }
 
-/// Returns the complaint about a row; `None` if it is recognized.
+/// Returns a complaint about a row; `None` if its matrix is recognized as expected.
 fn complaint(row: &Row) -> Option<String> {
     let found = recognized(row.matrix);
     let first = found.first();
@@ -209,12 +209,12 @@ fn of_120_matrices_at_least_118_are_recognized() {
     assert_eq!(rows.len(), 120);
     let complaints: Vec<String> = rows.iter().filter_map(complaint).collect();
     let list = complaints.join("\n");
-    println!("{} of {} are recognized\n{list}", rows.len() - complaints.len(), rows.len());
-    assert!(complaints.len() <= 2, "{} are not recognized:\n{list}", complaints.len());
+    println!("{} of {} matrices are recognized\n{list}", rows.len() - complaints.len(), rows.len());
+    assert!(complaints.len() <= 2, "{} matrices are not recognized:\n{list}", complaints.len());
 }
 
 #[test]
-fn no_right_matrix_is_called_a_misprint() {
+fn no_correct_matrix_is_reported_as_a_misprint() {
     for row in right_matrices::rows() {
         let found = recognized(row.matrix);
         let called: Vec<Misprint> = found

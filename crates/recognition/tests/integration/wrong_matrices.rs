@@ -1,10 +1,10 @@
-//! Sixty wrong matrices: printed slips, row vectors, wrong signs and common factors.
+//! Sixty wrong matrices: misprints, matrices for row vectors, wrong signs and common factors.
 //!
-//! Four are explained next to their case: a matrix that is as well the right one of something else must
-//! have both told. Slips whose matrix is the right one of other numbers have no row
-//! (`hand_typed.rs`). Two more are the table's exceptions: with four decimals near 0.1, far 100 of
-//! M15 cannot be told from a right box of near 0.1, far 50, and M17 of 45° gives the scale 2, which
-//! is what people choose for a lens.
+//! Four of them are also correct matrices of something else, as their comments explain, so both
+//! readings must be reported. Misprints that are correct matrices for other parameters have no row
+//! here (see `hand_typed.rs`). Two more rows are the exceptions of the table. With four decimals,
+//! M15 with near 0.1 and far 100 cannot be distinguished from a correct box with near 0.1 and far
+//! 50. M17 at 45° gives a scale of 2, which people also choose for lenses.
 
 use super::formulas::*;
 use super::table::{Expected, Row, Verdict};
@@ -33,7 +33,8 @@ fn both(name: &'static str, matrix: Rows, expected: Expected, misprint: Misprint
     Row { name, matrix, verdict: Verdict::Both(expected, misprint), tolerance: EXACT }
 }
 
-/// (24): matrices of Direct3D's helper library as printed, and column-major ones read by rows.
+/// Returns the rows for (24): matrices of Direct3D's helper library as printed, and column-major
+/// matrices read by rows.
 fn row_vectors() -> Vec<Row> {
     let wide = 16.0 / 9.0;
     let view = m_cam([4.0, 3.0, 6.0], [-4.0, -3.0, -6.0], [0.0, 1.0, 0.0]);
@@ -76,7 +77,8 @@ fn row_vectors() -> Vec<Row> {
     let slips = printed
         .into_iter()
         .map(|(name, matrix)| slip(name, transposed(matrix), Misprint::Transposed));
-    // Also −nf P(−1/f, −1/n), with planes behind the eye and a factor: the less sensible reading.
+    // This is also −nf P(−1/f, −1/n), a less likely reading, with planes behind the eye and a
+    // factor.
     let twin = slip("row vectors: P", transposed(p(-2.0, -6.0)), Misprint::Transposed);
     slips.chain([twin]).collect()
 }
@@ -86,7 +88,8 @@ fn with_factor(name: &'static str, right: Rows, factor: f64, expected: Expected)
     Row { name, matrix: scaled(right, factor), verdict, tolerance: EXACT }
 }
 
-/// w < 0 in front of the eye: as maps right, but not for clipping (PE-3).
+/// Returns the rows with w < 0 in front of the eye, which are correct as maps but not for clipping
+/// (PE-3).
 fn negated() -> Vec<Row> {
     let lens = |c, fovy, aspect, n, f| Expected::Lens(c, fovy, aspect, n, f);
     let (gl_c, vk, d3d) = (Convention::OPENGL, Convention::VULKAN, Convention::DIRECT3D);
@@ -119,7 +122,8 @@ fn negated() -> Vec<Row> {
     all
 }
 
-/// Multiples of a matrix: an equal map, but w is not a distance.
+/// Returns the rows for multiples of a matrix, which are the same map, but whose w is not a
+/// distance.
 fn multiples() -> Vec<Row> {
     let lens = |c, fovy, aspect, n, f| Expected::Lens(c, fovy, aspect, n, f);
     let chapter = Expected::Frustum(Convention::CHAPTER, WINDOW, 2.0, 6.0);
@@ -146,12 +150,12 @@ fn flat_third_row(mut translation: Rows) -> Rows {
     translation
 }
 
-/// M6 and M11.
+/// Returns the rows for M6 and M11.
 fn slips_of_the_textbook_and_notes() -> Vec<Row> {
     let turn = product(rotation_x(20.0), rotation_y(-35.0));
     let printed = flat_third_row(translation([-4.0, -3.0, -6.0]));
     vec![
-        // A translation by (2, 3, 3) prints the same.
+        // A translation by (2, 3, 3) has the same numbers.
         both(
             "M6",
             translation([2.0, 3.0, 3.0]),
@@ -178,7 +182,7 @@ fn bottom_row_one(mut m: Rows) -> Rows {
     m
 }
 
-/// M14: Eq4, Eq5 and Eq7 and the product.
+/// Returns the rows for M14: Eq4, Eq5, Eq7 and the product.
 fn slips_of_the_lesson() -> Vec<Row> {
     let divide = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
     let mut eq4 = bottom_row_one(scale([1.0; 3]));
@@ -191,7 +195,7 @@ fn slips_of_the_lesson() -> Vec<Row> {
     eq7[2] = [0.0, 0.0, -(f + n) / (f - n), 2.0 * f * n / (n - f)];
     let whole = bottom_row_one(gl(60.0, 1.5, 2.0, 40.0));
     vec![
-        // The one-point perspective of an eye at distance 1 prints the same.
+        // The one-point perspective of an eye at distance 1 has the same numbers.
         both("M14, Eq4", eq4, Expected::NPoint([0.0, 0.0, -1.0], false), Misprint::BottomRowOne),
         slip("M14, Eq5", eq5, Misprint::BottomRowOne),
         slip("M14, Eq7", eq7, Misprint::BottomRowOne),
@@ -216,7 +220,7 @@ fn with_scale(scale_y: f64, aspect: f64) -> Rows {
     m
 }
 
-/// M15, M16, M17 and M19.
+/// Returns the rows for M15, M16, M17 and M19.
 fn slips_of_the_slides() -> Vec<Row> {
     let half_of_tangent = |degrees: f64| 2.0 / libm::tan(degrees.to_radians());
     let radians = |degrees: f64| 1.0 / libm::tan(degrees / 2.0);
@@ -226,7 +230,7 @@ fn slips_of_the_slides() -> Vec<Row> {
         m
     };
     vec![
-        // Direct3D's reversed box of near 2, far 4 prints the same.
+        // Direct3D's reversed box with near 2 and far 4 has the same numbers.
         both(
             "M15",
             offset_sign(gl_ortho(WINDOW, 2.0, 6.0)),
@@ -239,7 +243,7 @@ fn slips_of_the_slides() -> Vec<Row> {
         slip("M15, 4 decimals", rounded(offset_sign(gl_ortho(WINDOW, 0.1, 100.0)), 4), {
             Misprint::OrthoOffsetSign
         }),
-        // A window from 0 to 4 prints the same.
+        // A window from 0 to 4 has the same numbers.
         both(
             "M16",
             offset_one(WINDOW),
