@@ -138,7 +138,7 @@ struct Candidates<'a> {
     edges: Vec<CandidateEdge>,
     /// Whether intersections are missing.
     is_cut_off: bool,
-    /// The depths at which the surface hides itself; `None` if hidden lines do not matter.
+    /// The depths behind which the surface hides everything; `None` if hidden lines do not matter.
     cover: Option<ViewCover>,
     /// The hatch lines of faces other than section caps.
     face_hatching: FaceHatching<'a>,
@@ -267,8 +267,8 @@ fn hatch_surface(
     hatchings
 }
 
-/// The number of faces of a wall: if only the first layer is drawn, lines behind more faces are
-/// not.
+/// The number of faces of a wall. If only the first layer is drawn, lines behind more faces are
+/// omitted.
 const FACES_OF_A_WALL: u32 = 2;
 
 /// The number of comparisons always allowed per edge, on average.
@@ -357,8 +357,8 @@ impl<'a> EdgeDivider<'a> {
         (segments, is_complete.into_inner())
     }
 
-    /// Cuts one edge at the ends of its hidden parts: pushes its visible segments, and the hidden
-    /// ones if they are retained.
+    /// Cuts one edge at the ends of its hidden parts: pushes its visible segments, and its hidden
+    /// segments if they are retained.
     ///
     /// Hidden parts of hatch lines are never drawn.
     fn divide_edge(

@@ -76,7 +76,7 @@ impl<'a> FeaturePicker<'a> {
         of_faces.chain(lines.flat_map(|line| line.ends)).map(|at| self.mesh.points[at as usize])
     }
 
-    /// Returns the objects' vertex nearest to a point.
+    /// Returns the vertex nearest to a point.
     #[must_use]
     pub fn nearest_vertex(
         &self,
@@ -88,7 +88,7 @@ impl<'a> FeaturePicker<'a> {
         vertices.min_by(|a, b| distance(a).total_cmp(&distance(b))).map(Point::from_raw)
     }
 
-    /// Returns the objects' edge nearest to a point: a crease or a boundary.
+    /// Returns the edge nearest to a point: a crease or a boundary.
     #[must_use]
     pub fn nearest_edge(&self, to: Point<World>, objects: Option<&[u32]>) -> Option<PickedFeature> {
         let Features { surface, edges, .. } = self.features();
@@ -102,7 +102,7 @@ impl<'a> FeaturePicker<'a> {
         nearest(picked, to)
     }
 
-    /// Returns the objects' face nearest to a point: a triangle, which represents its plane.
+    /// Returns the face nearest to a point: a triangle, which represents its plane.
     #[must_use]
     pub fn nearest_face(&self, to: Point<World>, objects: Option<&[u32]>) -> Option<PickedFeature> {
         let wanted = self.mesh.faces.iter().filter(|face| is_wanted(objects, face.object));
@@ -115,7 +115,7 @@ impl<'a> FeaturePicker<'a> {
         nearest(picked, to)
     }
 
-    /// Returns the objects' circle or arc whose center or circumference is nearest to a point.
+    /// Returns the circle or arc whose center or circumference is nearest to a point.
     #[must_use]
     pub fn nearest_circle(&self, to: Point<World>, objects: Option<&[u32]>) -> Option<WorldCircle> {
         let circles = self.circles(objects);

@@ -11,8 +11,8 @@
 //! then an edge like any other: clipped, projected, and divided by hidden-line removal.
 //!
 //! Section caps are hatched at 45°. Neighboring parts differ in direction or spacing, and each part
-//! keeps its pattern in all its cuts. With [`FaceHatching::Parts`], whole parts have such patterns.
-//! With [`FaceHatching::ByLuma`], darker faces are hatched more densely.
+//! has the same pattern in all its cuts. With [`FaceHatching::Parts`], whole parts have such
+//! patterns. With [`FaceHatching::ByLuma`], darker faces are hatched more densely.
 
 use super::edges::SectionCap;
 use super::projector::Projector;
@@ -72,7 +72,7 @@ pub(super) struct HatchPattern {
 }
 
 impl HatchPattern {
-    /// Creates lines at 45° that rise to the right, or fall.
+    /// Creates lines at 45° that rise to the right, or fall if `rises` is false.
     pub(super) fn diagonal_lines(rises: bool, spacing: f64) -> Self {
         let normal = DVec2::new(if rises { 1.0 } else { -1.0 }, 1.0) * FRAC_1_SQRT_2;
         Self { normal, spacing }

@@ -90,7 +90,7 @@ pub struct LineDrawing {
     pub size: DVec2,
     /// The object names, from the nodes of the models.
     pub objects: Vec<String>,
-    /// Visible segments, and hidden ones if the options retain them.
+    /// The visible segments, and the hidden segments if the options retain them.
     pub segments: Vec<EdgeSegment>,
     /// The cut faces with their hatch lines, and the outlines if requested in the options.
     pub regions: Vec<Region>,

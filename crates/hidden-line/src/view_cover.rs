@@ -15,7 +15,7 @@ pub(super) struct ViewCover {
 }
 
 impl ViewCover {
-    /// Returns the cover if it was made by a crowd of faces.
+    /// Returns the cover if it is formed by a crowd of faces.
     pub(super) fn crowd(&self) -> Option<&DepthCover> {
         self.is_crowd.then_some(&self.cover)
     }

@@ -3,7 +3,7 @@
 //! The two share the welded surface and the stages up to clip space, but nothing after that. The
 //! z-buffer rounds to a grid, samples coverage and stores a depth for each pixel; the drawing
 //! intersects lines with faces. Where a segment is drawn as visible, the z-buffer must show, within
-//! half a pixel, something that is not in front of it: the face at the edge, one behind it, or
+//! half a pixel, something that is not in front of it: the face at the edge, a face behind it, or
 //! nothing.
 //!
 //! ```text
@@ -121,8 +121,8 @@ struct FacePlane {
 impl FacePlane {
     /// Returns the plane of a triangle, oriented toward the viewer.
     ///
-    /// The viewer's side is the one where depth grows. It is derived from the matrix rather than
-    /// from the projector's viewer, which hidden-line removal uses, so that a wrong viewer is
+    /// The viewer's side is the side where depth increases. It is derived from the matrix rather
+    /// than from the projector's viewer, which hidden-line removal uses, so that a wrong viewer is
     /// detected. The row vector (n, −offset) in the world becomes (n, −offset) · M⁻¹ on the screen;
     /// its third component is the change with depth.
     fn from_triangle([a, b, c]: [DVec3; 3], screen_to_world: &DMat4) -> Self {

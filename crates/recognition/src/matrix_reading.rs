@@ -10,10 +10,10 @@ use alloc::vec::Vec;
 /// The cost of a matrix of unknown meaning.
 pub(crate) const UNNAMED: u32 = 1000;
 
-/// Readings whose costs differ by at most this are equally likely.
+/// Readings whose costs differ by at most this amount are equally likely.
 pub(crate) const EQUAL: u32 = 3;
 
-/// The saving in cost required to treat some entries as rounded and others as exact.
+/// The saving in cost required to assume a coarser precision than that of the most precise entry.
 pub(crate) const COARSER: u32 = 8;
 
 /// One meaning of a matrix.

@@ -30,14 +30,14 @@ pub struct ParsedMatrix {
     pub order: Option<&'static str>,
 }
 
-/// The reason why a text could not be parsed as a matrix.
+/// The reason why a string could not be parsed as a matrix.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MatrixTextError {
     /// A word is not a number.
     #[error("`{0}` is not a number")]
     NotANumber(String),
-    /// The count is neither sixteen nor nine numbers.
+    /// The count of numbers is neither sixteen nor nine.
     #[error("expected 16 numbers, or 9 for a 3 × 3 matrix, found {0}")]
     WrongCount(usize),
 }
@@ -98,7 +98,7 @@ pub fn parse_matrix(text: &str, column_major: bool) -> Result<ParsedMatrix, Matr
     Ok(ParsedMatrix { matrix, order: Some(order) })
 }
 
-/// Whether a text contains names or comments in addition to numbers.
+/// Whether a string contains names or comments in addition to numbers.
 fn is_code(text: &str) -> bool {
     let signs = ["=", "mat", "Mat", "vec", "array", "Array", "//", "/*", "#", "\\begin", "set("];
     signs.iter().any(|sign| text.contains(sign))
@@ -149,7 +149,7 @@ fn arrange<const N: usize>(listed: &[f64], columns: bool) -> [[f64; N]; N] {
 
 /// Parses a number or a fraction such as `2/3`; the typographic minus sign is accepted.
 ///
-/// Division by zero gives an infinity, which is rejected later with all other numbers that are not
+/// Division by zero results in infinity, which is rejected later, like all numbers that are not
 /// finite.
 ///
 /// # Errors

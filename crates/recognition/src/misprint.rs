@@ -39,7 +39,8 @@ pub enum Misprint {
     HalfOfTangent,
     /// M19 (43): the angle is in degrees instead of radians.
     Degrees,
-    /// The last row has the wrong sign: w is the distance behind the eye, but depth is not.
+    /// The last row has the wrong sign: w is the distance behind the eye, but the depth row is for
+    /// points in front of it.
     LastRowNegated,
     /// One entry of a rotation has the wrong sign, which changes lengths and angles.
     WrongSign,

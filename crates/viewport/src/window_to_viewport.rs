@@ -90,8 +90,8 @@ impl WindowToViewport {
         [image(x, self.window.x, self.viewport.x), image(y, self.window.y, self.viewport.y)]
     }
 
-    /// Returns the image of a point by the matrix of the chain (WV-2). Up to rounding, it is the
-    /// same as [`map_by_ratio`](Self::map_by_ratio) returns.
+    /// Returns the image of a point by the matrix of the chain (WV-2). Up to rounding, the result
+    /// is the same as from [`map_by_ratio`](Self::map_by_ratio).
     #[must_use]
     pub fn map_by_chain(&self, point: [f64; 2]) -> [f64; 2] {
         self.homography().raw().transform_point2(point.into()).into()

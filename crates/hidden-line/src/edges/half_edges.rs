@@ -34,7 +34,7 @@ impl HalfEdge {
         (self.packed >> 1 & 3) as u8
     }
 
-    /// Whether the face traverses it from the lower end to the higher.
+    /// Whether the face traverses the edge from the lower end to the higher.
     pub(super) const fn is_forward(self) -> bool {
         self.packed & 1 == 1
     }
@@ -52,8 +52,8 @@ pub(super) struct HalfEdges {
 impl HalfEdges {
     /// Builds the table for faces whose vertex indices are below `points`.
     ///
-    /// Uses a counting sort: counts the half-edges of each lower end, sums the counts to starts,
-    /// places each half-edge, then sorts the run of each vertex.
+    /// Uses a counting sort: counts the half-edges of each lower end, turns the counts into start
+    /// indices, places each half-edge, then sorts the run of each vertex.
     pub(super) fn new(faces: &[Face], points: usize) -> Self {
         let mut starts = vec![0_u32; points + 2];
         let low = |[a, b]: [u32; 2]| a.min(b) as usize;

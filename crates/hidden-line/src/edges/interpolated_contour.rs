@@ -62,7 +62,7 @@ struct Corner {
     facing: f64,
 }
 
-/// Returns the lifted point of a side where n·v is zero; `None` if it has the same sign at both
+/// Returns the lifted point of a side where n·v is zero; `None` if n·v has the same sign at both
 /// ends.
 ///
 /// It is computed from the lower vertex to the higher, so both faces get identical bits.

@@ -11,10 +11,10 @@
 //!   └──────────────┘
 //! ```
 //!
-//! Loops of a consistently oriented surface run counterclockwise around matter and clockwise around
-//! holes. Each outline is capped separately. Overlapping bodies of one object, which are common in
-//! game models, get overlapping caps. An even-odd rule over all loops would instead cut holes where
-//! the bodies overlap.
+//! Loops of a consistently oriented surface run counterclockwise around material and clockwise
+//! around holes. Each outline is capped separately. Overlapping bodies of one object, which are
+//! common in game models, get overlapping caps. An even-odd rule over all loops would instead cut
+//! holes where the bodies overlap.
 
 use clip::Outline;
 use homog::{Plane, Point, World};

@@ -314,7 +314,7 @@ impl Bvh {
     }
 }
 
-/// The number of some items, with the boxes around the items and around their centers.
+/// A number of items, with the boxes around the items and around their centers.
 #[derive(Clone, Copy)]
 struct BoundsOfItems {
     bounds: Bounds,

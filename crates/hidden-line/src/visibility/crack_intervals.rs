@@ -25,7 +25,7 @@ impl SideIntervals {
         side.insert_interval(part.interval);
     }
 
-    /// Clears the intervals and keeps the memory.
+    /// Clears the intervals without freeing the memory.
     pub(super) fn clear(&mut self) {
         self.left.clear();
         self.right.clear();
@@ -42,7 +42,7 @@ impl CrackIntervals {
         self.0.push(part);
     }
 
-    /// Clears the intervals and keeps the memory.
+    /// Clears the intervals without freeing the memory.
     pub(super) fn clear(&mut self) {
         self.0.clear();
     }

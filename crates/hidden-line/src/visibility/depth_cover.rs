@@ -103,7 +103,7 @@ impl ScreenBox {
 }
 
 impl DepthCover {
-    /// Creates the cover made by some faces on a screen of this size in pixels.
+    /// Creates the cover formed by single faces on a screen of this size in pixels.
     pub(crate) fn new(
         faces: impl Iterator<Item = [DVec3; 3]>,
         projector: Projector,
@@ -121,7 +121,7 @@ impl DepthCover {
         cover
     }
 
-    /// Creates the cover made by a crowd of faces together; `None` if they are not a crowd.
+    /// Creates the cover formed by a crowd of faces together; `None` if they are not a crowd.
     pub(crate) fn of_crowd<I: Iterator<Item = [DVec3; 3]>>(
         faces: impl Fn() -> I,
         projector: Projector,
@@ -179,7 +179,7 @@ impl DepthCover {
         })
     }
 
-    /// Whether a segment of the world is hidden from end to end.
+    /// Whether a world-space segment is hidden from end to end.
     pub(crate) fn hides_segment(&self, ends: [DVec3; 2]) -> bool {
         images_of(&ends, &self.projector).is_some_and(|ends| self.hides_image(ends, DIVISIONS))
     }

@@ -32,7 +32,7 @@ pub(super) struct Occluder {
 struct OrientedPlane {
     /// The unit normal toward the viewer.
     normal: DVec3,
-    /// The distance from the origin along it.
+    /// The distance from the origin along the normal.
     offset: f64,
 }
 

@@ -17,7 +17,7 @@ use crate::projector::Projector;
 use glam::DVec3;
 use homog::{Point, World};
 
-/// The distances below which an edge touches a face, which does not hide it (HL-1).
+/// The distances below which an edge touches a face. A touching face does not hide the edge (HL-1).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Tolerance {
     /// The distance from a side of a face, in pixels. An edge that stays closer than this runs

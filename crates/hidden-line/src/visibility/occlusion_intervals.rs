@@ -31,7 +31,7 @@ impl OcclusionIntervals {
 
     /// Inserts the interval `[start, end]`, with `start` ≤ `end`.
     ///
-    /// Intervals that overlap or touch the new one are merged with it, so the invariant holds
+    /// Intervals that overlap or touch the new interval are merged with it, so the invariant holds
     /// without a later pass.
     pub(crate) fn insert_interval(&mut self, [start, end]: [f64; 2]) {
         let first = self.0.partition_point(|interval| interval[1] < start);

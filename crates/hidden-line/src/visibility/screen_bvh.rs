@@ -328,7 +328,7 @@ fn box_around([a, b, c]: [DVec2; 3], depths: [f32; 3], margin: f64) -> DepthBox 
     }
 }
 
-/// Swaps the last two vertices if they are reversed.
+/// Swaps the last two vertices if `is_reversed` is true.
 fn reverse_if<T>(is_reversed: bool, [a, b, c]: [T; 3]) -> [T; 3] {
     if is_reversed { [a, c, b] } else { [a, b, c] }
 }

@@ -86,7 +86,7 @@ fn unit_part(random: &mut Random) -> Primitive {
 /// against a face of an earlier box, with a gap.
 fn stack_boxes(random: &mut Random) -> Vec<[[f64; 3]; 2]> {
     let mut boxes = vec![[[0.0; 3], [0; 3].map(|_| random.between(0.1, 1.0))]];
-    // About the diagonal of the result.
+    // The diagonal of the result is about 3.
     let touching = 3.0 / f64::from(1 << 21);
     for _ in 0..random.below(5) + 1 {
         let [min, max] = boxes[random.below(boxes.len() as u64) as usize];
@@ -187,7 +187,7 @@ fn measure(number: u64) -> (LineDrawing, Agreement) {
     (drawing, agreement)
 }
 
-/// Returns the worst scenes of a series, with the length that the z-buffer denies and the denied
+/// Returns the largest disagreement among some scenes, and a report on that scene with its denied
 /// segments.
 fn worst_scene(scenes: impl Iterator<Item = u64>) -> (f64, String) {
     let ratio = |number| (measure(number).1.disagreement_ratio(), number);

@@ -110,7 +110,7 @@ fn prism(random: &mut Random) -> Option<Built> {
     Some((matrix, Expected::Prism(c, [length, phi], w, n, f)))
 }
 
-/// Window to viewport.
+/// Builds a map from a window to a viewport.
 fn windowing(random: &mut Random) -> Option<Built> {
     let [from, to] = [random.window(), random.window()];
     let scale = [0, 2].map(|i| (to[i + 1] - to[i]) / (from[i + 1] - from[i]));

@@ -17,7 +17,7 @@ pub(crate) enum Expected {
     Box(Convention, [f64; 4], f64, f64),
     /// Convention; length and φ in degrees; left, right, bottom, top; near, far.
     Prism(Convention, [f64; 2], [f64; 4], f64, f64),
-    /// Length, φ in degrees, plane; with depth kept.
+    /// Length, φ in degrees, plane; whether depth is preserved.
     Oblique(f64, f64, f64, bool),
     /// Eye and gaze.
     Camera([f64; 3], [f64; 3]),
