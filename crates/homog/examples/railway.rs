@@ -1,13 +1,13 @@
-//! A railway in perspective: parallel rails meet, and sleepers crowd toward the horizon.
+//! A railroad in perspective: parallel rails meet, and the ties crowd together toward the horizon.
 //!
 //! Run it with `cargo run -p alberti-homog --example railway`.
-#![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
+#![allow(clippy::print_stdout, reason = "the example prints its results")]
 
 use homog::{Clip, Foreshortening, HPoint, Point, Projective, Vector, View};
 
 fn main() {
-    // The eye is at the origin, 1.5 above the rails, looking along −z; w = −z is the distance
-    // ahead. Depth runs from +1 at distance 2 to −1 at distance 32.
+    // The eye is at the origin, 1.5 above the rails, looking along −z; w = −z is the distance in
+    // front of it. Depth runs from +1 at distance 2 to −1 at distance 32.
     let view_to_clip = Projective::<View, Clip>::from_rows([
         [1.0, 0.0, 0.0, 0.0],
         [0.0, 1.0, 0.0, 0.0],
@@ -17,7 +17,7 @@ fn main() {
     println!("The map, {}:\n{}\n", view_to_clip.classify(), view_to_clip.display());
 
     let rail = |x: f64, distance: f64| Point::<View>::new(x, -1.5, -distance);
-    println!("Sleepers, evenly spaced on the ground:");
+    println!("Ties, evenly spaced on the ground:");
     for distance in [2.0, 4.0, 8.0, 16.0, 32.0] {
         let ends = [rail(-0.75, distance), rail(0.75, distance)];
         let [left, right] = ends.map(|end| view_to_clip.transform_point(end).divide());
@@ -27,14 +27,16 @@ fn main() {
     }
 
     let meeting = view_to_clip.vanishing_point(-Vector::Z, 0.0);
-    println!("\nThe rails meet in {meeting:.3}; the sleepers, across the gaze, never:");
-    println!("  their images run to {}", view_to_clip.vanishing_point(Vector::X, 0.0));
+    println!(
+        "\nThe rails meet at {meeting:.3}. The ties are perpendicular to the gaze and never meet:"
+    );
+    println!("  their vanishing point is {}", view_to_clip.vanishing_point(Vector::X, 0.0));
 
     let [near, far]: [HPoint<Clip>; 2] =
         [2.0, 32.0].map(|d| view_to_clip.transform_point(rail(0.75, d)));
     match Foreshortening::from_endpoints(near, far) {
         Ok(f) => println!(
-            "\nThe middle of the rail is seen at {:.3} of its image.",
+            "\nThe midpoint of the rail appears at fraction {:.3} of its image.",
             f.image_parameter(0.5).unwrap_or(0.5)
         ),
         Err(torn) => println!("\n{torn}"),

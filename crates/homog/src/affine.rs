@@ -1,11 +1,11 @@
-//! Affine maps: points to points, with no divide.
+//! Affine maps, from points to points without a divide.
 
 use crate::{Normal, Plane, Point, Projective, Space, Vector};
 use core::marker::PhantomData;
 use glam::{DMat3, DMat4, DVec3, DVec4};
 
-/// An affine map from space `A` to space `B`: a 4×4 matrix with bottom row (0, 0, 0, 1), column
-/// vectors.
+/// An affine map from space `A` to space `B`: a 4×4 matrix with bottom row (0, 0, 0, 1), applied to
+/// column vectors.
 ///
 /// Parallel lines stay parallel and w stays 1. Chain maps with [`then`](Self::then), in the order
 /// in which a point passes through them.
@@ -24,19 +24,20 @@ pub struct Affine<A: Space, B: Space> {
 }
 
 impl<A: Space, B: Space> Affine<A, B> {
-    /// The map that keeps the coordinates and only changes their space.
+    /// The map that only changes the space and leaves the coordinates unchanged.
     pub const IDENTITY: Self = Self::tagged(DMat4::IDENTITY);
 
     pub(crate) const fn tagged(raw: DMat4) -> Self {
         Self { raw, spaces: PhantomData }
     }
 
-    /// Tags a matrix with its two spaces; `None` unless its bottom row is exactly (0, 0, 0, 1).
+    /// Tags a matrix with its two spaces, or returns `None` if its bottom row is not exactly
+    /// (0, 0, 0, 1).
     pub(crate) fn from_matrix(raw: DMat4) -> Option<Self> {
         (raw.row(3) == DVec4::W).then_some(Self::tagged(raw))
     }
 
-    /// The map with the given images of the x, y and z axes and of the origin: a change of frame.
+    /// Creates a map from the images of the x, y and z axes and of the origin: a change of frame.
     #[must_use]
     pub fn from_frame(x: Vector<B>, y: Vector<B>, z: Vector<B>, origin: Point<B>) -> Self {
         Self::tagged(DMat4::from_cols(
@@ -89,8 +90,8 @@ impl<A: Space, B: Space> Affine<A, B> {
         Self::from_linear(DVec3::new(c, s, 0.0), DVec3::new(-s, c, 0.0), DVec3::Z)
     }
 
-    /// The rotation of the quaternion (x, y, z, w), which need not have length 1; `None` if it is
-    /// zero or not finite.
+    /// Returns the rotation of the quaternion (x, y, z, w), which need not have length 1, or `None`
+    /// if it is zero or not finite.
     #[must_use]
     pub fn from_quaternion([x, y, z, w]: [f64; 4]) -> Option<Self> {
         let largest = x.abs().max(y.abs()).max(z.abs()).max(w.abs());
@@ -112,7 +113,7 @@ impl<A: Space, B: Space> Affine<A, B> {
         Self::tagged(DMat4::from_mat3(DMat3::from_cols(x, y, z)))
     }
 
-    /// The image of a point.
+    /// Returns the image of a point.
     #[must_use]
     #[inline(always)]
     pub fn transform_point(self, point: Point<A>) -> Point<B> {
@@ -127,15 +128,15 @@ impl<A: Space, B: Space> Affine<A, B> {
         }
     }
 
-    /// The image of a vector, which the translation does not affect.
+    /// Returns the image of a vector, which the translation does not affect.
     #[must_use]
     pub fn transform_vector(self, vector: Vector<A>) -> Vector<B> {
         Vector::tagged(self.raw.transform_vector3(vector.raw))
     }
 
-    /// The image of a normal, by the cofactors of the linear part. They are its inverse transpose
-    /// times its determinant, so this works for flattening maps too, and the normal of a mirrored
-    /// surface keeps its side.
+    /// Returns the image of a normal, computed with the cofactors of the linear part. They are its
+    /// inverse transpose times its determinant, so this also works for flattening maps, and the
+    /// normal of a mirrored surface stays on its side.
     #[must_use]
     pub fn transform_normal(self, normal: Normal<A>) -> Normal<B> {
         let [x, y, z] = self.linear_columns();
@@ -145,8 +146,8 @@ impl<A: Space, B: Space> Affine<A, B> {
         Normal::tagged(if mirrored { -image } else { image })
     }
 
-    /// The image of a plane; `None` if the map flattens space or a coefficient of the image is not
-    /// finite.
+    /// Returns the image of a plane, or `None` if the map flattens space or a coefficient of the
+    /// image is not finite.
     #[must_use]
     pub fn transform_plane(self, plane: Plane<A>) -> Option<Plane<B>> {
         let image = self.inverse()?.raw.transpose() * plane.raw;
@@ -158,27 +159,27 @@ impl<A: Space, B: Space> Affine<A, B> {
         [m.x_axis.truncate(), m.y_axis.truncate(), m.z_axis.truncate()]
     }
 
-    /// The determinant of the linear part: the factor by which volumes grow. It is negative if the
-    /// map mirrors and 0 if it flattens.
+    /// Returns the determinant of the linear part: the factor by which volumes change. It is
+    /// negative if the map mirrors and 0 if it flattens.
     #[must_use]
     pub fn determinant(self) -> f64 {
         let [x, y, z] = self.linear_columns();
         x.dot(y.cross(z))
     }
 
-    /// This map, then `next`.
+    /// Returns the map that applies this map first, then `next`.
     #[must_use]
     pub fn then<C: Space>(self, next: Affine<B, C>) -> Affine<A, C> {
         Affine::tagged(next.raw * self.raw)
     }
 
-    /// This map, then the projection `next`.
+    /// Returns the map that applies this map first, then the projection `next`.
     #[must_use]
     pub fn then_project<C: Space>(self, next: Projective<B, C>) -> Projective<A, C> {
         Projective::from(self).then(next)
     }
 
-    /// The inverse map; `None` if this one flattens space or is not finite.
+    /// Returns the inverse map, or `None` if this one flattens space or is not finite.
     #[must_use]
     pub fn inverse(self) -> Option<Affine<B, A>> {
         if !self.is_finite() {
@@ -218,7 +219,7 @@ mod tests {
     type Map = Affine<Model, World>;
 
     #[test]
-    fn inverse_undoes_and_flat_maps_have_none() {
+    fn inverses_undo_and_flat_maps_have_none() {
         let turn = Affine::<Model, Model>::rotation_x(0.3);
         let map = turn.then(Map::translation(Vector::new(1.0, -2.0, 3.0)));
         let p = Point::new(0.5, 0.25, -4.0);
@@ -241,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn normals_stay_perpendicular_under_uneven_scale_and_keep_their_side_in_a_mirror() {
+    fn normals_stay_perpendicular_when_scaled_and_on_their_side_when_mirrored() {
         let squash = Map::scale(1.0, 0.25, 1.0);
         let n = squash.transform_normal(Normal::new(1.0, 1.0, 0.0));
         assert_eq!(n.dot(squash.transform_vector(Vector::new(1.0, -1.0, 0.0))), 0.0);
@@ -250,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn turning_about_any_axis_agrees_with_the_three() {
+    fn rotation_about_any_axis_matches_the_coordinate_axes() {
         let turns = [
             (Vector::X * 5.0, Map::rotation_x(0.7)),
             (Vector::Y * 1e-200, Map::rotation_y(0.7)),
@@ -276,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn c37_c52_translations_work_before_the_divide_and_leave_directions_alone() {
+    fn c37_c52_translations_move_points_but_not_directions() {
         let by = Vector::new(1.0, 2.0, 3.0);
         let map = Projective::from(Map::translation(by));
         let (x, y, z, h) = (2.0, -6.0, 4.0, 4.0);
@@ -304,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn quaternions_of_any_length_turn_alike_and_zero_is_refused() {
+    fn quaternion_length_does_not_matter_and_zero_is_rejected() {
         let half_turn = Map::from_quaternion([0.0, 3e-200, 0.0, 0.0]).expect("not zero");
         assert_eq!(
             half_turn.transform_point(Point::new(1.0, 2.0, 3.0)),

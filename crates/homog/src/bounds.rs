@@ -22,8 +22,8 @@ pub struct Bounds<S: Space> {
 }
 
 impl<S: Space> Bounds<S> {
-    /// The smallest box that contains all `points`; `None` if there are none or one of them is not
-    /// finite.
+    /// Returns the smallest box that contains all `points`, or `None` if there are no points or one
+    /// of them is not finite.
     #[must_use]
     pub fn from_points(points: impl IntoIterator<Item = Point<S>>) -> Option<Self> {
         let mut points = points.into_iter();
@@ -38,19 +38,19 @@ impl<S: Space> Bounds<S> {
         finite.then_some(Self { min: Point::tagged(min), max: Point::tagged(max) })
     }
 
-    /// The minimum x, y and z.
+    /// Returns the corner with the minimum x, y and z.
     #[must_use]
     pub const fn min(self) -> Point<S> {
         self.min
     }
 
-    /// The maximum x, y and z.
+    /// Returns the corner with the maximum x, y and z.
     #[must_use]
     pub const fn max(self) -> Point<S> {
         self.max
     }
 
-    /// The smallest box that contains both.
+    /// Returns the smallest box that contains both boxes.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
         Self {
@@ -59,27 +59,28 @@ impl<S: Space> Bounds<S> {
         }
     }
 
-    /// The eight corners. Bit 0 of the index selects the maximum x, bit 1 the maximum y, bit 2 the
-    /// maximum z.
+    /// Returns the eight corners. Bit 0 of the index selects the maximum x, bit 1 the maximum y and
+    /// bit 2 the maximum z.
     #[must_use]
     pub fn corners(self) -> [Point<S>; 8] {
         let ends = [self.min.raw, self.max.raw];
         core::array::from_fn(|i| Point::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z))
     }
 
-    /// The center of the box.
+    /// Returns the center of the box.
     #[must_use]
     pub fn center(self) -> Point<S> {
         Point::tagged(self.min.raw * 0.5 + self.max.raw * 0.5)
     }
 
-    /// The three edge lengths, from the minimum corner to the maximum corner. Infinite on overflow.
+    /// Returns the three edge lengths, from the minimum corner to the maximum corner. They are
+    /// infinite on overflow.
     #[must_use]
     pub fn size(self) -> Vector<S> {
         self.max - self.min
     }
 
-    /// The length of the space diagonal.
+    /// Returns the length of the space diagonal.
     #[must_use]
     pub fn diagonal(self) -> f64 {
         self.size().length()
@@ -91,8 +92,8 @@ impl<S: Space> Bounds<S> {
         self.min.raw.cmple(point.raw).all() && self.max.raw.cmpge(point.raw).all()
     }
 
-    /// The bounds of the image of this box; `None` if a corner is no longer finite. They are
-    /// usually larger than the bounds of the image of the contents.
+    /// Returns the bounds of the image of this box, or `None` if the image of a corner is not
+    /// finite. They are usually larger than the bounds of the transformed contents.
     #[must_use]
     pub fn transformed<T: Space>(self, map: Affine<S, T>) -> Option<Bounds<T>> {
         Bounds::from_points(self.corners().map(|corner| map.transform_point(corner)))
@@ -113,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn corners_are_all_different_and_span_the_box_again() {
+    fn corners_are_distinct_and_have_the_same_bounds() {
         let bounds =
             Bounds::<Model>::from_points([[-1.0, 2.0, 3.0], [4.0, 5.0, 7.0]].map(Point::from))
                 .expect("two finite points");

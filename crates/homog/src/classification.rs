@@ -7,9 +7,9 @@
 //!   [ p q r h ]                 points go to infinity
 //! ```
 //!
-//! Each kind contains the one above it. A common factor does not matter: the bottom row (0, 0,
-//! 0, 5) is as good as (0, 0, 0, 1). One source calls a perspective "non-linear" (misprint M27): it
-//! is linear on homogeneous points, and projective but not affine on positions.
+//! Each kind contains the one above it. A common factor does not matter: the bottom row
+//! (0, 0, 0, 5) is equivalent to (0, 0, 0, 1). One source calls a perspective "non-linear"
+//! (misprint M27): it is linear on homogeneous points, and projective but not affine on positions.
 
 use crate::{Affine, Homography, Projective, Space};
 use core::fmt;
@@ -44,7 +44,7 @@ pub enum KindReason {
     WVanishes,
 }
 
-/// The kind of a map, with the reason and the rank.
+/// The kind of a map, with the reason for it and the rank.
 ///
 /// ```
 /// use homog::{Clip, MapKind, Projective, View};
@@ -62,7 +62,7 @@ pub enum KindReason {
 pub struct Classification {
     /// Linear, affine or projective.
     pub kind: MapKind,
-    /// The reason.
+    /// The reason for the kind.
     pub reason: KindReason,
     /// The rank of the matrix up to rounding: 4 if the map is invertible.
     pub rank: usize,
@@ -92,9 +92,9 @@ impl Classification {
         self.rank == 4
     }
 
-    /// The number of x, y and z axes with a finite vanishing point, that is, of nonzero entries
-    /// among p, q and r. One, two or three make a one-, two- or three-point perspective; 0 is a
-    /// parallel projection.
+    /// Returns the number of x, y and z axes with a finite vanishing point, that is, the number of
+    /// nonzero entries among p, q and r. The values 1, 2 and 3 mean a one-, two- or three-point
+    /// perspective, and 0 means a parallel projection.
     #[must_use]
     pub fn finite_vanishing_points(&self) -> usize {
         match self.reason {
@@ -133,7 +133,7 @@ impl fmt::Display for KindReason {
     }
 }
 
-/// Writes the linear form p x + q y + r z + h as people do.
+/// Writes the linear form p x + q y + r z + h without zero terms or factors of 1.
 fn write_linear_form(f: &mut fmt::Formatter<'_>, coefficients: [f64; 4]) -> fmt::Result {
     let mut first = true;
     for (c, name) in coefficients.into_iter().zip(["x", "y", "z", ""]) {
@@ -161,27 +161,28 @@ impl fmt::Display for Classification {
         write!(f, "{}: {}; ", self.kind, self.reason)?;
         match self.rank {
             4 => f.write_str("invertible"),
-            rank => write!(f, "singular, of rank {rank}"),
+            rank => write!(f, "singular, with rank {rank}"),
         }
     }
 }
 
 impl<A: Space, B: Space> Projective<A, B> {
-    /// Classifies this map by its exact entries.
+    /// Classifies this map based on its exact entries.
     #[must_use]
     pub fn classify(self) -> Classification {
         self.classify_within(0.0)
     }
 
     /// Classifies this map with a tolerance, for computed matrices. Entries of the bottom row up to
-    /// `relative` times h count as 0, and so do small entries of the translation compared with the
-    /// linear part.
+    /// `relative` times h count as 0, as do translation entries that small relative to the linear
+    /// part.
     #[must_use]
     pub fn classify_within(self, relative: f64) -> Classification {
         Classification::new(self.rows(), self.rank(), relative)
     }
 
-    /// The affine map that this is up to a factor; `None` if w depends on the point.
+    /// Returns the affine map that equals this one up to a factor, or `None` if w depends on the
+    /// point.
     ///
     /// ```
     /// use homog::{Affine, Model, Projective, Vector, World};
@@ -207,7 +208,7 @@ impl<A: Space, B: Space> Affine<A, B> {
 }
 
 impl Homography {
-    /// The kind of this map of the plane, by its exact entries.
+    /// Returns the kind of this planar map, based on its exact entries.
     #[must_use]
     pub fn kind(self) -> MapKind {
         let [[_, _, x], [_, _, y], [p, q, h]] = self.rows();
@@ -227,7 +228,7 @@ mod tests {
     use alloc::string::ToString;
 
     #[test]
-    fn c15_every_kind_gives_its_reason() {
+    fn c15_every_kind_has_its_reason() {
         let turn = Affine::<Model, World>::rotation_z(0.3);
         assert_eq!(
             turn.classify().to_string(),
@@ -244,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn c58_misprint_m27_a_perspective_is_linear_on_four_numbers_and_not_affine_on_places() {
+    fn c58_misprint_m27_perspective_is_linear_in_four_coordinates_but_not_affine() {
         let rows = [
             [1.0, 0.0, 0.0, 0.0],
             [0.0, 1.0, 0.0, 0.0],
@@ -264,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn c83_non_zeros_among_p_q_r_count_the_vanishing_points() {
+    fn c83_nonzero_p_q_r_count_the_vanishing_points() {
         for [p, q, r, count] in
             [[0.0, 0.0, -0.5, 1.0], [0.0, 0.2, -0.5, 2.0], [0.1, 0.2, -0.5, 3.0], [0.0; 4]]
         {
@@ -279,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn rounding_can_be_forgiven() {
+    fn rounding_errors_can_be_ignored() {
         let mut almost = glam::DMat4::IDENTITY;
         almost.x_axis.w = 1e-17;
         let almost = Projective::<View, Clip>::tagged(almost);
@@ -288,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn maps_of_the_plane_have_kinds_too() {
+    fn planar_maps_are_classified() {
         let kind = |rows| Homography::from_rows(rows).kind();
         let (x, y, z) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.0]);
         assert_eq!(kind([x, y, z]), MapKind::Linear);

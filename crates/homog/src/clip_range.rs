@@ -8,9 +8,9 @@
 //!  VULKAN         0      1    down  Vulkan
 //! ```
 //!
-//! Projection, clipping and viewport must agree on it. Each takes it as a value, so you name it
-//! once and pass it to all three. In graphics interfaces, `glClipControl` and
-//! `VK_EXT_depth_clip_control` select it.
+//! Projection, clipping and viewport must agree on the range. Each accepts it as a value, so you
+//! choose it once and pass it to all three. OpenGL selects it with `glClipControl`, Vulkan with
+//! `VK_EXT_depth_clip_control`.
 
 use thiserror::Error;
 
@@ -23,19 +23,19 @@ pub enum NdcY {
     Down,
 }
 
-/// The reason why depths for the near and far planes are rejected.
+/// The reason why the near and far depths are rejected.
 #[derive(Clone, Copy, PartialEq, Debug, Error)]
 pub enum ClipRangeError {
     /// A depth is not a number from −1 to 1.
-    #[error("`{name}` is {value}; allowed: between −1 and 1")]
+    #[error("`{name}` is {value}; it must be between −1 and 1")]
     Depth {
-        /// The depth: `near_depth` or `far_depth`.
+        /// The name of the depth: `near_depth` or `far_depth`.
         name: &'static str,
         /// Its value.
         value: f64,
     },
     /// The depths of the near and far planes are less than 10⁻⁶ apart.
-    #[error("`far_depth` is {far}; allowed: at least 0.000001 away from `near_depth`")]
+    #[error("`far_depth` is {far}; it must be at least 0.000001 away from `near_depth`")]
     TooClose {
         /// The depth of the far plane.
         far: f64,
@@ -45,7 +45,7 @@ pub enum ClipRangeError {
 /// The depths of the near and far planes after the divide, and the direction of y.
 ///
 /// # Guarantees
-/// Both depths lie in [−1, 1] and are at least 10⁻⁶ apart.
+/// Both depths are in [−1, 1] and at least 10⁻⁶ apart.
 ///
 /// ```
 /// use homog::ClipRange;
@@ -74,19 +74,19 @@ impl ClipRange {
         Self { near_depth, far_depth, y }
     }
 
-    /// This range with the near and far depths exchanged (reversed z).
+    /// Returns this range with the near and far depths exchanged (reversed z).
     #[must_use]
     pub const fn reversed(self) -> Self {
         Self::new(self.far_depth, self.near_depth, self.y)
     }
 
-    /// This range with the given direction of y.
+    /// Returns this range with the given direction of y.
     #[must_use]
     pub const fn with_y(self, y: NdcY) -> Self {
         Self { y, ..self }
     }
 
-    /// This range with other depths for the near and far planes.
+    /// Returns this range with different depths for the near and far planes.
     ///
     /// # Errors
     /// Returns an error unless both depths are in [−1, 1] and at least 10⁻⁶ apart.
@@ -102,25 +102,25 @@ impl ClipRange {
         Ok(Self::new(near_depth, far_depth, self.y))
     }
 
-    /// The depth after the divide of points on the near plane.
+    /// Returns the depth of the near plane after the divide.
     #[must_use]
     pub const fn near_depth(self) -> f64 {
         self.near_depth
     }
 
-    /// The depth after the divide of points on the far plane.
+    /// Returns the depth of the far plane after the divide.
     #[must_use]
     pub const fn far_depth(self) -> f64 {
         self.far_depth
     }
 
-    /// The direction of y after the divide.
+    /// Returns the direction of y after the divide.
     #[must_use]
     pub const fn y(self) -> NdcY {
         self.y
     }
 
-    /// The y coordinate of the window's top edge after the divide: +1 or −1.
+    /// Returns the y coordinate of the window's top edge after the divide: +1 or −1.
     #[must_use]
     pub const fn top(self) -> f64 {
         match self.y {

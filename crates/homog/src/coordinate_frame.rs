@@ -7,8 +7,8 @@
 //! ```
 //!
 //! The 4×4 matrix whose columns are the axes (w = 0) and the origin (w = 1) converts coordinates in
-//! the frame to coordinates in the parent space. Its inverse does the opposite. Two in a row
-//! convert from one frame to another.
+//! the frame to coordinates in the parent space. Its inverse does the opposite. The matrix of one
+//! frame followed by the inverse for another converts coordinates between the two frames.
 
 use crate::{Affine, Point, Space, Vector};
 
@@ -35,13 +35,13 @@ pub enum FrameError {
     /// A coordinate is infinite or NaN.
     #[error("a frame needs an origin and axes with finite coordinates")]
     NotFinite,
-    /// The axes lie in one plane, or one of them is zero; most points would have no coordinates.
+    /// The axes lie in one plane, or one of them is zero. Most points would have no coordinates.
     #[error("the axes of a frame must not lie in one plane")]
     Dependent,
 }
 
 impl<S: Space> CoordinateFrame<S> {
-    /// The frame with the given origin and axes, of any length and at any angles.
+    /// Creates a frame from its origin and axes, which may have any lengths and angles.
     ///
     /// # Errors
     /// Returns an error if the axes lie in one plane (up to rounding) or a coordinate is not
@@ -56,34 +56,34 @@ impl<S: Space> CoordinateFrame<S> {
         if independent && invertible { Ok(frame) } else { Err(FrameError::Dependent) }
     }
 
-    /// The origin.
+    /// Returns the origin.
     #[must_use]
     pub const fn origin(self) -> Point<S> {
         self.origin
     }
 
-    /// The three axes.
+    /// Returns the three axes.
     #[must_use]
     pub const fn axes(self) -> [Vector<S>; 3] {
         self.axes
     }
 
-    /// Converts coordinates in the frame, called space `L`, to points in `S`.
+    /// Returns the map from coordinates in this frame (space `L`) to points in `S`.
     #[must_use]
     pub fn local_to_parent<L: Space>(self) -> Affine<L, S> {
         let [x, y, z] = self.axes;
         Affine::from_frame(x, y, z, self.origin)
     }
 
-    /// Converts points in `S` to coordinates in the frame, called space `L`.
+    /// Returns the map from points in `S` to coordinates in this frame (space `L`).
     #[must_use]
     pub fn parent_to_local<L: Space>(self) -> Affine<S, L> {
         // A frame exists only if this inverse exists.
         self.local_to_parent::<L>().inverse().unwrap_or(Affine::IDENTITY)
     }
 
-    /// Converts coordinates in this frame to coordinates of the same point in `other`: the change
-    /// of frame.
+    /// Returns the change of frame: the map from coordinates in this frame to coordinates of the
+    /// same point in `other`.
     #[must_use]
     pub fn change_to<L: Space, M: Space>(self, other: Self) -> Affine<L, M> {
         self.local_to_parent::<L>().then(other.parent_to_local::<M>())
@@ -102,7 +102,7 @@ mod tests {
     use crate::{Model, View, World};
 
     #[test]
-    fn c50_points_have_an_origin_and_vectors_have_none() {
+    fn c50_the_origin_of_a_frame_moves_points_but_not_vectors() {
         let axes =
             [Vector::new(2.0, 0.0, 0.0), Vector::new(1.0, 1.0, 0.0), Vector::new(0.0, 0.0, -3.0)];
         let frame =
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn c71_changing_there_and_back_changes_nothing() {
+    fn c71_changing_frames_and_back_gives_the_same_point() {
         let o = Point::<World>::new(1.0, 2.0, 3.0);
         let a = CoordinateFrame::new(o, [Vector::Y, Vector::Z, Vector::X]).expect("independent");
         let b = CoordinateFrame::new(Point::ORIGIN, [Vector::X * 2.0, Vector::Y, Vector::Z])
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn flat_frames_are_refused() {
+    fn flat_frames_are_rejected() {
         let o = Point::<World>::ORIGIN;
         let flat = [Vector::X, Vector::Y, Vector::X + Vector::Y];
         assert_eq!(CoordinateFrame::new(o, flat), Err(FrameError::Dependent));

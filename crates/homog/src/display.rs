@@ -1,4 +1,4 @@
-//! Points, vectors, normals and homogeneous points as people write them: `(1, 0.5, -2)`.
+//! Readable output of points, vectors, normals and homogeneous points, such as `(1, 0.5, -2)`.
 //!
 //! A precision applies to each coordinate: `{:.2}` writes `(1.00, 0.50, -2.00)`. A homogeneous
 //! point has four coordinates. Negative zero is written as 0.
@@ -46,7 +46,7 @@ mod tests {
     use alloc::format;
 
     #[test]
-    fn coordinates_are_written_short_and_with_the_precision_asked_for() {
+    fn coordinates_are_short_and_respect_the_precision() {
         let p = Point::<World>::new(1.0, -0.0, -2.5);
         assert_eq!(format!("{p}"), "(1, 0, -2.5)");
         assert_eq!(format!("{p:.2}"), "(1.00, 0.00, -2.50)");

@@ -1,22 +1,22 @@
 //! Gauss–Jordan elimination of a small square matrix: its inverse and its rank.
 //!
 //! Rows and columns are first scaled by powers of two, which is exact, until the largest entry of
-//! each is near 1. A matrix whose units differ wildly (a near plane of 10⁻¹² and a far plane of
-//! 10⁶) is then judged by its shape, not by its units: only a pivot at the level of rounding noise
-//! makes it singular.
+//! each is near 1. The rank then does not depend on units, even if they differ wildly (a near plane
+//! at 10⁻¹² and a far plane at 10⁶): only a pivot at the level of rounding noise makes a matrix
+//! singular.
 
 /// A pivot of a balanced matrix up to this size is rounding noise.
 const ROUNDING_NOISE: f64 = 4.0 * f64::EPSILON;
 
 /// The result of elimination.
 pub(crate) struct Elimination<const N: usize> {
-    /// The number of pivots above the noise.
+    /// The number of pivots above the noise level.
     pub(crate) rank: usize,
     /// The inverse, by rows; `None` if the rank is not full or an entry is not finite.
     pub(crate) inverse: Option<[[f64; N]; N]>,
 }
 
-/// Eliminates a matrix given by rows, with complete pivoting.
+/// Eliminates a matrix, stored by rows, with complete pivoting.
 pub(crate) fn eliminate_full_pivoting<const N: usize>(rows: [[f64; N]; N]) -> Elimination<N> {
     if !rows.iter().flatten().all(|entry| entry.is_finite()) {
         return Elimination { rank: 0, inverse: None };
@@ -44,7 +44,7 @@ fn identity_rows<const N: usize>() -> [[f64; N]; N] {
     core::array::from_fn(|i| core::array::from_fn(|j| f64::from(u8::from(i == j))))
 }
 
-/// The matrix with scaled rows and columns, and the exponents of two by which they were multiplied.
+/// Returns the matrix with scaled rows and columns, and the binary exponents of the scale factors.
 fn equilibrate<const N: usize>(rows: [[f64; N]; N]) -> ([[f64; N]; N], [i32; N], [i32; N]) {
     let mut a = rows;
     let row_exponents = core::array::from_fn(|i| {
@@ -60,13 +60,13 @@ fn equilibrate<const N: usize>(rows: [[f64; N]; N]) -> ([[f64; N]; N], [i32; N],
     (a, row_exponents, column_exponents)
 }
 
-/// The exponent of two of the largest entry; 0 if all are 0.
+/// Returns the binary exponent of the largest entry, or 0 if all are 0.
 fn exponent_of(entries: impl Iterator<Item = f64>) -> i32 {
     let largest = entries.fold(0.0, |largest: f64, entry| largest.max(entry.abs()));
     if largest == 0.0 { 0 } else { libm::ilogb(largest) }
 }
 
-/// The row and column of the largest entry whose row and column have no pivot yet.
+/// Returns the row and column of the largest entry whose row and column have no pivot yet.
 fn find_pivot<const N: usize>(
     a: &[[f64; N]; N],
     step: usize,
@@ -135,12 +135,12 @@ mod tests {
         assert_eq!(eliminate_full_pivoting([[0.0; 3]; 3]).rank, 0);
         assert!(
             eliminate_full_pivoting([[1e-320, 0.0], [0.0, 1.0]]).inverse.is_none(),
-            "1e320 is not a number"
+            "1e320 is out of range"
         );
     }
 
     #[test]
-    fn pivots_come_from_any_row_and_column() {
+    fn pivots_are_found_in_any_row_and_column() {
         let a = [[0.0, 2.0, 0.0], [0.0, 0.0, 4.0], [8.0, 0.0, 0.0]];
         let want = [[0.0, 0.0, 0.125], [0.5, 0.0, 0.0], [0.0, 0.25, 0.0]];
         assert_eq!(eliminate_full_pivoting(a).inverse, Some(want));

@@ -1,5 +1,5 @@
-//! How perspective shifts the points of a segment along their line: f(t), its inverse and its
-//! derivative (IN-1, IN-2).
+//! Perspective foreshortening along a segment: the function f(t), its inverse and its derivative
+//! (IN-1, IN-2).
 //!
 //! ```text
 //!  in space  r ──────────────● t = ½ ─────────────── R         w_r = 1, w_R = 3
@@ -7,9 +7,9 @@
 //! ```
 //!
 //! The point r + t(R − r) has its image at fraction f(t) = w_R t / (w_r + t(w_R − w_r)) between the
-//! images of the ends. If both w have the same sign, the denominator is a blend of the two and
-//! never 0. Then f rises from 0 to 1: segments map to segments, and points on them keep their
-//! order.
+//! images of the ends. If both values of w have the same sign, the denominator is a blend of the
+//! two and never 0. Then f rises from 0 to 1: segments map to segments, and points on them keep
+//! their order.
 //!
 //! Source: the textbook (Shirley and Marschner, ch. 8), §8.4 and exercise 11; IN-1, IN-2.
 
@@ -28,7 +28,7 @@ pub struct SegmentCrossesEyePlane {
     pub end: f64,
 }
 
-/// The relation between a segment and its perspective image, fixed by w at its ends.
+/// The relation between a segment and its perspective image, determined by w at the ends.
 ///
 /// ```
 /// use homog::Foreshortening;
@@ -40,17 +40,17 @@ pub struct SegmentCrossesEyePlane {
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Foreshortening {
-    /// Both positive, the larger in [1, 2): only their ratio matters.
+    /// w at both ends, scaled to be positive with the larger in [1, 2): only the ratio matters.
     start: f64,
     end: f64,
 }
 
 impl Foreshortening {
-    /// The relation for w = `start` at t = 0 and w = `end` at t = 1.
+    /// Creates the relation for w = `start` at t = 0 and w = `end` at t = 1.
     ///
     /// # Errors
-    /// Returns an error unless both are finite, nonzero and of the same sign: clip the segment
-    /// first.
+    /// Returns an error unless both values are finite, nonzero and of the same sign. Clip the
+    /// segment first.
     pub fn new(start: f64, end: f64) -> Result<Self, SegmentCrossesEyePlane> {
         let one_side = (start > 0.0 && end > 0.0) || (start < 0.0 && end < 0.0);
         if !(one_side && start.is_finite() && end.is_finite()) {
@@ -61,7 +61,7 @@ impl Foreshortening {
         Ok(Self { start: scaled(start), end: scaled(end) })
     }
 
-    /// The relation for the segment between two homogeneous points.
+    /// Returns the relation for the segment between two homogeneous points.
     ///
     /// # Errors
     /// See [`new`](Self::new).
@@ -72,7 +72,8 @@ impl Foreshortening {
         Self::new(start.w(), end.w())
     }
 
-    /// f(t): the position in the image, as a fraction, of the point at fraction `t` of the segment.
+    /// Returns f(t): the position in the image, as a fraction, of the point at fraction `t` of the
+    /// segment.
     ///
     /// Always `Some` for t in [0, 1]. Beyond the ends, `None` from the point where the image
     /// reaches infinity.
@@ -81,7 +82,8 @@ impl Foreshortening {
         perspective_fraction(t, self.end * t, interpolate(self.start, self.end, t))
     }
 
-    /// The inverse of f: the fraction of the segment that appears at fraction `s` of its image.
+    /// Returns the inverse of f: the fraction of the segment that appears at fraction `s` of its
+    /// image.
     ///
     /// Always `Some` for s in [0, 1]. Beyond the ends, `None` from the vanishing point on.
     #[must_use]
@@ -89,8 +91,8 @@ impl Foreshortening {
         perspective_fraction(s, self.start * s, interpolate(self.end, self.start, s))
     }
 
-    /// f'(t) = w_r w_R / (w_r + t(w_R − w_r))²: the stretch of a short piece at `t` relative to the
-    /// average.
+    /// Returns f'(t) = w_r w_R / (w_r + t(w_R − w_r))²: the stretch of a short piece at `t`,
+    /// relative to the average.
     #[must_use]
     pub fn derivative(self, t: f64) -> Option<f64> {
         let w = interpolate(self.start, self.end, t);
@@ -98,8 +100,9 @@ impl Foreshortening {
         finite_quotient(self.start / w * self.end, w)
     }
 
-    /// The value that varies from `a` to `b` along the segment, at fraction `s` of its image
-    /// (IN-2): [(1−s) a/w_r + s b/w_R] / [(1−s)/w_r + s/w_R]. Perspective-correct interpolation.
+    /// Returns the value that varies from `a` to `b` along the segment, at fraction `s` of its
+    /// image (IN-2): [(1−s) a/w_r + s b/w_R] / [(1−s)/w_r + s/w_R]. This is perspective-correct
+    /// interpolation.
     #[must_use]
     pub fn interpolate_attribute(self, s: f64, a: f64, b: f64) -> Option<f64> {
         let t = self.source_parameter(s)?;
@@ -107,26 +110,27 @@ impl Foreshortening {
     }
 }
 
-/// From `start` at 0 to `end` at 1. Both ends are exact, and nothing cancels between them.
+/// Interpolates from `start` at 0 to `end` at 1. Both ends are exact, and nothing cancels in
+/// between.
 fn interpolate(start: f64, end: f64, t: f64) -> f64 {
     start * (1.0 - t) + end * t
 }
 
-/// The quotient. If `of` is a fraction of the segment, the quotient is clamped to one too, despite
-/// rounding.
+/// Returns the quotient. If `of` is at most 1, the quotient is clamped to 1, which rounding could
+/// exceed.
 fn perspective_fraction(of: f64, numerator: f64, denominator: f64) -> Option<f64> {
     let fraction = finite_quotient(numerator, denominator)?;
     Some(if of <= 1.0 { fraction.min(1.0) } else { fraction })
 }
 
-/// None unless the denominator is positive and the quotient finite.
+/// Returns the quotient, or `None` if it is not finite or the denominator is not positive.
 fn finite_quotient(numerator: f64, denominator: f64) -> Option<f64> {
     let quotient = numerator / denominator;
     (denominator > 0.0 && quotient.is_finite()).then_some(quotient)
 }
 
-/// The weights of a triangle's corners in space, from the weights in its image and w at the corners
-/// (IN-2): λᵢ/wᵢ over their sum. They interpolate any attribute perspective-correctly.
+/// Returns the weights of a triangle's corners in space, from the weights in its image and w at the
+/// corners (IN-2): λᵢ/wᵢ over their sum. They interpolate any attribute perspective-correctly.
 ///
 /// `None` if the sum is 0 or not finite, for example if a w is 0.
 #[must_use]
@@ -142,7 +146,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exercise_11_c47_order_is_kept() {
+    fn exercise_11_c47_order_is_preserved() {
         let f = Foreshortening::new(1.0, 3.0).expect("both positive");
         assert_eq!([0.0, 0.5, 1.0].map(|t| f.image_parameter(t)), [0.0, 0.75, 1.0].map(Some));
         assert_eq!(f.derivative(0.0), Some(3.0));
@@ -150,27 +154,27 @@ mod tests {
     }
 
     #[test]
-    fn every_fraction_of_a_segment_has_an_image_however_far_the_end() {
+    fn every_fraction_of_a_segment_has_an_image_for_extreme_w() {
         let f = Foreshortening::new(3.0, 1e-180).expect("both positive");
         assert_eq!([0.0, 1.0].map(|t| f.image_parameter(t)), [Some(0.0), Some(1.0)]);
         assert_eq!([0.0, 1.0].map(|s| f.source_parameter(s)), [Some(0.0), Some(1.0)]);
     }
 
     #[test]
-    fn segments_through_the_plane_of_the_eye_are_torn() {
+    fn segments_across_the_eye_plane_are_rejected() {
         for [start, end] in
             [[1.0, -1.0], [0.0, 1.0], [1.0, 0.0], [f64::NAN, 1.0], [1.0, f64::INFINITY]]
         {
             assert!(Foreshortening::new(start, end).is_err(), "w from {start} to {end}");
         }
         let f = Foreshortening::new(1.0, 3.0).expect("both positive");
-        assert_eq!(f.image_parameter(-0.5), None, "there w is 0");
+        assert_eq!(f.image_parameter(-0.5), None, "w is 0 there");
         assert_eq!(f.source_parameter(1.5), None, "the vanishing point of the line");
         assert_eq!(f.image_parameter(f64::NAN), None);
     }
 
     #[test]
-    fn weights_of_a_triangle_agree_with_the_segment_on_its_sides() {
+    fn triangle_weights_match_the_segment_on_each_edge() {
         let f = Foreshortening::new(2.0, 5.0).expect("both positive");
         let weights = perspective_weights([0.75, 0.25, 0.0], [2.0, 5.0, 9.0]).expect("w > 0");
         assert!((weights[1] - f.source_parameter(0.25).expect("inside")).abs() < 1e-15);

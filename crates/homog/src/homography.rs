@@ -8,8 +8,8 @@
 //! ```
 //!
 //! Lines map to lines, but parallel lines may meet in the image. One line, whose points get w = 0,
-//! maps to infinity: here 2y + 1 = 0. Any multiple of M is the same map. Source: the textbook
-//! (Shirley and Marschner, ch. 8), §8.2; HO-3.
+//! maps to infinity: in this example, 2y + 1 = 0. Any multiple of M is the same map. Source: the
+//! textbook (Shirley and Marschner, ch. 8), §8.2; HO-3.
 
 use crate::elimination::eliminate_full_pivoting;
 use crate::hpoint_kind::are_proportional;
@@ -45,8 +45,8 @@ impl Homography {
         Self { raw }
     }
 
-    /// The map that takes the corners (0,0), (1,0), (1,1), (0,1) of the unit square to the given
-    /// four points, in this order.
+    /// Returns the map that takes the corners (0,0), (1,0), (1,1), (0,1) of the unit square to the
+    /// given four points, in this order.
     ///
     /// `None` if three of them are collinear or a coordinate is not finite.
     #[must_use]
@@ -62,46 +62,46 @@ impl Homography {
         map.inverse().map(|_| map)
     }
 
-    /// The image of a homogeneous point, not divided.
+    /// Returns the image of a homogeneous point before the divide.
     #[must_use]
     pub fn transform_point(self, point: HPoint2) -> HPoint2 {
         HPoint2::tagged(self.raw * point.raw)
     }
 
-    /// The image of a line; `None` if the map is singular or a coefficient of the image is not
-    /// finite.
+    /// Returns the image of a line, or `None` if the map is singular or a coefficient of the image
+    /// is not finite.
     #[must_use]
     pub fn transform_line(self, line: HLine2) -> Option<HLine2> {
         let image = self.inverse()?.raw.transpose() * line.raw;
         image.is_finite().then_some(HLine2::tagged(image))
     }
 
-    /// The line that maps to infinity: its points get w = 0. For an affine map it is the line at
-    /// infinity itself.
+    /// Returns the line that maps to infinity: its points get w = 0. For an affine map it is the
+    /// line at infinity itself.
     #[must_use]
     pub fn horizon(self) -> HLine2 {
         HLine2::tagged(self.raw.row(2))
     }
 
-    /// This map, then `next`.
+    /// Returns the map that applies this map first, then `next`.
     #[must_use]
     pub fn then(self, next: Self) -> Self {
         Self::tagged(next.raw * self.raw)
     }
 
-    /// The determinant: 0 if the plane is flattened to a line or a point.
+    /// Returns the determinant: 0 if the plane is flattened to a line or a point.
     #[must_use]
     pub fn determinant(self) -> f64 {
         self.raw.determinant()
     }
 
-    /// The inverse map; `None` if this one is singular up to rounding, or not finite.
+    /// Returns the inverse map, or `None` if this one is singular up to rounding, or not finite.
     #[must_use]
     pub fn inverse(self) -> Option<Self> {
         eliminate_full_pivoting(self.rows()).inverse.map(Self::from_rows)
     }
 
-    /// Returns whether both are the same map, that is, whether one matrix is a multiple of the
+    /// Returns whether the two maps are the same, that is, whether one matrix is a multiple of the
     /// other (HO-2).
     ///
     /// `None` if one of them is zero or not finite.
@@ -120,7 +120,7 @@ mod tests {
     const IMAGE: [[f64; 2]; 4] = [[-3.0, 0.0], [3.0, 0.0], [1.0, 3.0], [-1.0, 3.0]];
 
     #[test]
-    fn c16_the_unit_square_of_the_chapter() {
+    fn c16_unit_square_example_from_the_chapter() {
         let map = Homography::from_rows(CHAPTER);
         for (p, q) in SQUARE.into_iter().zip(IMAGE) {
             assert_eq!(map.transform_point(p.into()).divide(), Some(q), "{p:?}");
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn c17_three_times_the_matrix_is_the_same_map() {
+    fn c17_a_multiple_of_the_matrix_is_the_same_map() {
         let map = Homography::from_rows(CHAPTER);
         let thrice = Homography::tagged(map.raw * 3.0);
         assert_eq!(map.equivalent(thrice, 1e-15), Some(true));
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn one_line_goes_to_infinity() {
+    fn one_line_maps_to_infinity() {
         let map = Homography::from_rows(CHAPTER);
         let wanted = HLine2::new(0.0, 2.0, 1.0); // 2y + 1 = 0
         assert_eq!(map.horizon().equivalent(wanted, 1e-15), Some(true));
@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn three_corners_on_a_line_make_no_map() {
+    fn collinear_corners_give_none() {
         let flat = [[0.0, 0.0], [1.0, 1.0], [2.0, 2.0], [0.0, 1.0]];
         assert_eq!(Homography::from_unit_square(flat), None);
         let nan = [[0.0, 0.0], [1.0, f64::NAN], [2.0, 2.0], [0.0, 1.0]];

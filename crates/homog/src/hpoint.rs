@@ -23,7 +23,7 @@ pub struct HPoint<S: Space> {
 }
 
 impl<S: Space> HPoint<S> {
-    /// The homogeneous point (x, y, z, w).
+    /// Creates the homogeneous point (x, y, z, w).
     #[must_use]
     pub const fn new(x: f64, y: f64, z: f64, w: f64) -> Self {
         Self::tagged(DVec4::new(x, y, z, w))
@@ -33,31 +33,32 @@ impl<S: Space> HPoint<S> {
         Self { raw, space: PhantomData }
     }
 
-    /// The x coordinate, not divided.
+    /// Returns the x coordinate before the divide.
     #[must_use]
     pub const fn x(self) -> f64 {
         self.raw.x
     }
 
-    /// The y coordinate, not divided.
+    /// Returns the y coordinate before the divide.
     #[must_use]
     pub const fn y(self) -> f64 {
         self.raw.y
     }
 
-    /// The z coordinate, not divided.
+    /// Returns the z coordinate before the divide.
     #[must_use]
     pub const fn z(self) -> f64 {
         self.raw.z
     }
 
-    /// The homogeneous coordinate: 0 for directions.
+    /// Returns the homogeneous coordinate w, which is 0 for directions.
     #[must_use]
     pub const fn w(self) -> f64 {
         self.raw.w
     }
 
-    /// Perspective divide: the position that this represents, (x/w, y/w, z/w).
+    /// Performs the perspective divide and returns the position that this point represents,
+    /// (x/w, y/w, z/w).
     ///
     /// `None` if there is no finite position: w = 0, a coordinate that is not finite, or a quotient
     /// too large to represent. A point behind the eye (w < 0) divides like any other, so clip
@@ -68,14 +69,14 @@ impl<S: Space> HPoint<S> {
         (self.raw.w.is_finite() && place.is_finite()).then_some(Point::tagged(place))
     }
 
-    /// The homogeneous point at fraction `t` of the straight line to `end` in four dimensions
-    /// (CL-2).
+    /// Returns the homogeneous point at fraction `t` of the way to `end`, along a straight line in
+    /// four dimensions (CL-2).
     #[must_use]
     pub fn lerp(self, end: Self, t: f64) -> Self {
         Self::tagged(self.raw + (end.raw - self.raw) * t)
     }
 
-    /// The coordinates in single precision.
+    /// Returns the coordinates in single precision.
     #[must_use]
     pub fn to_f32(self) -> [f32; 4] {
         self.raw.as_vec4().to_array()

@@ -1,4 +1,4 @@
-//! Homogeneous points of a line: two numbers each, up to a factor.
+//! Homogeneous points of a line: two numbers each, up to a common factor.
 //!
 //! ```text
 //!     x
@@ -9,8 +9,8 @@
 //!     0─────1────── h
 //! ```
 //!
-//! Source: the textbook (Shirley and Marschner, ch. 8), §8.2, figure 8.10. (A translation of it has
-//! "2 vectors" for a 1-D point: it is one vector of two numbers.)
+//! Source: the textbook (Shirley and Marschner, ch. 8), §8.2, figure 8.10. (A translation of the
+//! book calls a 1-D point "2 vectors"; it is one vector of two numbers.)
 
 use crate::HPoint2;
 use crate::hpoint_kind::are_proportional;
@@ -25,35 +25,37 @@ use crate::hpoint_kind::are_proportional;
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct HPoint1 {
-    /// The number, times h.
+    /// The number times h.
     pub x: f64,
     /// The homogeneous coordinate.
     pub h: f64,
 }
 
 impl HPoint1 {
-    /// The homogeneous point [x, h].
+    /// Creates the homogeneous point [x, h].
     #[must_use]
     pub const fn new(x: f64, h: f64) -> Self {
         Self { x, h }
     }
 
-    /// The number this represents; `None` for the point at infinity, or if a number is not finite.
+    /// Returns the number that this point represents, or `None` if it is at infinity or a number is
+    /// not finite.
     #[must_use]
     pub fn divide(self) -> Option<f64> {
         let number = self.x / self.h;
         (self.h.is_finite() && number.is_finite()).then_some(number)
     }
 
-    /// The perspective image of a point [y, z, h] of the plane on the line z = d, seen from the
-    /// origin: [d y, z], by the matrix [d 0 0; 0 1 0]. It represents y_s = (d/z) y.
+    /// Returns the perspective image of a point [y, z, h] of the plane on the line z = d, seen from
+    /// the origin: [d y, z], computed with the matrix [d 0 0; 0 1 0]. It represents y_s = (d/z) y.
     #[must_use]
     pub fn project_point(d: f64, point: HPoint2) -> Self {
         let [y, z, _] = point.raw.to_array();
         Self::new(d * y, z)
     }
 
-    /// Returns whether both represent the same point; `None` if one is [0, 0] or not finite (HO-2).
+    /// Returns whether both represent the same point, or `None` if one is [0, 0] or not finite
+    /// (HO-2).
     #[must_use]
     pub fn equivalent(self, other: Self, relative: f64) -> Option<bool> {
         are_proportional(&[self.x, self.h], &[other.x, other.h], relative)
@@ -65,18 +67,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn c18_every_multiple_is_the_number() {
+    fn c18_every_multiple_represents_the_same_number() {
         for h in [1.0, 2.0, -0.25, 1e-300] {
             assert_eq!(HPoint1::new(1.5 * h, h).divide(), Some(1.5));
         }
     }
 
     #[test]
-    fn c21_misprint_m1_the_points_own_y_is_in_the_image() {
+    fn c21_misprint_m1_the_image_depends_on_the_points_y() {
         let (d, y, z) = (2.0, 3.0, 4.0);
         let image = HPoint1::project_point(d, HPoint2::from_xy(y, z));
         assert_eq!(image.divide(), Some(d / z * y));
-        assert_ne!(image.divide(), Some(d / z), "printed y_s = d/z has all points at one height");
+        assert_ne!(
+            image.divide(),
+            Some(d / z),
+            "the misprint y_s = d/z puts all points at one height"
+        );
         // Misprinted as [d y, z] ~ [d y, 1]; correct is [d y / z, 1].
         assert_eq!(image.equivalent(HPoint1::new(d * y / z, 1.0), 0.0), Some(true));
         assert_eq!(image.equivalent(HPoint1::new(d * y, 1.0), 1e-12), Some(false));

@@ -1,4 +1,4 @@
-//! Homogeneous points and lines of the plane: three numbers each, up to a factor.
+//! Homogeneous points and lines of the plane: three numbers each, up to a common factor.
 //!
 //! ```text
 //!          h
@@ -33,19 +33,19 @@ pub struct HPoint2 {
 }
 
 impl HPoint2 {
-    /// The homogeneous point [x, y, h].
+    /// Creates the homogeneous point [x, y, h].
     #[must_use]
     pub const fn new(x: f64, y: f64, h: f64) -> Self {
         Self::tagged(DVec3::new(x, y, h))
     }
 
-    /// The position (x, y), lifted to h = 1.
+    /// Lifts the position (x, y) to h = 1.
     #[must_use]
     pub const fn from_xy(x: f64, y: f64) -> Self {
         Self::new(x, y, 1.0)
     }
 
-    /// The point at infinity along (x, y).
+    /// Creates the point at infinity along (x, y).
     #[must_use]
     pub const fn at_infinity(x: f64, y: f64) -> Self {
         Self::new(x, y, 0.0)
@@ -55,20 +55,22 @@ impl HPoint2 {
         Self { raw }
     }
 
-    /// The position this represents; `None` for directions, or if a number is not finite.
+    /// Returns the position that this point represents, or `None` if it is a direction or a number
+    /// is not finite.
     #[must_use]
     pub fn divide(self) -> Option<[f64; 2]> {
         let place = self.raw.truncate() / self.raw.z;
         (self.raw.z.is_finite() && place.is_finite()).then_some(place.to_array())
     }
 
-    /// The line through this point and another; `None` if they are the same or either is zero.
+    /// Returns the line through this point and another, or `None` if the two are the same or either
+    /// is zero.
     #[must_use]
     pub fn join(self, other: Self) -> Option<HLine2> {
         cross_product(self.raw, other.raw).map(HLine2::tagged)
     }
 
-    /// Returns whether both represent the same point; `None` if either is zero (HO-2).
+    /// Returns whether both represent the same point, or `None` if either is zero (HO-2).
     #[must_use]
     pub fn equivalent(self, other: Self, relative: f64) -> Option<bool> {
         are_proportional(&self.raw.to_array(), &other.raw.to_array(), relative)
@@ -92,7 +94,7 @@ impl HLine2 {
     /// The line of all points at infinity, h = 0.
     pub const INFINITY: Self = Self { raw: DVec3::Z };
 
-    /// The line a x + b y + c = 0.
+    /// Creates the line a x + b y + c = 0.
     #[must_use]
     pub const fn new(a: f64, b: f64, c: f64) -> Self {
         Self::tagged(DVec3::new(a, b, c))
@@ -102,20 +104,20 @@ impl HLine2 {
         Self { raw }
     }
 
-    /// a x + b y + c h: 0 on the line, with opposite signs on its two sides.
+    /// Evaluates a x + b y + c h, which is 0 on the line and has opposite signs on its two sides.
     #[must_use]
     pub fn evaluate(self, point: HPoint2) -> f64 {
         self.raw.dot(point.raw)
     }
 
-    /// The intersection of two lines, at infinity if they are parallel; `None` if they are the
-    /// same.
+    /// Returns the intersection of two lines, which is at infinity if they are parallel, or `None`
+    /// if they are the same line.
     #[must_use]
     pub fn meet(self, other: Self) -> Option<HPoint2> {
         cross_product(self.raw, other.raw).map(HPoint2::tagged)
     }
 
-    /// Returns whether both are the same line; `None` if either is not a line (HO-2).
+    /// Returns whether both are the same line, or `None` if either is not a line (HO-2).
     #[must_use]
     pub fn equivalent(self, other: Self, relative: f64) -> Option<bool> {
         are_proportional(&self.raw.to_array(), &other.raw.to_array(), relative)
@@ -132,7 +134,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn c19_the_ray_of_a_point_meets_h_1_in_its_place() {
+    fn c19_the_line_of_a_point_meets_h_1_at_its_position() {
         for k in [1.0, -3.0, 1e-200] {
             assert_eq!(HPoint2::new(-2.0 * k, -k, 2.0 * k).divide(), Some([-1.0, -0.5]));
         }
@@ -141,12 +143,12 @@ mod tests {
     }
 
     #[test]
-    fn lines_are_spanned_by_points_and_meet_in_points() {
+    fn points_join_in_lines_and_lines_meet_in_points() {
         let (a, b) = (HPoint2::from_xy(1.0, 2.0), HPoint2::from_xy(3.0, 2.0));
-        let level = a.join(b).expect("two places");
+        let level = a.join(b).expect("two different points");
         assert_eq!(level.equivalent(HLine2::new(0.0, 1.0, -2.0), 0.0), Some(true));
         let parallel = HLine2::new(0.0, 1.0, 5.0);
-        let far = level.meet(parallel).expect("two lines");
+        let far = level.meet(parallel).expect("two different lines");
         assert_eq!(far.equivalent(HPoint2::at_infinity(1.0, 0.0), 0.0), Some(true));
         assert_eq!(HLine2::INFINITY.evaluate(far), 0.0);
         assert_eq!((a.join(a), level.meet(level)), (None, None));

@@ -16,7 +16,7 @@ pub enum HPointKind<S: Space> {
 }
 
 impl<S: Space> HPointKind<S> {
-    /// The name of the kind: "point", "direction" or "none".
+    /// Returns the name of the kind: "point", "direction" or "none".
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self {
@@ -44,7 +44,7 @@ impl<S: Space> fmt::Display for HPointKind<S> {
 }
 
 impl<S: Space> HPoint<S> {
-    /// The kind of this point, by the exact value of w.
+    /// Returns the kind of this point, based on the exact value of w.
     ///
     /// ```
     /// use homog::{HPoint, HPointKind, Point, Vector, World};
@@ -58,8 +58,8 @@ impl<S: Space> HPoint<S> {
         self.kind_within(0.0)
     }
 
-    /// The kind of this point if w may be off by `relative` times the largest coordinate. Rounding
-    /// leaves 10⁻¹⁷ where a rotated camera should give 0.
+    /// Returns the kind of this point, with w counted as 0 if it is at most `relative` times the
+    /// largest coordinate. Rounding leaves 10⁻¹⁷ where a rotated camera should give 0.
     #[must_use]
     pub fn kind_within(self, relative: f64) -> HPointKind<S> {
         let largest = self.raw.abs().max_element();
@@ -74,11 +74,9 @@ impl<S: Space> HPoint<S> {
 
     /// Returns whether both represent the same position or direction, that is, whether one is a
     /// multiple of the other (HO-2): |aᵢ bⱼ − aⱼ bᵢ| ≤ `relative` · ‖a‖ ‖b‖ for all i, j. For
-    /// computed points, 10⁻¹² is a good value of `relative`.
-    /// |aᵢ bⱼ − aⱼ bᵢ| ≤ `relative` · ‖a‖ ‖b‖ for all i, j. 10⁻¹² is a good `relative` for computed
-    /// points.
+    /// computed points, 10⁻¹² is a good value for `relative`.
     ///
-    /// `None` if either represents nothing because it is zero or not finite.
+    /// `None` if either is zero or not finite.
     ///
     /// ```
     /// use homog::{HPoint, World};
@@ -93,7 +91,8 @@ impl<S: Space> HPoint<S> {
     }
 }
 
-/// Returns whether one list is a multiple of the other; `None` if either is all zero or not finite.
+/// Returns whether one list is a multiple of the other, or `None` if either is all zeros or not
+/// finite.
 pub(crate) fn are_proportional(a: &[f64], b: &[f64], relative: f64) -> Option<bool> {
     let (a_unit, b_unit) = (power_of_two_scale(a)?, power_of_two_scale(b)?);
     let minor =
@@ -103,8 +102,8 @@ pub(crate) fn are_proportional(a: &[f64], b: &[f64], relative: f64) -> Option<bo
     Some(pairs.all(|(i, j)| minor(i, j).abs() <= relative * a_length * b_length))
 }
 
-/// The power of two that scales the largest number to near 1; `None` if all are 0 or one is not
-/// finite.
+/// Returns the power of two that scales the largest number to near 1, or `None` if all numbers are
+/// 0 or one is not finite.
 fn power_of_two_scale(numbers: &[f64]) -> Option<f64> {
     let largest = numbers.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let finite = numbers.iter().all(|x| x.is_finite());
@@ -116,11 +115,11 @@ fn scaled_length(numbers: &[f64], unit: f64) -> f64 {
 }
 
 impl<A: Space, B: Space> Projective<A, B> {
-    /// The point where the images of all lines along `direction` meet (VN-1): the image of their
-    /// point at infinity. It is a position, or a direction if the images stay parallel.
+    /// Returns the point where the images of all lines along `direction` meet (VN-1): the image of
+    /// their point at infinity. It is a position, or a direction if the images stay parallel.
     ///
-    /// A w up to `relative` from 0 counts as 0, as in [`HPoint::kind_within`]: 10⁻¹² accepts lines
-    /// perpendicular to the gaze of a rotated camera.
+    /// A w up to `relative` from 0 counts as 0, as in [`HPoint::kind_within`]. A tolerance of 10⁻¹²
+    /// handles lines perpendicular to the gaze of a rotated camera.
     ///
     /// ```
     /// use homog::{HPointKind, Ndc, Point, Projective, Clip, Vector, View};
@@ -130,22 +129,22 @@ impl<A: Space, B: Space> Projective<A, B> {
     /// let map = Projective::<View, Clip>::from_rows(rows);
     /// let rails = map.vanishing_point(Vector::new(0.0, 0.0, -1.0), 0.0);
     /// assert_eq!(rails, HPointKind::Finite(Point::<Ndc>::new(0.0, 0.0, -1.0)));
-    /// let sleepers = map.vanishing_point(Vector::X, 0.0);
-    /// assert_eq!(sleepers, HPointKind::AtInfinity(Vector::X));
+    /// let ties = map.vanishing_point(Vector::X, 0.0);
+    /// assert_eq!(ties, HPointKind::AtInfinity(Vector::X));
     /// ```
     #[must_use]
     pub fn vanishing_point(self, direction: Vector<A>, relative: f64) -> HPointKind<B> {
         self.transform_direction(direction).kind_within(relative)
     }
 
-    /// The vanishing points of the x, y and z axes. The number of finite ones makes the picture a
-    /// one-, two- or three-point perspective.
+    /// Returns the vanishing points of the x, y and z axes. The number of finite vanishing points
+    /// determines whether the picture is a one-, two- or three-point perspective.
     #[must_use]
     pub fn principal_vanishing_points(self, relative: f64) -> [HPointKind<B>; 3] {
         [Vector::X, Vector::Y, Vector::Z].map(|axis| self.vanishing_point(axis, relative))
     }
 
-    /// Returns whether both map points alike, that is, whether one matrix is a multiple of the
+    /// Returns whether the two maps are the same, that is, whether one matrix is a multiple of the
     /// other (HO-2).
     ///
     /// `None` if either is zero or not finite.
@@ -162,19 +161,19 @@ mod tests {
     use crate::{Clip, World};
 
     #[test]
-    fn misprint_m2_the_factor_belongs_before_the_point() {
+    fn misprint_m2_the_factor_multiplies_the_point() {
         // Misprinted as "x ~ α"; correct is x ~ αx for α ≠ 0.
         let x = HPoint::<World>::new(1.0, -2.0, 3.0, 4.0);
         for alpha in [-7.0, 1e-3, 1e300, -1e-300, 5e-324] {
             let multiple = HPoint::tagged(x.raw * alpha);
             assert_eq!(x.equivalent(multiple, 1e-15), Some(true), "times {alpha}");
             let printed = HPoint::new(alpha, alpha, alpha, alpha);
-            assert_eq!(x.equivalent(printed, 1e-15), Some(false), "alone, {alpha} is not x");
+            assert_eq!(x.equivalent(printed, 1e-15), Some(false), "{alpha} by itself is not x");
         }
     }
 
     #[test]
-    fn a_direction_is_the_same_point_at_infinity_as_its_opposite_and_no_place() {
+    fn opposite_directions_are_the_same_point_at_infinity() {
         let ahead = HPoint::<World>::new(0.0, 0.0, -1.0, 0.0);
         assert_eq!(ahead.equivalent(HPoint::new(0.0, 0.0, 5.0, 0.0), 0.0), Some(true));
         assert_eq!(ahead.equivalent(HPoint::new(0.0, 0.0, -1e9, 1.0), 1e-12), Some(false));
@@ -182,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn rounding_in_w_can_be_forgiven() {
+    fn rounding_errors_in_w_can_be_ignored() {
         let almost = HPoint::<Clip>::new(1.0, 2.0, 0.0, 1e-17);
         assert_eq!(almost.kind().name(), "point");
         assert_eq!(almost.kind_within(1e-12).name(), "direction");

@@ -2,7 +2,7 @@
 //!
 //! Arrays need no feature: `Point::from([x, y, z])`, `<[f64; 3]>::from(point)`, `point.to_f32()`,
 //! [`Projective::from_column_major`](crate::Projective::from_column_major). They work with every
-//! version of every library, because all convert from and to arrays.
+//! version of every library, because all libraries convert from and to arrays.
 
 #[cfg(feature = "glam")]
 mod glam;

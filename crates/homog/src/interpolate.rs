@@ -6,8 +6,8 @@ use glam::{DVec3, DVec4};
 
 /// A value that can be blended with others of its type: a vertex attribute.
 ///
-/// Numbers, arrays and tuples of them are attributes, and so are points and vectors. For a struct,
-/// blend the fields:
+/// Numbers, points and vectors are attributes, and so are arrays and tuples of attributes. For a
+/// struct, blend the fields:
 ///
 /// ```
 /// use homog::Interpolate;
@@ -32,19 +32,20 @@ use glam::{DVec3, DVec4};
 /// assert_eq!(red.lerp(blue, 0.5).uv, [0.5, 0.25]);
 /// ```
 pub trait Interpolate: Copy {
-    /// The weighted sum of the values. The weights add up to 1, or to 0 for derivatives.
+    /// Returns the weighted sum of the values. The weights add up to 1, or to 0 for derivatives.
     #[must_use]
     fn weighted_sum<const N: usize>(values: [Self; N], weights: [f64; N]) -> Self;
 
-    /// [`weighted_sum`](Self::weighted_sum) with single-precision weights, as rasterizers use them:
-    /// a shortcut for single-precision values.
+    /// Computes [`weighted_sum`](Self::weighted_sum) with single-precision weights, as rasterizers
+    /// use them. This is a shortcut for single-precision values.
     #[must_use]
     #[inline(always)]
     fn weighted_sum_f32<const N: usize>(values: [Self; N], weights: [f32; N]) -> Self {
         Self::weighted_sum(values, weights.map(f64::from))
     }
 
-    /// The value at fraction `t` of the way to `end`: this one at 0 and `end` at 1, exactly.
+    /// Returns the value at fraction `t` of the way to `end`: exactly this value at 0, and exactly
+    /// `end` at 1.
     #[must_use]
     #[inline(always)]
     fn lerp(self, end: Self, t: f64) -> Self {
@@ -144,7 +145,7 @@ mod tests {
     use crate::World;
 
     #[test]
-    fn ends_are_exact_and_parts_are_blended_alike() {
+    fn ends_are_exact_and_every_part_is_blended() {
         let (a, b) = ((0.1_f32, [0.3_f64, 7.0]), (0.7, [1e9, -2.0]));
         assert_eq!((a.lerp(b, 0.0), a.lerp(b, 1.0)), (a, b));
         let corners = [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 8.0, 0.0]].map(Point::<World>::from);

@@ -1,4 +1,4 @@
-//! Inverses with a report: how many digits inversion costs, or why there is no inverse.
+//! Inverses with a report: the digits lost by inversion, or the reason why there is no inverse.
 
 use crate::elimination::eliminate_full_pivoting;
 use crate::{Projective, Space};
@@ -10,17 +10,17 @@ pub struct Inversion<A: Space, B: Space> {
     /// The inverse map.
     pub map: Projective<A, B>,
     /// The condition number ‖M‖ ‖M⁻¹‖ in the maximum row sum norm, at least 1: the factor by which
-    /// relative errors may grow. It is large for a perspective whose near and far planes are far
-    /// apart. Capped at [`f64::MAX`].
+    /// relative errors may grow. It is large for a perspective projection whose near and far planes
+    /// are far apart. Capped at [`f64::MAX`].
     pub condition: f64,
-    /// The largest entry of |M M⁻¹ − I|: how well the computed inverse undoes the map. Capped at
-    /// [`f64::MAX`], also if the product itself is out of range.
+    /// The largest entry of |M M⁻¹ − I|: the error of the computed inverse. Capped at [`f64::MAX`],
+    /// even if the product itself is out of range.
     pub residual: f64,
 }
 
 impl<A: Space, B: Space> Inversion<A, B> {
-    /// The decimal digits that inversion may cost, of the 16 in an f64: log₁₀ of the condition
-    /// number.
+    /// Returns the number of decimal digits that inversion may lose, out of the 16 in an f64: log₁₀
+    /// of the condition number.
     #[must_use]
     pub fn digits_lost(&self) -> f64 {
         libm::log10(self.condition)
@@ -46,7 +46,7 @@ pub enum InversionError {
 }
 
 impl<A: Space, B: Space> Projective<A, B> {
-    /// The inverse map, with its condition number.
+    /// Returns the inverse map, with its condition number.
     ///
     /// # Errors
     /// Returns an error if the matrix is singular (up to rounding, in any units of its rows and
@@ -76,8 +76,8 @@ impl<A: Space, B: Space> Projective<A, B> {
         Ok(Inversion { map, condition, residual })
     }
 
-    /// The rank of the matrix up to rounding: 4 for invertible maps, 3 for projections onto a
-    /// plane, 0 for zero and for matrices that are not finite.
+    /// Returns the rank of the matrix up to rounding: 4 for invertible maps, 3 for projections onto
+    /// a plane, 0 for zero and for matrices that are not finite.
     #[must_use]
     pub fn rank(self) -> usize {
         eliminate_full_pivoting(self.rows()).rank
@@ -105,7 +105,7 @@ mod tests {
     type Map = Projective<View, Clip>;
 
     #[test]
-    fn c102_a_projection_onto_a_plane_has_rank_3_and_says_so() {
+    fn c102_projections_onto_a_plane_report_rank_3() {
         let onto_a_plane = Map::from_rows([
             [1.0, 0.0, 0.0, 0.0],
             [0.0, 1.0, 0.0, 0.0],
@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn the_report_tells_how_much_is_lost() {
+    fn the_report_states_the_lost_digits() {
         // P of PE-1 with n = -1, f = -1e6.
         let (n, f) = (-1.0, -1e6);
         let map = Map::from_rows([

@@ -15,16 +15,16 @@
 //! | [`HPoint`] | the position (x/w, y/w, z/w), or a direction if w = 0 | moves w times as far |
 //! | [`Plane`], [`Ray`], [`Bounds`] | a x + b y + c z + d = 0; a half-line; a box | move |
 //! | [`CoordinateFrame`] | an origin with three axes | moves |
-//! | [`Affine`] | a map that preserves parallel lines: points to points | |
-//! | [`Projective`] | a map that preserves lines: points to homogeneous points | |
-//! | [`HPoint1`], [`HPoint2`], [`HLine2`], [`Homography`] | their 1-D and 2-D forms | |
+//! | [`Affine`] | a map from points to points that preserves parallel lines | |
+//! | [`Projective`] | a map from points to homogeneous points that preserves lines | |
+//! | [`HPoint1`], [`HPoint2`], [`HLine2`], [`Homography`] | 1-D and 2-D counterparts | |
 //!
 //! ```
 //! use homog::{Affine, Clip, Model, Point, Projective, Vector, View, World};
 //!
 //! let model_to_world = Affine::<Model, World>::rotation_y(90_f64.to_radians());
 //! let world_to_view = Affine::<World, View>::translation(Vector::new(0.0, 0.0, -4.0));
-//! // A lens: w becomes the distance ahead, which makes distant objects small.
+//! // A lens: w becomes the distance in front of the eye, which makes distant objects small.
 //! let view_to_clip = Projective::<View, Clip>::from_rows([
 //!     [2.0, 0.0, 0.0, 0.0],
 //!     [0.0, 2.0, 0.0, 0.0],
@@ -36,14 +36,14 @@
 //! // Not divided yet: clipping comes first.
 //! let corner = model_to_clip.transform_point(Point::new(2.0, 1.0, 0.0));
 //! assert_eq!(corner.w(), 6.0);
-//! let seen = corner.divide().expect("six ahead of the eye");
+//! let seen = corner.divide().expect("6 in front of the eye");
 //! assert!((seen.y() - 1.0 / 3.0).abs() < 1e-15);
 //! ```
 //!
 //! The perspective divide is [`HPoint::divide`]. It returns an `Option`, so no division by zero
 //! goes unnoticed. Coordinates that cannot be divided still have a meaning, which [`HPoint::kind`]
-//! reports: the point where railway tracks meet is the image of a direction,
-//! [`Projective::vanishing_point`].
+//! reports. For example, the point where railroad tracks meet is the image of a direction;
+//! [`Projective::vanishing_point`] computes it.
 //!
 //! Mixing spaces does not compile:
 //!
@@ -56,21 +56,21 @@
 //!
 //! # Conventions
 //!
-//! - Points are columns and matrices multiply them from the left, `v' = M v`. Chains are written
-//!   with `then`, in the order in which a point passes through them. [Array
-//!   constructors](Projective::from_rows) say whether they take rows or columns.
+//! - Points are columns, and matrices multiply them from the left: `v' = M v`. Chains are written
+//!   with `then`, in the order in which a point passes through them. The names of [array
+//!   constructors](Projective::from_rows) state whether they take rows or columns.
 //! - Spaces are right-handed, angles are in radians, and numbers are f64. Sines and cosines come
 //!   from `libm`, so results are bit-identical on every machine.
-//! - A missing result is `None`, and bad input is an error that names the number. Nothing panics,
-//!   and finite input never gives NaN.
-//! - Tags cost nothing: a `Point<World>` is three numbers.
+//! - Functions return `None` if there is no result, and an error that names the offending number if
+//!   the input is invalid. Nothing panics, and finite input never gives NaN.
+//! - Space tags cost nothing: a `Point<World>` is three numbers.
 //!
 //! # Features
 //!
 //! | feature | conversions from and to |
 //! | --- | --- |
-//! | none | arrays of `f64`, and of `f32` for vertex streams; bytemuck takes both as they are |
-//! | `glam` | the version of glam that this crate is built on |
+//! | none | arrays of `f64`, and of `f32` for vertex streams; bytemuck accepts both directly |
+//! | `glam` | the glam version that this crate uses |
 //! | `mint` | mint, and through it any version of glam, nalgebra, cgmath |
 //! | `nalgebra` | nalgebra's points, vectors, matrices, `Isometry3`, `Perspective3` |
 //! | `serde` | arrays of coordinates, and of matrix rows |

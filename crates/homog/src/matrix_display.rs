@@ -1,4 +1,4 @@
-//! Matrices as people write them: aligned columns, and fractions where they are exact.
+//! Readable matrices: aligned columns, and fractions where they are exact.
 //!
 //! ```text
 //! [ 2    0   -1 ]        not   DMat3 { x_axis: DVec3(2.0, 0.0, 0.0), y_axis: DVec3(0.0, 3.0,
@@ -7,20 +7,21 @@
 //! ```
 //!
 //! A number with at most three decimals is written unchanged. Otherwise it becomes a fraction p/q
-//! with q < 1000 if the quotient is exactly this f64: 2/3 does, π does not. All others are rounded
-//! to six digits. A precision, as in `{:.4}`, writes every number with that many decimals.
+//! with q < 1000 if the quotient is exactly this f64, as for 2/3 but not for π. All other numbers
+//! are rounded to six digits. A precision, as in `{:.4}`, writes every number with that many
+//! decimals.
 
 use crate::{Affine, Homography, Projective, Space};
 use core::fmt::{self, Write};
 
-/// A matrix to display; made by the `display` method of each kind of map.
+/// A matrix formatted for display, returned by the `display` method of each map type.
 #[derive(Clone, Copy, Debug)]
 pub struct MatrixDisplay<const N: usize> {
     rows: [[f64; N]; N],
 }
 
 impl<const N: usize> MatrixDisplay<N> {
-    /// The matrix with the given rows.
+    /// Creates a display of the matrix with the given rows.
     #[must_use]
     pub const fn from_rows(rows: [[f64; N]; N]) -> Self {
         Self { rows }
@@ -28,7 +29,7 @@ impl<const N: usize> MatrixDisplay<N> {
 }
 
 impl<A: Space, B: Space> Projective<A, B> {
-    /// The matrix in readable form.
+    /// Returns this matrix in readable form.
     #[must_use]
     pub fn display(self) -> MatrixDisplay<4> {
         MatrixDisplay::from_rows(self.rows())
@@ -36,7 +37,7 @@ impl<A: Space, B: Space> Projective<A, B> {
 }
 
 impl<A: Space, B: Space> Affine<A, B> {
-    /// The matrix in readable form.
+    /// Returns this matrix in readable form.
     #[must_use]
     pub fn display(self) -> MatrixDisplay<4> {
         MatrixDisplay::from_rows(self.rows())
@@ -44,7 +45,7 @@ impl<A: Space, B: Space> Affine<A, B> {
 }
 
 impl Homography {
-    /// The matrix in readable form.
+    /// Returns this matrix in readable form.
     ///
     /// ```
     /// use homog::Homography;
@@ -79,7 +80,7 @@ impl<const N: usize> fmt::Display for MatrixDisplay<N> {
     }
 }
 
-/// The text of one entry, without an allocator. A number that does not fit is truncated.
+/// The text of one entry, in a fixed buffer that needs no allocator. Longer text is truncated.
 #[derive(Clone, Copy)]
 struct MatrixCell {
     bytes: [u8; 40],
@@ -132,7 +133,7 @@ fn has_three_decimals(x: f64) -> bool {
     x.abs() < 1e9 && thousandths / 1000.0 == x
 }
 
-/// The fraction with the smallest denominator that equals this f64 exactly when divided.
+/// Returns the fraction with the smallest denominator whose quotient is exactly this f64.
 fn simple_fraction(x: f64) -> Option<(i64, i64)> {
     if x.abs() >= 1e6 {
         return None;
@@ -155,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_short_and_true() {
+    fn numbers_are_short_and_exact() {
         for (x, want) in [
             (0.0, "0"),
             (-0.0, "0"),
@@ -193,6 +194,6 @@ mod tests {
         let fixed = format!("{:.2}", map.display());
         assert_eq!(fixed.lines().nth(1), Some("[  0.00  -1.33   0.33  0.00 ]"));
         let huge = format!("{:.300}", map.display());
-        assert_eq!(huge.lines().count(), 4, "cut off, not lost");
+        assert_eq!(huge.lines().count(), 4, "truncated, not lost");
     }
 }

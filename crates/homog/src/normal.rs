@@ -4,7 +4,7 @@ use crate::{Space, Vector};
 use core::marker::PhantomData;
 use glam::DVec3;
 
-/// A direction perpendicular to a surface of space `S`; its length has no meaning.
+/// A direction perpendicular to a surface of space `S`; its length is not significant.
 ///
 /// Normals are a separate type because maps transform them differently: the inverse transpose keeps
 /// them perpendicular when a surface is scaled unevenly or sheared.
@@ -15,7 +15,7 @@ pub struct Normal<S: Space> {
 }
 
 impl<S: Space> Normal<S> {
-    /// The normal (x, y, z).
+    /// Creates the normal (x, y, z).
     #[must_use]
     pub const fn new(x: f64, y: f64, z: f64) -> Self {
         Self::tagged(DVec3::new(x, y, z))
@@ -25,13 +25,14 @@ impl<S: Space> Normal<S> {
         Self { raw, space: PhantomData }
     }
 
-    /// The dot product with a vector of the same space: 0 if the vector lies in the surface.
+    /// Returns the dot product with a vector of the same space: 0 if the vector lies in the
+    /// surface.
     #[must_use]
     pub fn dot(self, vector: Vector<S>) -> f64 {
         self.raw.dot(vector.raw)
     }
 
-    /// The normal with length 1; `None` if it is zero or not finite.
+    /// Returns this normal scaled to length 1, or `None` if it is zero or not finite.
     #[must_use]
     pub fn normalized(self) -> Option<Self> {
         Some(Self::tagged(Vector::<S>::tagged(self.raw).normalized()?.raw))

@@ -1,8 +1,8 @@
-//! Operators: products of maps and points as a book writes them, and sums of vectors.
+//! Operators: products of maps and points as written in textbooks, and sums of vectors.
 //!
-//! `map * point` is `map.transform_point(point)`. `second * first` is the map that applies first,
-//! then second, in the order of matrices. [`Affine::then`] does the same in the order in which a
-//! point passes through the maps.
+//! `map * point` is `map.transform_point(point)`. `second * first` is the map that applies `first`,
+//! then `second`, as in a matrix product. [`Affine::then`] chains maps in the opposite order, in
+//! which a point passes through them.
 
 use crate::{Affine, HPoint, Normal, Point, Projective, Space, Vector};
 use core::iter::Sum;
@@ -154,7 +154,7 @@ mod tests {
     use crate::{Clip, Model, View, World};
 
     #[test]
-    fn products_are_the_named_methods() {
+    fn products_match_the_named_methods() {
         let placed = Affine::<Model, World>::translation(Vector::new(1.0, 2.0, 3.0));
         let seen = Affine::<World, View>::rotation_z(0.5);
         let lens = Projective::<View, Clip>::from_rows([

@@ -32,13 +32,13 @@ pub enum PixelCenters {
     /// vision and Direct3D 9. The center of 640 columns is at 319.5.
     #[default]
     Integer,
-    /// At (i + ½, j + ½): pixel i covers [i, i + 1). Used by Direct3D since 10, OpenGL, Vulkan,
+    /// At (i + ½, j + ½): pixel i covers [i, i + 1). Used by Direct3D 10 and later, OpenGL, Vulkan,
     /// Metal, WebGPU and COLMAP. The center of 640 columns is at 320.
     Half,
 }
 
 impl PixelCenters {
-    /// The coordinate of the center of pixel 0.
+    /// Returns the coordinate of the center of pixel 0.
     #[must_use]
     pub const fn first_center(self) -> f64 {
         match self {
@@ -47,19 +47,19 @@ impl PixelCenters {
         }
     }
 
-    /// The coordinate of the outer edge of pixel 0.
+    /// Returns the coordinate of the outer edge of pixel 0.
     #[must_use]
     pub const fn image_border(self) -> f64 {
         self.first_center() - 0.5
     }
 }
 
-/// A pixel convention: the direction of y and the position of the pixel centers.
+/// A pixel convention: the direction of y and the position of pixel centers.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct PixelConvention {
     /// The direction of y.
     pub y: YAxis,
-    /// The position of the centers within their pixels.
+    /// The position of centers within their pixels.
     pub centers: PixelCenters,
 }
 
@@ -76,8 +76,8 @@ impl PixelConvention {
     /// All four conventions.
     pub const ALL: [Self; 4] = [Self::CHAPTER, Self::CHAPTER_Y_DOWN, Self::IMAGE, Self::OPENGL];
 
-    /// The map from positions in this convention to positions in `other`, in an image of `height`
-    /// rows (VP-4).
+    /// Returns the map from positions in this convention to positions in `other`, in an image of
+    /// `height` rows (VP-4).
     ///
     /// ```
     /// use homog::{PixelConvention, Point};

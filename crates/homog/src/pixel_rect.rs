@@ -13,7 +13,7 @@
 pub struct PixelRect {
     /// The first column.
     pub x: u32,
-    /// The first row, in the direction in which the image counts its rows.
+    /// The first row, counted in the same direction as the rows of the image.
     pub y: u32,
     /// The number of columns.
     pub width: u32,
@@ -22,13 +22,13 @@ pub struct PixelRect {
 }
 
 impl PixelRect {
-    /// All pixels of an image of this size.
+    /// Returns the rectangle that covers an image of this size.
     #[must_use]
     pub const fn from_size(width: u32, height: u32) -> Self {
         Self { x: 0, y: 0, width, height }
     }
 
-    /// The pixels in both rectangles; `None` if there are none.
+    /// Returns the intersection of both rectangles, or `None` if they do not overlap.
     #[must_use]
     pub fn intersection(self, other: Self) -> Option<Self> {
         let (x, y) = (self.x.max(other.x), self.y.max(other.y));
@@ -37,8 +37,8 @@ impl PixelRect {
         (width > 0 && height > 0).then_some(Self { x, y, width, height })
     }
 
-    /// Band `index` of `count` horizontal bands, from the top; their heights differ by at most one
-    /// row.
+    /// Returns band `index` of `count` horizontal bands, counted from the top. Their heights differ
+    /// by at most one row.
     ///
     /// If the rectangle has fewer rows than bands, some bands are empty.
     #[must_use]
@@ -51,8 +51,8 @@ impl PixelRect {
         Self { y: self.y + from, height: to - from, ..self }
     }
 
-    /// Horizontal bands of at most `rows` rows, from the top, split at multiples of `rows` in the
-    /// image.
+    /// Returns horizontal bands of at most `rows` rows, from the top, split at multiples of `rows`
+    /// in the image.
     pub fn bands(self, rows: u32) -> impl Iterator<Item = Self> {
         let rows = rows.max(1);
         let mut next = self.y;
@@ -63,19 +63,19 @@ impl PixelRect {
         })
     }
 
-    /// The number of pixels.
+    /// Returns the number of pixels.
     #[must_use]
     pub const fn area(self) -> usize {
         self.width as usize * self.height as usize
     }
 
-    /// The column to the right of the last one.
+    /// Returns the column just past the last one.
     #[must_use]
     pub const fn right(self) -> u32 {
         self.x.saturating_add(self.width)
     }
 
-    /// The row below the last one.
+    /// Returns the row just past the last one.
     #[must_use]
     pub const fn bottom(self) -> u32 {
         self.y.saturating_add(self.height)
@@ -89,7 +89,7 @@ mod tests {
     use std::vec::Vec;
 
     #[test]
-    fn bands_begin_at_multiples_and_divide_a_rectangle_without_gap() {
+    fn bands_start_at_multiples_and_tile_the_rectangle() {
         let region = PixelRect { x: 3, y: 70, width: 5, height: 200 };
         let bands: Vec<_> = region.bands(64).collect();
         assert_eq!(

@@ -18,33 +18,34 @@ impl<S: Space> Plane<S> {
         Self { raw, space: PhantomData }
     }
 
-    /// The plane a x + b y + c z + d = 0.
+    /// Creates the plane a x + b y + c z + d = 0.
     #[must_use]
     pub const fn new(a: f64, b: f64, c: f64, d: f64) -> Self {
         Self::tagged(DVec4::new(a, b, c, d))
     }
 
-    /// The coefficients [a, b, c, d].
+    /// Returns the coefficients [a, b, c, d].
     #[must_use]
     pub const fn coefficients(self) -> [f64; 4] {
         self.raw.to_array()
     }
 
-    /// The plane through `point` perpendicular to `normal`, which points to the positive side.
+    /// Returns the plane through `point` perpendicular to `normal`, which points to the positive
+    /// side.
     #[must_use]
     pub fn through(point: Point<S>, normal: Normal<S>) -> Self {
         let n: DVec3 = normal.raw;
         Self::tagged(n.extend(-n.dot(point.raw)))
     }
 
-    /// The direction to the positive side.
+    /// Returns the direction to the positive side.
     #[must_use]
     pub fn normal(self) -> Normal<S> {
         Normal::tagged(self.raw.truncate())
     }
 
-    /// a x + b y + c z + d w: positive on the side of the normal and 0 on the plane. For w = 1 and
-    /// a normal of length 1, it is the distance.
+    /// Evaluates a x + b y + c z + d w, which is positive on the side of the normal and 0 on the
+    /// plane. For w = 1 and a normal of length 1, it is the signed distance.
     #[must_use]
     pub fn evaluate(self, point: impl Into<HPoint<S>>) -> f64 {
         self.raw.dot(point.into().raw)

@@ -26,7 +26,7 @@ impl<S: Space> Point<S> {
     /// The origin of the space.
     pub const ORIGIN: Self = Self::tagged(DVec3::ZERO);
 
-    /// The point (x, y, z).
+    /// Creates the point (x, y, z).
     #[must_use]
     pub const fn new(x: f64, y: f64, z: f64) -> Self {
         Self::tagged(DVec3::new(x, y, z))
@@ -36,38 +36,38 @@ impl<S: Space> Point<S> {
         Self { raw, space: PhantomData }
     }
 
-    /// The x coordinate.
+    /// Returns the x coordinate.
     #[must_use]
     pub const fn x(self) -> f64 {
         self.raw.x
     }
 
-    /// The y coordinate.
+    /// Returns the y coordinate.
     #[must_use]
     pub const fn y(self) -> f64 {
         self.raw.y
     }
 
-    /// The z coordinate.
+    /// Returns the z coordinate.
     #[must_use]
     pub const fn z(self) -> f64 {
         self.raw.z
     }
 
-    /// The point at fraction `t` of the way to `end`: this point at 0, `end` at 1; `t` outside [0,
-    /// 1] extrapolates.
+    /// Returns the point at fraction `t` of the way to `end`: this point at 0, `end` at 1; `t`
+    /// outside [0, 1] extrapolates.
     #[must_use]
     pub fn lerp(self, end: Self, t: f64) -> Self {
         self + (end - self) * t
     }
 
-    /// The distance to another point.
+    /// Returns the distance to another point.
     #[must_use]
     pub fn distance(self, other: Self) -> f64 {
         (self - other).length()
     }
 
-    /// The coordinates in single precision.
+    /// Returns the coordinates in single precision.
     #[must_use]
     pub fn to_f32(self) -> [f32; 3] {
         self.raw.as_vec3().to_array()

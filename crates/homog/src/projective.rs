@@ -1,16 +1,16 @@
-//! Projective maps: points to homogeneous points.
+//! Projective maps, from points to homogeneous points.
 
 use crate::elimination::eliminate_full_pivoting;
 use crate::{Affine, HPoint, Plane, Point, Space, Vector};
 use core::marker::PhantomData;
 use glam::DMat4;
 
-/// A projective map from space `A` to space `B`: any 4×4 matrix, column vectors (HO-3).
+/// A projective map from space `A` to space `B`: any 4×4 matrix, applied to column vectors (HO-3).
 ///
 /// It maps points to *homogeneous* points; the divide is a separate step, [`HPoint::divide`], after
 /// clipping. Lines map to lines and planes to planes. A nonzero multiple of the matrix is the same
-/// map, but a negative one flips the sign of w, which affects clipping: use the form with w > 0 in
-/// front of the eye (PE-3).
+/// map, but a negative factor flips the sign of w, which affects clipping: use the matrix with w >
+/// 0 in front of the eye (PE-3).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Projective<A: Space, B: Space> {
     pub(crate) raw: DMat4,
@@ -22,7 +22,7 @@ impl<A: Space, B: Space> Projective<A, B> {
         Self { raw, spaces: PhantomData }
     }
 
-    /// The image of a point, not divided.
+    /// Returns the image of a point before the divide.
     #[must_use]
     pub fn transform_point(self, point: Point<A>) -> HPoint<B> {
         self.transform_hpoint(point.into())
@@ -38,36 +38,37 @@ impl<A: Space, B: Space> Projective<A, B> {
         }
     }
 
-    /// The image of a direction, that is, of its point at infinity: its vanishing point (VN-1).
+    /// Returns the image of a direction, that is, of its point at infinity: its vanishing point
+    /// (VN-1).
     #[must_use]
     pub fn transform_direction(self, vector: Vector<A>) -> HPoint<B> {
         self.transform_hpoint(vector.into())
     }
 
-    /// The image of a homogeneous point.
+    /// Returns the image of a homogeneous point.
     #[must_use]
     pub fn transform_hpoint(self, point: HPoint<A>) -> HPoint<B> {
         HPoint::tagged(self.raw * point.raw)
     }
 
-    /// The image of a plane; `None` if the map is singular or a coefficient of the image is not
-    /// finite.
+    /// Returns the image of a plane, or `None` if the map is singular or a coefficient of the image
+    /// is not finite.
     #[must_use]
     pub fn transform_plane(self, plane: Plane<A>) -> Option<Plane<B>> {
         let image = self.inverse()?.raw.transpose() * plane.raw;
         image.is_finite().then_some(Plane::tagged(image))
     }
 
-    /// This map, then `next`.
+    /// Returns the map that applies this map first, then `next`.
     #[must_use]
     pub fn then<C: Space>(self, next: impl Into<Projective<B, C>>) -> Projective<A, C> {
         Projective::tagged(next.into().raw * self.raw)
     }
 
-    /// The inverse map; `None` if this one is singular up to rounding, or not finite.
+    /// Returns the inverse map, or `None` if this one is singular up to rounding, or not finite.
     ///
-    /// Shape decides, not units: a near plane of 10⁻⁹ does not make a map singular.
-    /// [`inverse_with_report`](Self::inverse_with_report) gives details.
+    /// The test does not depend on units: a near plane at 10⁻⁹ does not make a map singular.
+    /// [`inverse_with_report`](Self::inverse_with_report) reports details.
     #[must_use]
     pub fn inverse(self) -> Option<Projective<B, A>> {
         eliminate_full_pivoting(self.rows()).inverse.map(Projective::from_rows)

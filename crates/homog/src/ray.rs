@@ -1,4 +1,4 @@
-//! Rays: half-lines that begin at a point, for picking and ray casting.
+//! Rays: half-lines that start at a point, for picking and ray casting.
 
 use crate::{Bounds, Plane, Point, Space, Vector};
 
@@ -13,7 +13,7 @@ use crate::{Bounds, Plane, Point, Space, Vector};
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Ray<S: Space> {
-    /// The point at which the ray begins.
+    /// The point at which the ray starts.
     pub origin: Point<S>,
     /// The direction of the ray. With length 1, parameters along the ray are distances.
     pub direction: Vector<S>,
@@ -33,22 +33,22 @@ pub struct TriangleHit {
 }
 
 impl<S: Space> Ray<S> {
-    /// The point at parameter `t`, which is a distance if the direction has length 1.
+    /// Returns the point at parameter `t`, which is a distance if the direction has length 1.
     #[must_use]
     pub fn at(self, t: f64) -> Point<S> {
         self.origin + self.direction * t
     }
 
-    /// The parameter at which the ray meets a plane; `None` if the ray is parallel to the plane or
-    /// points away from it, or a number is not finite.
+    /// Returns the parameter at which the ray meets a plane, or `None` if the ray is parallel to
+    /// the plane or points away from it, or if a number is not finite.
     #[must_use]
     pub fn hit_plane(self, plane: Plane<S>) -> Option<f64> {
         let t = -plane.evaluate(self.origin) / plane.normal().dot(self.direction);
         (t >= 0.0 && t.is_finite()).then_some(t)
     }
 
-    /// The intersection with a triangle, from either side; `None` if the ray misses it or lies in
-    /// its plane (Möller and Trumbore, 1997).
+    /// Returns the intersection with a triangle, from either side, or `None` if the ray misses it
+    /// or lies in its plane (Möller and Trumbore, 1997).
     #[must_use]
     pub fn hit_triangle(self, [a, b, c]: [Point<S>; 3]) -> Option<TriangleHit> {
         let (ab, ac) = (b - a, c - a);
@@ -64,8 +64,8 @@ impl<S: Space> Ray<S> {
         (is_hit && t.is_finite()).then_some(TriangleHit { t, weights, is_front: determinant > 0.0 })
     }
 
-    /// The parameters at which the ray enters and leaves a box; the first is 0 if the ray begins
-    /// inside. `None` if it misses (Kay and Kajiya, 1986).
+    /// Returns the parameters at which the ray enters and leaves a box, or `None` if it misses. The
+    /// first is 0 if the ray starts inside (Kay and Kajiya, 1986).
     #[must_use]
     pub fn hit_bounds(self, bounds: Bounds<S>) -> Option<[f64; 2]> {
         let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
@@ -73,7 +73,7 @@ impl<S: Space> Ray<S> {
         let [min, max]: [[f64; 3]; 2] = [bounds.min().into(), bounds.max().into()];
         for axis in 0..3 {
             if direction[axis] == 0.0 {
-                // Between the two planes everywhere, or nowhere.
+                // Parallel to both planes: the ray is between them everywhere or nowhere.
                 if !(min[axis]..=max[axis]).contains(&origin[axis]) {
                     return None;
                 }
@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn a_triangle_is_hit_inside_from_both_sides() {
+    fn triangles_are_hit_from_both_sides() {
         let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]].map(Point::from);
         let hit = ray([1.0, 2.0, 3.0], [0.0, 0.0, -1.0]).hit_triangle(corners).expect("a hit");
         assert_eq!(hit, TriangleHit { t: 3.0, weights: [0.25, 0.25, 0.5], is_front: true });
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plane_is_hit_ahead_only() {
+    fn planes_are_hit_only_ahead() {
         let floor = Plane::through(Point::ORIGIN, Normal::new(0.0, 1.0, 0.0));
         assert_eq!(ray([0.0, 3.0, 0.0], [1.0, -1.5, 0.0]).hit_plane(floor), Some(2.0));
         for direction in [[1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [f64::NAN, -1.0, 0.0]] {
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn a_box_is_entered_and_left() {
+    fn rays_enter_and_leave_boxes() {
         let bounds = Bounds::from_points([[-1.0; 3], [1.0; 3]].map(Point::from)).expect("a box");
         assert_eq!(ray([-3.0, 0.0, 0.0], [1.0, 0.0, 0.0]).hit_bounds(bounds), Some([2.0, 4.0]));
         assert_eq!(ray([0.0, 0.0, 0.0], [0.0, 0.0, -2.0]).hit_bounds(bounds), Some([0.0, 0.5]));

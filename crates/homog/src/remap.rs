@@ -6,9 +6,9 @@
 //!   c ────────── y ──── d            y = c + (x − a)(d − c)/(b − a)
 //! ```
 //!
-//! Nothing is clamped: x before a or beyond b maps to y outside [c, d]. If c > d the interval is
-//! reversed, and x > b gives y < d. (One source says that x < a or x > b gives y < c or y > d, with
-//! the comparison signs lost in print: true only for c < d, misprint M27.)
+//! Nothing is clamped: if x is outside [a, b], y is outside [c, d]. If c > d the interval is
+//! reversed, and x > b gives y < d. (In one source, the comparison signs of "x < a or x > b gives y
+//! < c or y > d" were lost in print. The statement is true only for c < d; misprint M27.)
 //!
 //! Sources: LI-1; WI-2 and WI-3, the windowing transformations of the textbook (Shirley and
 //! Marschner, ch. 8).
@@ -36,15 +36,16 @@ pub enum RemapError {
         value: f64,
     },
     /// The source interval is empty.
-    #[error("the {interval} to map from is empty: it begins and ends at {at}")]
+    #[error("the source {interval} is empty: it starts and ends at {at}")]
     Empty {
-        /// "interval", or for a box "x interval", "y interval" or "z interval".
+        /// The name of the interval: "interval", or for a box "x interval", "y interval" or "z
+        /// interval".
         interval: &'static str,
-        /// The number at which it begins and ends.
+        /// The number at which it starts and ends.
         at: f64,
     },
     /// The result is too large.
-    #[error("mapping [{}, {}] to [{}, {}] leaves the range of f64", from[0], from[1], to[0], to[1])]
+    #[error("mapping [{}, {}] to [{}, {}] exceeds the range of f64", from[0], from[1], to[0], to[1])]
     OutOfRange {
         /// The source interval.
         from: [f64; 2],
@@ -53,8 +54,8 @@ pub enum RemapError {
     },
 }
 
-/// The number whose position in `to` matches the position of `x` in `from` (LI-1). Extrapolates;
-/// either interval may be reversed.
+/// Returns the number whose position in `to` matches the position of `x` in `from` (LI-1). Values
+/// outside `from` are extrapolated. Either interval may be reversed.
 ///
 /// # Errors
 /// Returns an error if a number is not finite, `from` is empty or the result is out of range.
@@ -72,7 +73,7 @@ pub fn remap_interval(x: f64, from: [f64; 2], to: [f64; 2]) -> Result<f64, Remap
     if y.is_finite() { Ok(y) } else { Err(RemapError::OutOfRange { from, to }) }
 }
 
-/// The factor and the offset: y = factor · x + offset.
+/// Returns the factor and the offset: y = factor · x + offset.
 fn scale_and_offset(
     interval: &'static str,
     from: [f64; 2],
@@ -90,10 +91,10 @@ fn scale_and_offset(
 }
 
 fn check_intervals(interval: &'static str, from: [f64; 2], to: [f64; 2]) -> Result<(), RemapError> {
-    check_finite("the beginning of the interval to map from", from[0])?;
-    check_finite("the end of the interval to map from", from[1])?;
-    check_finite("the beginning of the interval to map to", to[0])?;
-    check_finite("the end of the interval to map to", to[1])?;
+    check_finite("the start of the source interval", from[0])?;
+    check_finite("the end of the source interval", from[1])?;
+    check_finite("the start of the target interval", to[0])?;
+    check_finite("the end of the target interval", to[1])?;
     if from[0] == from[1] {
         return Err(RemapError::Empty { interval, at: from[0] });
     }
@@ -105,11 +106,11 @@ pub(crate) fn check_finite(name: &'static str, value: f64) -> Result<(), RemapEr
 }
 
 impl Homography {
-    /// The map that takes the rectangle with opposite corners `from` to the one with opposite
-    /// corners `to` (WI-2).
+    /// Returns the map that takes the rectangle with opposite corners `from` to the one with
+    /// opposite corners `to` (WI-2).
     ///
     /// # Errors
-    /// As for [`remap_interval`], on either axis.
+    /// Returns the errors of [`remap_interval`] for either axis.
     pub fn windowing(from: [[f64; 2]; 2], to: [[f64; 2]; 2]) -> Result<Self, RemapError> {
         let axis =
             |name, i: usize| scale_and_offset(name, [from[0][i], from[1][i]], [to[0][i], to[1][i]]);
@@ -119,11 +120,11 @@ impl Homography {
 }
 
 impl<A: Space, B: Space> Affine<A, B> {
-    /// The map that takes the box with opposite corners `from` to the one with opposite corners
-    /// `to` (WI-3). The target box may be flat or mirrored.
+    /// Returns the map that takes the box with opposite corners `from` to the one with opposite
+    /// corners `to` (WI-3). The target box may be flat or mirrored.
     ///
     /// # Errors
-    /// As for [`remap_interval`], on any of the three axes.
+    /// Returns the errors of [`remap_interval`] for any of the three axes.
     pub fn windowing(from: [Point<A>; 2], to: [Point<B>; 2]) -> Result<Self, RemapError> {
         let (from, to) = (from.map(<[f64; 3]>::from), to.map(<[f64; 3]>::from));
         let axis =
@@ -147,17 +148,17 @@ mod tests {
         assert_eq!(
             remap_interval(-3.0, [-1.0, 1.0], [10.0, 0.0]),
             Ok(20.0),
-            "x < a, but y above both ends"
+            "x < a, but y is above both ends"
         );
         assert_eq!(
             remap_interval(3.0, [-1.0, 1.0], [10.0, 0.0]),
             Ok(-10.0),
-            "x > b, but y below both ends"
+            "x > b, but y is below both ends"
         );
     }
 
     #[test]
-    fn opposite_corners_go_to_opposite_corners() {
+    fn opposite_corners_map_to_opposite_corners() {
         let from = [Point::<View>::new(-2.0, 4.0, -1.0), Point::new(4.0, -1.0, -5.0)];
         let to = [Point::<Ndc>::new(-1.0, 1.0, 1.0), Point::new(1.0, -1.0, -1.0)];
         let map = Affine::windowing(from, to).expect("a box");
@@ -175,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn empty_and_endless_intervals_are_refused_by_name() {
+    fn empty_and_infinite_intervals_are_rejected_by_name() {
         let empty = Homography::windowing([[0.0, 1.0], [2.0, 1.0]], [[0.0; 2], [1.0; 2]]);
         assert_eq!(empty, Err(RemapError::Empty { interval: "y interval", at: 1.0 }));
         let unit = [0.0, 1.0];

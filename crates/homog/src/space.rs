@@ -4,7 +4,7 @@
 //! Model ──► World ──► View ──► Clip ──÷w──► Ndc ──► Screen
 //! ```
 //!
-//! A space is a tag without values. It costs nothing at run time. Adding a world vector to a view
+//! A space is a tag without values that costs nothing at run time. Adding a world vector to a view
 //! point, or passing clip coordinates to the viewport, is a compile error.
 
 use core::fmt::Debug;
@@ -55,11 +55,12 @@ space! {
     pub Model, "Model"
 }
 space! {
-    /// The common space of all models, lights and cameras: right-handed, any unit.
+    /// The common space of all models, lights and cameras: right-handed, in any unit.
     pub World, "World"
 }
 space! {
-    /// Camera space: right-handed, the eye at the origin, x right, y up, looking along −z.
+    /// Camera space: right-handed, with the eye at the origin looking along −z, x to the right and
+    /// y up.
     pub View, "View"
 }
 space! {

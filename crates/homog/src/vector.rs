@@ -15,14 +15,14 @@ pub struct Vector<S: Space> {
 impl<S: Space> Vector<S> {
     /// The zero vector.
     pub const ZERO: Self = Self::tagged(DVec3::ZERO);
-    /// One unit along x.
+    /// The unit vector along x.
     pub const X: Self = Self::tagged(DVec3::X);
-    /// One unit along y.
+    /// The unit vector along y.
     pub const Y: Self = Self::tagged(DVec3::Y);
-    /// One unit along z.
+    /// The unit vector along z.
     pub const Z: Self = Self::tagged(DVec3::Z);
 
-    /// The vector (x, y, z).
+    /// Creates the vector (x, y, z).
     #[must_use]
     pub const fn new(x: f64, y: f64, z: f64) -> Self {
         Self::tagged(DVec3::new(x, y, z))
@@ -32,37 +32,38 @@ impl<S: Space> Vector<S> {
         Self { raw, space: PhantomData }
     }
 
-    /// The x coordinate.
+    /// Returns the x coordinate.
     #[must_use]
     pub const fn x(self) -> f64 {
         self.raw.x
     }
 
-    /// The y coordinate.
+    /// Returns the y coordinate.
     #[must_use]
     pub const fn y(self) -> f64 {
         self.raw.y
     }
 
-    /// The z coordinate.
+    /// Returns the z coordinate.
     #[must_use]
     pub const fn z(self) -> f64 {
         self.raw.z
     }
 
-    /// The dot product.
+    /// Returns the dot product.
     #[must_use]
     pub fn dot(self, other: Self) -> f64 {
         self.raw.dot(other.raw)
     }
 
-    /// The cross product: perpendicular to both, by the right-hand rule.
+    /// Returns the cross product, which is perpendicular to both vectors, by the right-hand rule.
     #[must_use]
     pub fn cross(self, other: Self) -> Self {
         Self::tagged(self.raw.cross(other.raw))
     }
 
-    /// The Euclidean length, correct even if the squares of the coordinates overflow or underflow.
+    /// Returns the Euclidean length, correct even if the squares of the coordinates overflow or
+    /// underflow.
     #[must_use]
     pub fn length(self) -> f64 {
         let largest = self.raw.abs().max_element();
@@ -72,7 +73,8 @@ impl<S: Space> Vector<S> {
         largest * (self.raw / largest).length()
     }
 
-    /// The vector of length 1 in the same direction; `None` if this one is zero or not finite.
+    /// Returns the vector of length 1 in the same direction, or `None` if this one is zero or not
+    /// finite.
     #[must_use]
     pub fn normalized(self) -> Option<Self> {
         let largest = self.raw.abs().max_element();
@@ -83,13 +85,13 @@ impl<S: Space> Vector<S> {
         Some(Self::tagged(scaled / scaled.length()))
     }
 
-    /// The vector at fraction `t` of the way to `end`.
+    /// Returns the vector at fraction `t` of the way to `end`.
     #[must_use]
     pub fn lerp(self, end: Self, t: f64) -> Self {
         self + (end - self) * t
     }
 
-    /// The coordinates in single precision.
+    /// Returns the coordinates in single precision.
     #[must_use]
     pub fn to_f32(self) -> [f32; 3] {
         self.raw.as_vec3().to_array()
@@ -161,7 +163,7 @@ mod tests {
     use crate::World;
 
     #[test]
-    fn length_survives_huge_and_tiny_coordinates() {
+    fn length_is_correct_for_huge_and_tiny_coordinates() {
         for unit in [1e200, 1.0, 1e-200] {
             let length = Vector::<World>::new(3.0 * unit, 4.0 * unit, 0.0).length();
             assert!((length / unit - 5.0).abs() < 1e-14, "{length:e} is not 5 x {unit:e}");

@@ -1,5 +1,5 @@
-//! Laws of projective maps, on random ones: what is on a line stays on a line, order is kept,
-//! inverses undo, factors do not matter, planes and normals go along.
+//! Laws of projective maps, tested on random maps: lines and order are preserved, inverses undo,
+//! common factors do not matter, and planes and normals transform consistently.
 
 use homog::{
     Affine, Clip, Foreshortening, HLine2, HPoint, HPoint2, HPointKind, Homography, Model, Normal,
@@ -17,7 +17,7 @@ fn triple() -> impl Strategy<Value = [f64; 3]> {
     [number(), number(), number()]
 }
 
-/// Regular enough that eps times the condition stays far below the tolerances here.
+/// Maps so well-conditioned that eps times the condition number is far below the tolerances here.
 fn map() -> impl Strategy<Value = Map> {
     prop::array::uniform16(-4.0..4.0_f64)
         .prop_map(Map::from_row_major)
@@ -59,7 +59,7 @@ proptest! {
     }
 
     #[test]
-    fn c31_lines_go_to_lines_and_the_image_runs_by_f(
+    fn c31_lines_map_to_lines_parametrized_by_f(
         map in map(), a in triple(), b in triple(), t in 0.0..1.0,
     ) {
         let (a, b) = (Point::from(a), Point::from(b));
@@ -78,7 +78,7 @@ proptest! {
     }
 
     #[test]
-    fn c47_exercise_11_order_is_kept(w in [1e-3..1e3, 1e-3..1e3], s in 0.0..1.0_f64, t in 0.0..1.0_f64) {
+    fn c47_exercise_11_order_is_preserved(w in [1e-3..1e3, 1e-3..1e3], s in 0.0..1.0_f64, t in 0.0..1.0_f64) {
         let f = Foreshortening::new(w[0], w[1]).expect("both positive");
         let image = |t: f64| f.image_parameter(t).expect("within the segment");
         prop_assume!((s - t).abs() > 1e-12);
@@ -137,7 +137,7 @@ proptest! {
     }
 
     #[test]
-    fn remapping_there_and_back(x in number(), a in number(), b in number(), c in number(), d in number()) {
+    fn remapping_and_back_gives_the_same_number(x in number(), a in number(), b in number(), c in number(), d in number()) {
         prop_assume!((a - b).abs() > 0.01 && (c - d).abs() > 0.01);
         let back = remap_interval(remap_interval(x, [a, b], [c, d]).expect("valid"), [c, d], [a, b]).expect("valid");
         prop_assert!((back - x).abs() < 1e-9);
@@ -145,7 +145,7 @@ proptest! {
     }
 
     #[test]
-    fn a_homography_is_found_again_from_its_corners(rows in prop::array::uniform9(-2.0..2.0_f64)) {
+    fn homographies_are_recovered_from_their_corners(rows in prop::array::uniform9(-2.0..2.0_f64)) {
         let map = Homography::from_row_major(rows);
         let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|c| map.transform_point(HPoint2::from(c)));
         prop_assume!(corners.iter().all(|c| c.raw().z.abs() > 0.05) && map.determinant().abs() > 0.1);
@@ -157,13 +157,13 @@ proptest! {
 
 #[test]
 fn c81_parallels_meet_in_the_image_of_their_point_at_infinity() {
-    // A perspective with w = -z: lines along (1, 2, -4) run to (1/4, 2/4) of it.
+    // A perspective with w = -z: lines along (1, 2, -4) converge at (1/4, 2/4).
     let rows =
         [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 3.0, -2.0], [0.0, 0.0, -1.0, 0.0]];
     let map = Map::from_rows(rows);
     let direction = Vector::new(1.0, 2.0, -4.0);
     let HPointKind::Finite(meeting) = map.vanishing_point(direction, 0.0) else {
-        panic!("the lines run away from the eye");
+        panic!("the lines recede from the eye");
     };
     assert_eq!(meeting, Point::new(0.25, 0.5, -3.0));
     for start in [Point::new(5.0, -7.0, -1.0), Point::new(-3.0, 0.0, -2.0)] {
@@ -184,10 +184,10 @@ fn c3_a_chain_is_the_product_of_its_factors() {
     assert_eq!(chain.raw(), view_to_clip.raw() * (world_to_view.raw() * model_to_world.raw()));
 }
 
-/// Finite numbers whose products are beyond the range of f64: there is no answer, not an infinite
-/// one.
+/// The input is finite, but its products are beyond the range of f64. The result is `None`, not
+/// infinity.
 #[test]
-fn what_overflows_is_none() {
+fn overflow_gives_none() {
     let stretch = Affine::<World, World>::scale(1e-200, 1.0, 1.0);
     let steep = Plane::from_raw(glam::DVec4::new(1e200, 1.0, 1.0, 1.0));
     assert_eq!(stretch.transform_plane(steep), None);
@@ -201,8 +201,8 @@ fn what_overflows_is_none() {
 
 #[test]
 fn c20_w_may_be_0_in_between() {
-    // The first map sends the plane z = 0 to infinity, the second fetches it back: nothing is
-    // divided on the way.
+    // The first map sends the plane z = 0 to infinity, and the second brings it back. There is no
+    // divide in between.
     let with_bottom = |bottom: [f64; 4]| {
         let [x, y, z, _] = Affine::<World, World>::IDENTITY.rows();
         Projective::<World, World>::from_rows([x, y, z, bottom])

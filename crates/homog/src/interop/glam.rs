@@ -1,4 +1,4 @@
-//! The types of glam, in the version that this crate is built on.
+//! Conversions from and to the types of the glam version that this crate uses.
 //!
 //! `from_raw` and `raw` cost nothing: a point is a `DVec3`. For another version of glam, convert
 //! through arrays or `mint`.
@@ -11,13 +11,13 @@ use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4, Mat4, Vec3};
 macro_rules! raw_coordinates {
     ($name:ident, $raw:ty, $what:literal) => {
         impl<S: Space> $name<S> {
-            #[doc = concat!("Tags ", $what, " with a space. The caller vouches for it.")]
+            #[doc = concat!("Tags ", $what, " with a space, which the caller chooses.")]
             #[must_use]
             pub const fn from_raw(raw: $raw) -> Self {
                 Self::tagged(raw)
             }
 
-            #[doc = concat!("The ", $what, ", without their space.")]
+            #[doc = concat!("Returns the ", $what, ", without their space.")]
             #[must_use]
             pub const fn raw(self) -> $raw {
                 self.raw
@@ -56,13 +56,13 @@ impl<S: Space> From<Vec3> for Vector<S> {
 }
 
 impl<A: Space, B: Space> Projective<A, B> {
-    /// Tags a matrix with its two spaces. The caller chooses them.
+    /// Tags a matrix with its two spaces, which the caller chooses.
     #[must_use]
     pub const fn from_raw(raw: DMat4) -> Self {
         Self::tagged(raw)
     }
 
-    /// The matrix, without its spaces.
+    /// Returns the matrix, without its spaces.
     #[must_use]
     pub const fn raw(self) -> DMat4 {
         self.raw
@@ -88,13 +88,14 @@ impl<A: Space, B: Space> From<Projective<A, B>> for DMat4 {
 }
 
 impl<A: Space, B: Space> Affine<A, B> {
-    /// Tags a matrix with its two spaces; `None` unless its bottom row is exactly (0, 0, 0, 1).
+    /// Tags a matrix with its two spaces, or returns `None` if its bottom row is not exactly
+    /// (0, 0, 0, 1).
     #[must_use]
     pub fn from_raw(raw: DMat4) -> Option<Self> {
         Self::from_matrix(raw)
     }
 
-    /// The matrix, without its spaces; its bottom row is (0, 0, 0, 1).
+    /// Returns the matrix, without its spaces. Its bottom row is (0, 0, 0, 1).
     #[must_use]
     pub const fn raw(self) -> DMat4 {
         self.raw
@@ -130,6 +131,6 @@ macro_rules! raw_plane {
         }
     };
 }
-raw_plane!(HPoint2, DVec3, "The point with the given three numbers.", "The numbers x, y, h.");
-raw_plane!(HLine2, DVec3, "The line with the given coefficients.", "The coefficients a, b, c.");
-raw_plane!(Homography, DMat3, "The map with the given matrix.", "The matrix.");
+raw_plane!(HPoint2, DVec3, "Creates a point from (x, y, h).", "Returns (x, y, h).");
+raw_plane!(HLine2, DVec3, "Creates a line from (a, b, c).", "Returns (a, b, c).");
+raw_plane!(Homography, DMat3, "Creates a map from its matrix.", "Returns the matrix.");

@@ -1,4 +1,5 @@
-//! The types of mint, the bridge to any version of glam, nalgebra, cgmath and others.
+//! Conversions from and to the types of mint, the bridge to any version of glam, nalgebra, cgmath
+//! and other libraries.
 
 use crate::{Affine, HPoint, Point, Projective, Space, Vector};
 use glam::DMat4;

@@ -1,4 +1,4 @@
-//! The types of nalgebra.
+//! Conversions from and to the types of nalgebra.
 
 use crate::{Affine, HPoint, Point, Projective, Space, Vector};
 use glam::DMat4;

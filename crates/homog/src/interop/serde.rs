@@ -1,5 +1,5 @@
 //! Serialization with serde: points and vectors are arrays of their coordinates, and matrices are
-//! arrays of their rows, as a book prints them.
+//! arrays of their rows, as printed in textbooks.
 
 use crate::{Affine, HPoint, Normal, Plane, Point, Projective, Space, Vector};
 use serde::de::Error as _;
@@ -48,7 +48,7 @@ impl<A: Space, B: Space> Serialize for Affine<A, B> {
 impl<'de, A: Space, B: Space> Deserialize<'de> for Affine<A, B> {
     fn deserialize<R: Deserializer<'de>>(deserializer: R) -> Result<Self, R::Error> {
         let rows = <[[f64; 4]; 4]>::deserialize(deserializer)?;
-        let refusal = || R::Error::custom("the last row of an affine map is 0, 0, 0, 1");
+        let refusal = || R::Error::custom("the last row of an affine map must be 0, 0, 0, 1");
         Self::from_rows(rows).ok_or_else(refusal)
     }
 }
