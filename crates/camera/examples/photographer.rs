@@ -1,8 +1,8 @@
-//! A photographer's walk: around a house, keeping all of it in the picture, with a stereo pair at
-//! the end.
+//! A photographer walks around a house, keeps the whole house in the picture, and finally takes a
+//! stereo pair.
 //!
 //! Run it with `cargo run -p alberti-camera --example photographer`.
-#![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
+#![allow(clippy::print_stdout, reason = "the example prints its results")]
 
 use camera::{FramingError, NamedView, Slopes, StereoRig, frame_parallel, frame_perspective};
 use homog::Point;
@@ -26,19 +26,19 @@ fn main() -> Result<(), FramingError> {
     let lens = Slopes::vertical_angle(40_f64.to_radians(), 3.0 / 2.0)?;
 
     println!(
-        "Where to stand so that the house fills the picture except for 5 percent on each side:"
+        "Where to stand so that the house fills the picture, with a margin of 5 percent on each side:"
     );
     for view in NamedView::ALL {
         let view_projection = frame_perspective(house, view.basis(), lens, 0.05)?;
         let (eye, near, far) =
             (view_projection.camera.eye(), view_projection.near, view_projection.far);
         println!(
-            "  {view:<13} {eye:.1}  from {near:.1} to {far:.1} m ahead, {:?} decides",
+            "  {view:<13} {eye:.1}  from {near:.1} to {far:.1} m away, limited by {:?}",
             view_projection.constraint
         );
     }
 
-    println!("\nHow large a sheet at 1:100 must be, in cm:");
+    println!("\nSheet size for a scale of 1:100, in cm:");
     for view in NamedView::PRINCIPAL {
         let sheet = frame_parallel(house, view.basis(), 1.0, 0.0)?;
         println!("  {view:<13} {:.1}", sheet.right - sheet.left);
@@ -51,7 +51,7 @@ fn main() -> Result<(), FramingError> {
     };
     let pair =
         rig.off_axis_pair(view_projection.camera, lens.at_distance(view_projection.near)?)?;
-    println!("\nA stereo pair whose eyes meet in the middle of the house:");
+    println!("\nA stereo pair with zero parallax in the middle of the house:");
     for (name, eye) in [("left", pair.left), ("right", pair.right)] {
         let window = eye.window;
         println!(

@@ -1,13 +1,13 @@
 //! The orientation of a camera: three perpendicular unit vectors (CA-1).
 //!
 //! ```text
-//!        v (up in the picture)        w = −g / ‖g‖          against the gaze
+//!        v (up in the picture)        w = −g / ‖g‖          opposite to the gaze
 //!        │   view-up t                u = (t × w) / ‖t × w‖   to the right
 //!        │  ╱                         v = w × u             up
 //!        │ ╱
 //!      eye ────── u (right)           The view-up t need not be perpendicular to the gaze g;
-//!      ╱                              it only says on which side of the picture up is.
-//!     w          g runs from the eye into the page, against w
+//!      ╱                              it only determines which side of the picture is up.
+//!     w          g points from the eye into the page, opposite to w
 //! ```
 //!
 //! Source: the textbook (Shirley and Marschner, ch. 8), §8.1.3, formula CA-1.
@@ -15,8 +15,8 @@
 use crate::{CameraError, exact_cross};
 use homog::{Affine, Point, Vector, View, World};
 
-/// ‖t × g‖ ≤ this · ‖t‖ ‖g‖ counts as parallel. Directions a millionth of a radian apart are far
-/// above it.
+/// Vectors count as parallel if ‖t × g‖ is at most this fraction of ‖t‖ ‖g‖. Directions a millionth
+/// of a radian apart are far above this limit.
 const PARALLEL_SINE: f64 = 1e-12;
 
 /// The orientation of a camera: right-handed orthonormal axes u (right), v (up), w (backward) in
@@ -42,7 +42,8 @@ impl Basis {
     /// The world axes: looking along −z with y up.
     pub const WORLD: Self = Self { u: Vector::X, v: Vector::Y, w: Vector::Z };
 
-    /// The basis that looks along `gaze` with `up` toward the top (CA-1). Lengths do not matter.
+    /// Creates a basis that looks along `gaze`, with `up` toward the top of the picture (CA-1). The
+    /// lengths of the vectors do not matter.
     ///
     /// # Errors
     /// Returns an error if a vector is zero or not finite, or if `up` is parallel to the gaze, that
@@ -77,9 +78,9 @@ impl Basis {
         })
     }
 
-    /// A view-up to use when the given one does not work: −z when looking mostly down (north is at
-    /// the top of a map), +z when looking mostly up, +y otherwise. It is always at least 45° from
-    /// the gaze.
+    /// Returns a substitute for a view-up that does not work: −z when looking mostly down (as on a
+    /// map with north at the top), +z when looking mostly up, and +y otherwise. It is always at
+    /// least 45° from the gaze.
     #[must_use]
     pub fn fallback_up(gaze: Vector<World>) -> Vector<World> {
         let [x, y, z] = gaze.raw().abs().to_array();
@@ -90,7 +91,8 @@ impl Basis {
         }
     }
 
-    /// `backwards` has length 1; `right` is perpendicular to it, of any length.
+    /// Creates a basis from w = `backwards`, which must have length 1, and `right`, which must be
+    /// perpendicular to it and may have any length.
     fn from_right(right: Vector<World>, backwards: Vector<World>) -> Self {
         let w = backwards;
         let right = right / right.length();
@@ -101,7 +103,7 @@ impl Basis {
         Self { u, v: v / v.length(), w }
     }
 
-    /// Axes that are orthonormal by construction.
+    /// Creates a basis from axes that are orthonormal by construction.
     pub(crate) const fn from_orthonormal(
         u: Vector<World>,
         v: Vector<World>,
@@ -110,32 +112,33 @@ impl Basis {
         Self { u, v, w }
     }
 
-    /// The direction to the right in the picture: a unit vector.
+    /// Returns the unit vector that points right in the picture.
     #[must_use]
     pub const fn u(self) -> Vector<World> {
         self.u
     }
 
-    /// The direction up in the picture: a unit vector.
+    /// Returns the unit vector that points up in the picture.
     #[must_use]
     pub const fn v(self) -> Vector<World> {
         self.v
     }
 
-    /// The direction out of the picture toward the viewer, opposite to the gaze: a unit vector.
+    /// Returns the unit vector that points out of the picture toward the viewer, opposite to the
+    /// gaze.
     #[must_use]
     pub const fn w(self) -> Vector<World> {
         self.w
     }
 
-    /// The gaze direction: −w, a unit vector.
+    /// Returns the gaze direction: −w, a unit vector.
     #[must_use]
     pub fn gaze(self) -> Vector<World> {
         -self.w
     }
 
-    /// The rotation that maps u, v, w to the axes x, y, z of view space: the left factor of M_cam
-    /// (CA-2).
+    /// Returns the rotation that maps u, v, w to the axes x, y, z of view space: the left factor of
+    /// M_cam (CA-2).
     #[must_use]
     pub fn world_to_view_rotation(self) -> Affine<World, View> {
         let [u, v, w] = [self.u, self.v, self.w];
@@ -148,20 +151,20 @@ impl Basis {
         )
     }
 
-    /// The world vector with the given coordinates along u, v and w.
+    /// Returns the world vector with these coordinates along u, v and w.
     #[must_use]
     pub fn to_world(self, along: Vector<View>) -> Vector<World> {
         self.u * along.x() + self.v * along.y() + self.w * along.z()
     }
 
-    /// The coordinates of a world vector along u, v and w.
+    /// Returns the coordinates of a world vector along u, v and w.
     #[must_use]
     pub fn to_view(self, vector: Vector<World>) -> Vector<View> {
         Vector::new(self.u.dot(vector), self.v.dot(vector), self.w.dot(vector))
     }
 }
 
-/// The unit vector along `vector`, or an error that says why there is none.
+/// Returns the unit vector along `vector`, or an error if it is zero or not finite.
 fn unit_vector(
     vector: Vector<World>,
     name: &'static str,

@@ -3,8 +3,8 @@
 //!
 //! ```text
 //!         [ xu yu zu 0 ] [ 1 0 0 -xe ]
-//! M_cam = [ xv yv zv 0 ] [ 0 1 0 -ye ]     first the eye moves to the origin,
-//!         [ xw yw zw 0 ] [ 0 0 1 -ze ]     then u, v, w turn into x, y, z
+//! M_cam = [ xv yv zv 0 ] [ 0 1 0 -ye ]     first move the eye to the origin,
+//!         [ xw yw zw 0 ] [ 0 0 1 -ze ]     then rotate u, v, w to x, y, z
 //!         [ 0  0  0  1 ] [ 0 0 0  1  ]
 //! ```
 //!
@@ -18,7 +18,7 @@ use homog::{Affine, Point, Space, Vector, View, World};
 /// The largest coordinate of an eye for which u · e is still finite.
 const EYE_LIMIT: f64 = f64::MAX / 4.0;
 
-/// The position and orientation of a camera. Lenses are left to the projection.
+/// The position and orientation of a camera. The lens is part of the projection.
 ///
 /// A `Camera` is always usable: every constructor rejects input that would give NaN.
 ///
@@ -37,7 +37,7 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// The camera at `eye` with the given orientation.
+    /// Creates a camera at `eye` with this orientation.
     ///
     /// # Errors
     /// Returns an error if the eye is not finite or has a coordinate beyond a quarter of the
@@ -50,7 +50,8 @@ impl Camera {
         Ok(Self { eye, basis })
     }
 
-    /// The camera at `eye` with `target` at the center of the picture and `up` toward the top.
+    /// Creates a camera at `eye`, with `target` at the center of the picture and `up` toward the
+    /// top.
     ///
     /// # Errors
     /// Returns an error if eye and target are the same, `up` is zero or parallel to the gaze, or a
@@ -63,7 +64,8 @@ impl Camera {
         Self::new(eye, Basis::from_gaze(gaze_between(eye, target)?, up)?)
     }
 
-    /// The camera at `eye` that looks along `gaze` with `up` toward the top. Lengths do not matter.
+    /// Creates a camera at `eye` that looks along `gaze`, with `up` toward the top of the picture.
+    /// The lengths of the vectors do not matter.
     ///
     /// # Errors
     /// Returns an error if the gaze or `up` is zero, they are parallel, or a coordinate is not
@@ -77,7 +79,7 @@ impl Camera {
     }
 
     /// Like [`look_at`](Self::look_at), but uses [`Basis::fallback_up`] if `up` is zero or parallel
-    /// to the gaze: −z looking down, +z looking up, +y otherwise.
+    /// to the gaze: −z when looking down, +z when looking up, and +y otherwise.
     ///
     /// # Errors
     /// Returns an error if eye and target are the same or a coordinate is not finite.
@@ -90,7 +92,7 @@ impl Camera {
     }
 
     /// Like [`look_to`](Self::look_to), but uses [`Basis::fallback_up`] if `up` is zero or parallel
-    /// to the gaze: −z looking down, +z looking up, +y otherwise.
+    /// to the gaze: −z when looking down, +z when looking up, and +y otherwise.
     ///
     /// # Errors
     /// Returns an error if the gaze is zero or a coordinate is not finite.
@@ -102,8 +104,8 @@ impl Camera {
         Self::new(eye, Basis::from_gaze_or_fallback(gaze, up)?)
     }
 
-    /// The camera at the origin of a frame, looking along its −z with its +y up, like the camera
-    /// nodes of glTF. The frame may be scaled, sheared or mirrored; the camera is not.
+    /// Creates a camera at the origin of a frame, looking along the frame's −z axis with +y up,
+    /// like a camera node in glTF. The frame may be scaled, sheared or mirrored; the camera is not.
     ///
     /// # Errors
     /// Returns an error if the frame is not finite or its z axis is zero or parallel to its y axis.
@@ -113,77 +115,79 @@ impl Camera {
         Self::look_to(local_to_world.transform_point(Point::ORIGIN), gaze, up)
     }
 
-    /// The position of the camera; the center of projection if the projection is a perspective.
+    /// Returns the position of the camera, which is the center of projection of a perspective
+    /// projection.
     #[must_use]
     pub const fn eye(self) -> Point<World> {
         self.eye
     }
 
-    /// The orientation.
+    /// Returns the orientation.
     #[must_use]
     pub const fn basis(self) -> Basis {
         self.basis
     }
 
-    /// The direction to the right in the picture: the unit vector u of CA-1.
+    /// Returns the direction to the right in the picture: the unit vector u of CA-1.
     #[must_use]
     pub const fn u(self) -> Vector<World> {
         self.basis.u()
     }
 
-    /// The direction to the right in the picture, the same as [`u`](Self::u).
+    /// Returns the direction to the right in the picture, the same as [`u`](Self::u).
     #[must_use]
     pub const fn right(self) -> Vector<World> {
         self.basis.u()
     }
 
-    /// The direction up in the picture: the unit vector v of CA-1, perpendicular to the gaze.
+    /// Returns the direction up in the picture: the unit vector v of CA-1, perpendicular to the
+    /// gaze.
     #[must_use]
     pub const fn v(self) -> Vector<World> {
         self.basis.v()
     }
 
-    /// The direction toward the viewer, opposite to the gaze: the unit vector w of CA-1.
+    /// Returns the direction toward the viewer, opposite to the gaze: the unit vector w of CA-1.
     #[must_use]
     pub const fn w(self) -> Vector<World> {
         self.basis.w()
     }
 
-    /// The gaze direction: −w, a unit vector.
+    /// Returns the gaze direction: −w, a unit vector.
     #[must_use]
     pub fn gaze(self) -> Vector<World> {
         self.basis.gaze()
     }
 
-    /// M_cam (CA-2): it maps the eye to the origin, and points in front of the camera get a
-    /// negative z.
+    /// Returns M_cam (CA-2), which maps the eye to the origin and gives points in front of the
+    /// camera a negative z.
     #[must_use]
     pub fn world_to_view(self) -> Affine<World, View> {
         self.translation().then(self.rotation())
     }
 
-    /// The inverse of M_cam, without elimination: its columns are u, v, w and the eye.
+    /// Returns the inverse of M_cam, without elimination: its columns are u, v, w and the eye.
     #[must_use]
     pub fn view_to_world(self) -> Affine<View, World> {
         Affine::from_frame(self.u(), self.v(), self.w(), self.eye)
     }
 
-    /// The right factor of M_cam, applied first: it moves the eye to the origin.
+    /// Returns the right factor of M_cam, applied first: it moves the eye to the origin.
     #[must_use]
     pub fn translation(self) -> Affine<World, World> {
         Affine::translation(Point::ORIGIN - self.eye)
     }
 
-    /// The left factor of M_cam, applied second: it maps u, v, w to the axes of view space.
+    /// Returns the left factor of M_cam, applied second: it maps u, v, w to the axes of view space.
     #[must_use]
     pub fn rotation(self) -> Affine<World, View> {
         self.basis.world_to_view_rotation()
     }
 
-    /// This camera moved by `by`, with its orientation unchanged.
+    /// Returns this camera moved by `by`, with its orientation unchanged.
     ///
     /// # Errors
-    /// As for [`Camera::new`] with the new eye.
+    /// Returns an error if [`Camera::new`] rejects the new eye.
     pub fn moved(self, by: Vector<World>) -> Result<Self, CameraError> {
         Self::new(self.eye + by, self.basis)
     }
@@ -196,7 +200,7 @@ fn gaze_between(eye: Point<World>, target: Point<World>) -> Result<Vector<World>
     if gaze == Vector::ZERO {
         return Err(CameraError::TargetIsEye { eye });
     }
-    // The difference between two huge opposite points may overflow; half of it does not.
+    // The difference between two huge points on opposite sides may overflow; half of it does not.
     let half = || Vector::from_raw(target.raw() * 0.5 - eye.raw() * 0.5);
     Ok(if gaze.is_finite() { gaze } else { half() })
 }

@@ -9,7 +9,7 @@ pub enum CameraError {
     /// A coordinate is infinite or NaN.
     #[error("the {name} {value} is not finite")]
     NotFinite {
-        /// The input: "eye", "target", "gaze", "view-up" …
+        /// The name of the input, such as "eye", "target", "gaze" or "view-up".
         name: &'static str,
         /// Its three coordinates.
         value: Vector<World>,
@@ -28,36 +28,36 @@ pub enum CameraError {
     ZeroUp,
     /// View-up and gaze are parallel, so no side of the picture is up.
     #[error(
-        "the view-up {up} is parallel to the gaze {gaze}: choose another, such as {suggestion}"
+        "the view-up {up} is parallel to the gaze {gaze}: choose another view-up, such as {suggestion}"
     )]
     UpParallelToGaze {
-        /// The view-up as given.
+        /// The rejected view-up.
         up: Vector<World>,
-        /// The gaze as given.
+        /// The gaze to which it is parallel.
         gaze: Vector<World>,
-        /// A view-up that works with this gaze: the one used by the `_or_fallback` constructors.
+        /// A view-up that works with this gaze, as used by the `_or_fallback` constructors.
         suggestion: Vector<World>,
     },
     /// The eye is too far away for its distance to be computed.
     #[error("the eye {eye} is too far from the origin: coordinates must not exceed {limit:e}")]
     EyeTooFar {
-        /// The eye as given.
+        /// The rejected eye.
         eye: Point<World>,
         /// The largest coordinate allowed.
         limit: f64,
     },
-    /// A number that must be finite is not.
+    /// A number is not finite.
     #[error("the {name} is {value}, which is not finite")]
     NumberNotFinite {
-        /// The input.
+        /// The name of the input.
         name: &'static str,
         /// Its value.
         value: f64,
     },
-    /// A number that must be greater than zero is not.
+    /// A number is not greater than zero.
     #[error("the {name} is {value}: it must be greater than 0")]
     NotPositive {
-        /// The input.
+        /// The name of the input.
         name: &'static str,
         /// Its value.
         value: f64,
@@ -65,7 +65,7 @@ pub enum CameraError {
     /// A number is too large to compute with.
     #[error("the {name} is {value:e}: its magnitude must not exceed {limit:e}")]
     TooLarge {
-        /// The input.
+        /// The name of the input.
         name: &'static str,
         /// Its value.
         value: f64,
@@ -119,13 +119,13 @@ pub enum CameraError {
         /// The cosine of the angle between them.
         cosine: f64,
     },
-    /// The eye is in the plane of the screen or behind it.
+    /// The eye is in the plane of the screen or behind the screen.
     #[error(
         "the eye is at distance {distance} from the screen: the distance must be positive, so \
          check the order of the corners"
     )]
     EyeBehindScreen {
-        /// Its distance from the screen's plane, not positive.
+        /// Its distance from the screen's plane, which is not positive.
         distance: f64,
     },
 }
@@ -138,7 +138,7 @@ pub enum FramingError {
     #[error("there are no points to frame")]
     NoPoints,
     /// A point has an infinite or NaN coordinate.
-    #[error("point {index} to be framed, {point}, is not finite")]
+    #[error("point {index} of the points to frame is not finite: {point}")]
     PointNotFinite {
         /// Its position in the sequence, from 0.
         index: usize,
@@ -163,28 +163,28 @@ pub enum FramingError {
     /// The opening angle is not between 0 and π.
     #[error("the opening angle is {radians} rad: it must be greater than 0 and less than pi")]
     Angle {
-        /// The angle as given.
+        /// The rejected angle.
         radians: f64,
     },
     /// The aspect ratio is not a positive finite number.
     #[error("the aspect ratio is {aspect}: it must be a positive finite number, width / height")]
     Aspect {
-        /// The ratio as given.
+        /// The rejected ratio.
         aspect: f64,
     },
-    /// The padding is negative or leaves nothing of the frame.
+    /// The padding is negative or leaves no room in the frame.
     #[error("the padding is {padding}: it must be at least 0 and less than 0.5 of the frame")]
     Padding {
-        /// The padding as given.
+        /// The rejected padding.
         padding: f64,
     },
     /// The projectors are parallel to the view plane, point toward the viewer or are not finite.
     #[error("the projectors run along {direction} in view space: z must be negative")]
     Projectors {
-        /// Their direction as given.
+        /// The rejected direction.
         direction: Vector<View>,
     },
-    /// The points or the window are so large or so extreme that the camera is no longer finite.
+    /// The points or the window are so large or so extreme that the camera is not finite.
     #[error(
         "the points, up to {farthest:e} from the origin, cannot be framed within the range of f64"
     )]

@@ -1,4 +1,4 @@
-//! A cross product that keeps its digits even if the vectors are nearly parallel.
+//! A cross product that stays accurate even if the vectors are nearly parallel.
 //!
 //! Each coordinate of t × g is a difference a b − c d. For directions 10⁻⁶ rad apart the two
 //! products agree to six digits, and rounding them first would leave only ten digits in the
@@ -8,9 +8,9 @@
 
 use glam::DVec3;
 
-/// `a × b` up to a positive factor, or zero. Both must be finite and nonzero.
+/// Returns `a × b` up to a positive factor, or zero. Both vectors must be finite and nonzero.
 ///
-/// The vectors are first scaled by powers of two, which is exact, so huge and tiny ones work.
+/// The vectors are first scaled by powers of two, which is exact, so huge and tiny vectors work.
 pub(crate) fn cross_exact(a: DVec3, b: DVec3) -> DVec3 {
     let (a, b) = (scale_near_one(a), scale_near_one(b));
     DVec3::new(
@@ -20,20 +20,20 @@ pub(crate) fn cross_exact(a: DVec3, b: DVec3) -> DVec3 {
     )
 }
 
-/// The vector times the power of two that scales its largest coordinate to [½, 1).
+/// Returns the vector times the power of two that scales its largest coordinate to [½, 1).
 pub(crate) fn scale_near_one(v: DVec3) -> DVec3 {
     let (_, exponent) = libm::frexp(v.abs().max_element());
     DVec3::from_array(v.to_array().map(|c| libm::scalbn(c, -exponent)))
 }
 
-/// a b − c d, for numbers of at most 1.
+/// Returns a b − c d, for numbers of magnitude at most 1.
 fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
     let (p, p_error) = two_product(a, b);
     let (q, q_error) = two_product(c, d);
     (p - q) + (p_error - q_error)
 }
 
-/// The rounded product and its rounding error.
+/// Returns the rounded product and its rounding error.
 fn two_product(a: f64, b: f64) -> (f64, f64) {
     let p = a * b;
     let ((a_high, a_low), (b_high, b_low)) = (veltkamp_split(a), veltkamp_split(b));
@@ -41,7 +41,7 @@ fn two_product(a: f64, b: f64) -> (f64, f64) {
     (p, error)
 }
 
-/// Two halves of 26 bits whose sum is the number.
+/// Splits a number into two halves of 26 bits whose sum is the number.
 fn veltkamp_split(a: f64) -> (f64, f64) {
     const FACTOR: f64 = 134_217_729.0; // 2²⁷ + 1
     let c = FACTOR * a;
@@ -54,7 +54,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_difference_of_almost_equal_products_is_exact() {
+    fn differences_of_almost_equal_products_are_exact() {
         // (1 + e)(1 − e) − 1 · 1 = −e², which two roundings would lose completely.
         let e = 1.0 / 1_073_741_824.0;
         let half = difference_of_products((1.0 + e) / 2.0, 1.0 - e, 0.5, 1.0);
@@ -62,7 +62,7 @@ mod tests {
     }
 
     #[test]
-    fn scaling_by_powers_of_two_keeps_directions_at_both_ends_of_the_range() {
+    fn scaling_by_powers_of_two_preserves_extreme_directions() {
         let tiny = scale_near_one(DVec3::new(3e-320, 0.0, -3e-320));
         assert!(tiny.x >= 0.5 && tiny.x < 1.0 && tiny.z == -tiny.x);
         let huge = scale_near_one(DVec3::splat(f64::MAX));

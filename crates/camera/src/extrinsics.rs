@@ -1,16 +1,16 @@
-//! Extrinsic parameters: the camera position and orientation as calibration, photogrammetry and
-//! data sets write them.
+//! Extrinsic parameters: the camera position and orientation as stored by calibration tools,
+//! photogrammetry software and data sets.
 //!
 //! ```text
 //!  camera = R · world + t      eye = −Rᵀ t       pose [Rᵀ | eye]: camera to world
 //!
 //!            x       y      z
-//!  OpenCv    right   down   ahead        OpenCV, COLMAP, optical frames of ROS
-//!  OpenGl    right   up     backwards    OpenGL, Blender, glTF, NeRF; view space here
-//!  Pytorch3d left    up     ahead        PyTorch3D
+//!  OpenCv    right   down   forward      OpenCV, COLMAP, optical frames of ROS
+//!  OpenGl    right   up     backward     OpenGL, Blender, glTF, NeRF; view space here
+//!  Pytorch3d left    up     forward      PyTorch3D
 //! ```
 //!
-//! All three are right-handed: half turns of view space about one axis.
+//! All three are right-handed and differ by half turns about one axis.
 //!
 //! Source: R. Hartley, A. Zisserman, *Multiple View Geometry in Computer Vision*, 2nd ed., 2004,
 //! §6.1.
@@ -24,17 +24,18 @@ const ROTATION_TOLERANCE: f64 = 1e-4;
 /// The directions of the camera axes in the picture.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum CameraAxes {
-    /// x right, y down, z forward: OpenCV, COLMAP, the optical frames of ROS.
+    /// x right, y down, z forward: OpenCV, COLMAP and ROS optical frames.
     #[default]
     OpenCv,
-    /// x right, y up, z backward: OpenGL, Blender, glTF, NeRF, and view space here.
+    /// x right, y up, z backward: OpenGL, Blender, glTF, NeRF and this project's view space.
     OpenGl,
     /// x left, y up, z forward: PyTorch3D.
     Pytorch3d,
 }
 
 impl CameraAxes {
-    /// The signs that convert view coordinates (right, up, backward) to these axes and back.
+    /// Returns the signs that convert view coordinates (right, up, backward) to these axes and
+    /// back.
     const fn signs(self) -> [f64; 3] {
         match self {
             Self::OpenCv => [1.0, -1.0, -1.0],
@@ -47,7 +48,7 @@ impl CameraAxes {
 /// A rotation R and a translation t from world to camera space: camera = R · world + t.
 ///
 /// # Guarantees
-/// All numbers are finite, and R is a rotation within 10⁻⁴.
+/// All numbers are finite, and R is a rotation to within 10⁻⁴.
 ///
 /// ```
 /// use camera::{CameraAxes, Extrinsics};
@@ -68,10 +69,10 @@ pub struct Extrinsics {
 }
 
 impl Extrinsics {
-    /// The camera with camera = R · world + t, where `rotation` is given row by row.
+    /// Creates the parameters for camera = R · world + t, where `rotation` is R row by row.
     ///
     /// # Errors
-    /// Returns an error if a number is not finite or the matrix is not a rotation within 10⁻⁴.
+    /// Returns an error if a number is not finite or the matrix is not a rotation to within 10⁻⁴.
     pub fn new(
         rotation: [[f64; 3]; 3],
         translation: [f64; 3],
@@ -85,7 +86,8 @@ impl Extrinsics {
         Ok(Self { rotation, translation, axes })
     }
 
-    /// The camera at `eye` whose camera-to-world rotation has these axes as columns.
+    /// Creates the parameters of a camera at `eye` whose camera-to-world rotation has these axes as
+    /// columns.
     ///
     /// # Errors
     /// See [`new`](Self::new).
@@ -100,8 +102,8 @@ impl Extrinsics {
         Self::new(rotation, translation, axes)
     }
 
-    /// The camera from a world-to-camera quaternion (w, x, y, z) and translation, as in COLMAP's
-    /// `images.txt`. The quaternion need not have length 1.
+    /// Creates the parameters from a world-to-camera quaternion (w, x, y, z) and translation, as in
+    /// COLMAP's `images.txt`. The quaternion need not have length 1.
     ///
     /// # Errors
     /// Returns an error if a number is not finite or the quaternion has length 0.
@@ -112,7 +114,7 @@ impl Extrinsics {
     ) -> Result<Self, CameraError> {
         check_finite("vector part of the quaternion", [x, y, z])?;
         check_finite("real part of the quaternion", [w, 0.0, 0.0])?;
-        // Scaled first, so squares neither overflow nor vanish.
+        // Scaled first, so that squares neither overflow nor underflow.
         let largest = [w, x, y, z].into_iter().fold(0.0, |most: f64, part| most.max(part.abs()));
         if largest == 0.0 {
             return Err(CameraError::ZeroQuaternion);
@@ -127,7 +129,8 @@ impl Extrinsics {
         Self::new(rotation, translation, axes)
     }
 
-    /// The camera from PyTorch3D's R and T, which multiply row vectors: camera = world · R + T.
+    /// Creates the parameters from PyTorch3D's R and T, which apply to row vectors: camera = world
+    /// · R + T.
     ///
     /// # Errors
     /// See [`new`](Self::new).
@@ -138,7 +141,7 @@ impl Extrinsics {
         Self::new(transpose(rotation), translation, CameraAxes::Pytorch3d)
     }
 
-    /// The parameters of a camera.
+    /// Returns the parameters of a camera.
     #[must_use]
     pub fn from_camera(camera: Camera, axes: CameraAxes) -> Self {
         let from_eye = camera.eye() - Point::ORIGIN;
@@ -153,8 +156,8 @@ impl Extrinsics {
         Self { rotation, translation, axes }
     }
 
-    /// The camera with these parameters. A rotation with rounded numbers is corrected: the third
-    /// row keeps its direction, and the second row is made perpendicular to it.
+    /// Returns the camera with these parameters. A rotation with rounded numbers is corrected: the
+    /// direction of the third row is unchanged, and the second row is made perpendicular to it.
     ///
     /// # Errors
     /// Returns an error if the translation is so large that the eye is out of range.
@@ -170,7 +173,7 @@ impl Extrinsics {
         Camera::new(Point::ORIGIN + eye, basis)
     }
 
-    /// This camera with other axes.
+    /// Returns the parameters of the same camera in other axes.
     #[must_use]
     pub fn in_axes(self, axes: CameraAxes) -> Self {
         let (from, to) = (self.axes.signs(), axes.signs());
@@ -180,32 +183,32 @@ impl Extrinsics {
         Self { rotation, translation, axes }
     }
 
-    /// R, row by row: it maps world axes to camera axes.
+    /// Returns R, row by row, which maps world axes to camera axes.
     #[must_use]
     pub const fn rotation(self) -> [[f64; 3]; 3] {
         self.rotation
     }
 
-    /// t: the world origin in camera space.
+    /// Returns t, the world origin in camera space.
     #[must_use]
     pub const fn translation(self) -> [f64; 3] {
         self.translation
     }
 
-    /// The directions of the axes.
+    /// Returns the directions of the axes.
     #[must_use]
     pub const fn axes(self) -> CameraAxes {
         self.axes
     }
 
-    /// The camera-to-world pose: a rotation, row by row, and the eye.
+    /// Returns the camera-to-world pose: a rotation, row by row, and the eye.
     #[must_use]
     pub fn to_pose(self) -> ([[f64; 3]; 3], [f64; 3]) {
         let rotation = transpose(self.rotation);
         (rotation, rotate(rotation, self.translation).map(|coordinate| -coordinate))
     }
 
-    /// The rotation as a quaternion (w, x, y, z) of length 1 with w not negative.
+    /// Returns the rotation as a quaternion (w, x, y, z) of length 1 with w ≥ 0.
     ///
     /// Source: S. W. Shepperd, *Quaternion from Rotation Matrix*, 1978: the largest component is
     /// computed first, to avoid dividing by a small number.
@@ -233,13 +236,13 @@ fn check_finite(name: &'static str, value: [f64; 3]) -> Result<(), CameraError> 
     if value.is_finite() { Ok(()) } else { Err(CameraError::NotFinite { name, value }) }
 }
 
-/// Checks that the rows are perpendicular unit vectors and do not mirror.
+/// Checks that the rows are perpendicular unit vectors and that the matrix does not mirror.
 fn check_rotation(rotation: [[f64; 3]; 3]) -> Result<(), CameraError> {
     let [x, y, z] = rotation.map(Vector::<World>::from);
     let lengths = [x, y, z].map(|row| row.dot(row) - 1.0);
     let angles = [x.dot(y), y.dot(z), z.dot(x)];
     let deviation = lengths.into_iter().chain(angles).fold(0.0, |most: f64, d| most.max(d.abs()));
-    // On overflow the deviation is infinite.
+    // On overflow, the deviation is infinite.
     if deviation > ROTATION_TOLERANCE {
         return Err(CameraError::NotRotation { deviation });
     }
@@ -249,12 +252,12 @@ fn check_rotation(rotation: [[f64; 3]; 3]) -> Result<(), CameraError> {
     Ok(())
 }
 
-/// Exchanges rows and columns.
+/// Returns the matrix with rows and columns exchanged.
 fn transpose(rows: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     [0, 1, 2].map(|column| [0, 1, 2].map(|row: usize| rows[row][column]))
 }
 
-/// A matrix applied to a vector.
+/// Applies a matrix to a vector.
 fn rotate(rows: [[f64; 3]; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
     rows.map(|[a, b, c]| a * x + b * y + c * z)
 }

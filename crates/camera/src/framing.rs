@@ -1,4 +1,4 @@
-//! Perspective framing: the eye position at which given points just fill the picture.
+//! Perspective framing: the eye position at which a set of points just fills the picture.
 //!
 //! ```text
 //!  v
@@ -12,12 +12,12 @@
 //! ```
 //!
 //! Each side of the pyramid moves inward, with its own slope, until it touches a point. In
-//! coordinates along u, v, w a point (x, y, z) is left of the right side, of slope r, if x − ex ≤ r
-//! (ez − z), that is, if ex + r ez ≥ x + r z. That is one number per side and point, and only the
-//! largest, R, matters. With the smallest, L, for the left side, ex + r ez ≥ R and ex + l ez ≤ L.
-//! Hence ez ≥ (R − L)/(r − l), the smallest distance at which the width fits. The height gives a
-//! second distance. The larger one decides, and the picture is centered in the other direction. No
-//! bounding sphere, iteration or safety margin is involved, and no point is cropped.
+//! coordinates along u, v, w a point (x, y, z) is left of the right side, which has slope r, if x −
+//! ex ≤ r (ez − z), that is, if ex + r ez ≥ x + r z. That is one number per side and point, and
+//! only the largest, R, matters. With the smallest, L, for the left side, ex + r ez ≥ R and ex + l
+//! ez ≤ L. Hence ez ≥ (R − L)/(r − l), the smallest distance at which the width fits. The height
+//! gives a second distance. The larger one decides, and the picture is centered in the other
+//! direction. No bounding sphere, iteration or safety margin is involved, and no point is cropped.
 
 use crate::point_coordinates::PointCoordinates;
 use crate::{Basis, Camera, FramingError};
@@ -26,30 +26,30 @@ use homog::{Point, Vector, World};
 /// The minimum distance from the eye to the nearest point, as a fraction of the diagonal of the
 /// points.
 ///
-/// Otherwise the eye could touch the tip of a needle that points at the viewer and is narrower than
-/// the pyramid.
+/// Without this minimum, the eye could touch the tip of a needle that points at the viewer and is
+/// narrower than the pyramid.
 const MIN_CLEARANCE: f64 = 1.0 / 64.0;
 
 /// The frame as the slopes of its four sides: the window at distance 1 in front of the eye.
 ///
 /// A symmetric frame with a vertical opening angle θ has `top` = −`bottom` = tan(θ/2) and `right` =
-/// −`left` = `top` × width/height. Off-axis frames, as for shifted lenses and stereo eyes, work
-/// too.
+/// −`left` = `top` × width/height. Off-axis frames, as for shifted lenses and stereo pairs, also
+/// work.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Slopes {
-    /// Left side: x at distance 1, less than `right`.
+    /// The left side: x at distance 1, less than `right`.
     pub left: f64,
-    /// Right side.
+    /// The right side.
     pub right: f64,
-    /// Lower side: y at distance 1, less than `top`.
+    /// The lower side: y at distance 1, less than `top`.
     pub bottom: f64,
-    /// Upper side.
+    /// The upper side.
     pub top: f64,
 }
 
 impl Slopes {
-    /// The symmetric frame with a vertical opening angle in radians, in (0, π), and an aspect ratio
-    /// width/height (FOV-1).
+    /// Creates a symmetric frame from a vertical opening angle in radians, in (0, π), and an aspect
+    /// ratio, width/height (FOV-1).
     ///
     /// # Errors
     /// Returns an error if the angle is out of range, the aspect is not positive and finite, or the
@@ -65,8 +65,8 @@ impl Slopes {
         slopes.padded(0.0)
     }
 
-    /// The frame reduced by `padding` of its width at the left and right, and of its height at the
-    /// top and bottom.
+    /// Returns the frame reduced by `padding` of its width at the left and right, and of its height
+    /// at the top and bottom.
     ///
     /// # Errors
     /// Returns an error if the window is empty, mirrored or not finite, or if the padding is
@@ -181,7 +181,7 @@ impl SupportPlanes {
         sides
     }
 
-    /// The eye in coordinates along u, v, w relative to the center of the points.
+    /// Returns the eye in coordinates along u, v, w relative to the center of the points.
     fn eye_coordinates<I: Iterator<Item = Point<World>> + Clone>(
         &self,
         points: &PointCoordinates<I>,
@@ -206,12 +206,13 @@ impl SupportPlanes {
 }
 
 impl<I: Iterator<Item = Point<World>> + Clone> PointCoordinates<I> {
-    /// The coordinate of the eye within `range` at which the outermost slopes add up to `sum`,
-    /// which makes the margins equal. `along` selects x or y of a point; the eye is at height `z`.
+    /// Returns the coordinate of the eye within `range` at which the outermost slopes add up to
+    /// `sum`, which makes the margins equal. `along` selects x or y of a point; the eye is at
+    /// height `z`.
     ///
     /// The slope (x − e)/D of each point falls linearly with e, so the sum of the largest and the
-    /// smallest falls too, piece by piece. The loop finds the correct piece, and one linear
-    /// equation gives the answer.
+    /// smallest also falls and is piecewise linear. The loop finds the correct piece and solves one
+    /// linear equation there.
     fn center_image(
         &self,
         z: f64,
@@ -237,8 +238,8 @@ impl<I: Iterator<Item = Point<World>> + Clone> PointCoordinates<I> {
         eye
     }
 
-    /// The coordinate and distance of the points with the largest and smallest slopes as seen from
-    /// `eye`.
+    /// Returns the coordinate and distance of the points with the largest and smallest slopes as
+    /// seen from `eye`.
     fn outermost_slopes(
         &self,
         z: f64,

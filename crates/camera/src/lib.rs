@@ -6,7 +6,7 @@
 //!              │  ╱                          w = −g/‖g‖
 //!              │ ╱                           u = (t × w)/‖t × w‖                   (CA-1)
 //!  w ◄──────── eye ────────► gaze g          v = w × u
-//!  backwards    ╲
+//!  backward     ╲
 //!                ╲                           world_to_view = rotation · translation (CA-2)
 //!                 u  right
 //! ```
@@ -37,8 +37,8 @@
 //! | --- | --- |
 //! | eye and target, or eye and gaze | [`Camera::look_at`], [`Camera::look_to`] |
 //! | the same, accepting any view-up | [`Camera::look_at_or_fallback`] |
-//! | front, top, isometric … by name | [`NamedView`] |
-//! | points that must fit | [`frame_perspective`], [`frame_parallel`], [`frame_oblique`] |
+//! | a name: front, top, isometric and so on | [`NamedView`] |
+//! | points that must fit in the picture | [`frame_perspective`], [`frame_parallel`], [`frame_oblique`] |
 //! | an orbit around a target, or a turntable | [`Orbit`] |
 //! | yaw, pitch and roll | [`Orientation`] |
 //! | a node of a scene | [`Camera::from_frame`] |
@@ -49,11 +49,11 @@
 //! # Conventions
 //!
 //! - Model and world: +y up, and models face +z, as in glTF. World and view space are right-handed.
-//! - A [`ViewWindow`] is four numbers in view space and the distance of their plane; [`Slopes`] are
-//!   the same on the plane at distance 1. Pass them to any projection.
+//! - A [`ViewWindow`] is four numbers in view space and the distance of their plane; [`Slopes`] is
+//!   the same window on the plane at distance 1. Pass them to any projection.
 //! - No constructor returns a camera that contains NaN. Errors are a [`CameraError`] or a
-//!   [`FramingError`] with the offending values and a remedy: if the view-up is parallel to the
-//!   gaze, the error suggests one that works.
+//!   [`FramingError`] with the offending values and a remedy. For example, if the view-up is
+//!   parallel to the gaze, the error suggests one that works.
 //!
 //! `cargo run -p alberti-camera --example photographer` demonstrates the crate.
 //!
@@ -83,7 +83,7 @@ pub use camera::Camera;
 pub use error::{CameraError, FramingError};
 pub use extrinsics::{CameraAxes, Extrinsics};
 pub use framing::{Framing, FramingConstraint, Slopes, frame_perspective};
-/// The types of points, maps and spaces, re-exported to save a second dependency.
+/// The types of points, maps and spaces, re-exported so that users need no second dependency.
 pub use homog;
 pub use named_view::{NamedView, UnknownView};
 pub use orbit::Orbit;

@@ -1,4 +1,4 @@
-//! Named views: the six principal views and the usual axonometric ones.
+//! Named views: the six principal views and the common axonometric views.
 //!
 //! ```text
 //!             Top
@@ -11,9 +11,9 @@
 //!            (−y)
 //! ```
 //!
-//! Models face +z with +y up, as in glTF. The viewer of the front view is on +z and looks along −z,
-//! with +x on the right. "Right" is the viewer's right, as on a drawing, not the right hand of the
-//! figure.
+//! Models face +z with +y up, as in glTF. The viewer of the front view is on the +z axis and looks
+//! along −z, with +x on the right. "Right" is the viewer's right, as on a drawing, not the right
+//! hand of the figure.
 //!
 //! A name selects a direction and a view-up. Framing decides how far away the camera is.
 
@@ -58,7 +58,7 @@ pub enum NamedView {
 }
 
 impl NamedView {
-    /// All views, the principal ones first.
+    /// All views, with the principal views first.
     pub const ALL: [Self; 10] = [
         Self::Front,
         Self::Back,
@@ -76,7 +76,7 @@ impl NamedView {
     pub const PRINCIPAL: [Self; 6] =
         [Self::Front, Self::Back, Self::Left, Self::Right, Self::Top, Self::Bottom];
 
-    /// The name in lower case.
+    /// Returns the name in lower case.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -93,7 +93,7 @@ impl NamedView {
         }
     }
 
-    /// The unit vector from the model to the viewer.
+    /// Returns the unit vector from the model to the viewer.
     #[must_use]
     #[allow(
         clippy::wrong_self_convention,
@@ -115,13 +115,14 @@ impl NamedView {
         direction / direction.length()
     }
 
-    /// The gaze direction: opposite to [`from_direction`](Self::from_direction), a unit vector.
+    /// Returns the gaze direction: opposite to [`from_direction`](Self::from_direction), a unit
+    /// vector.
     #[must_use]
     pub fn gaze(self) -> Vector<World> {
         -self.from_direction()
     }
 
-    /// The view-up: +y, but −z for the top view and +z for the bottom view.
+    /// Returns the view-up: +y, but −z for the top view and +z for the bottom view.
     #[must_use]
     pub fn up(self) -> Vector<World> {
         match self {
@@ -131,7 +132,7 @@ impl NamedView {
         }
     }
 
-    /// The orientation of a camera with this view.
+    /// Returns the orientation of a camera with this view.
     #[must_use]
     pub fn basis(self) -> Basis {
         // No view has an up parallel to its gaze; the tests check each one.
@@ -145,10 +146,10 @@ impl fmt::Display for NamedView {
     }
 }
 
-/// The text does not name a view.
+/// The string is not the name of a view.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 #[error(
-    "there is no view of that name: use front, back, left, right, top, bottom, isometric, dimetric, \
+    "unknown view: use front, back, left, right, top, bottom, isometric, dimetric, \
      trimetric or three-quarter"
 )]
 pub struct UnknownView;
@@ -156,7 +157,8 @@ pub struct UnknownView;
 impl FromStr for NamedView {
     type Err = UnknownView;
 
-    /// Case, hyphens, underscores and spaces are ignored; `iso` means isometric, `rear` means back.
+    /// Parses the name of a view. Case, hyphens, underscores and spaces are ignored. `iso` means
+    /// isometric, and `rear` means back.
     fn from_str(text: &str) -> Result<Self, UnknownView> {
         let means = |name: &str| normalized_letters(text).eq(normalized_letters(name));
         match () {
@@ -167,7 +169,8 @@ impl FromStr for NamedView {
     }
 }
 
-/// The letters by which names are compared: lower case, without hyphens, underscores or spaces.
+/// Returns the characters used to compare names: lower case, without hyphens, underscores or
+/// spaces.
 fn normalized_letters(text: &str) -> impl Iterator<Item = char> {
     let filler = |c: &char| matches!(c, '-' | '_' | ' ');
     text.trim().chars().filter(move |c| !filler(c)).map(|c| c.to_ascii_lowercase())
@@ -188,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn right_is_on_the_viewers_right_hand_and_the_top_view_has_the_front_at_the_bottom() {
+    fn right_is_the_viewers_right_and_the_top_view_has_the_front_at_the_bottom() {
         assert_eq!(NamedView::Front.basis().u(), NamedView::Right.from_direction());
         assert_eq!(NamedView::Top.basis().v(), -NamedView::Front.from_direction());
         assert_eq!(NamedView::Bottom.basis().v(), NamedView::Front.from_direction());
@@ -197,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn axonometric_views_foreshorten_as_they_say() {
+    fn axonometric_views_have_the_documented_foreshortening() {
         let foreshortening = |view: NamedView| {
             let basis = view.basis();
             [Vector::X, Vector::Y, Vector::Z]
@@ -224,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_read_back_and_strange_ones_refused() {
+    fn names_round_trip_and_unknown_names_are_rejected() {
         for view in NamedView::ALL {
             assert_eq!(view.name().parse(), Ok(view));
         }

@@ -1,8 +1,8 @@
-//! Cameras that orbit a target: azimuth, elevation, distance.
+//! Cameras that orbit a target, by azimuth, elevation and distance.
 //!
 //! ```text
 //!            +y                          elevation ε: up from the horizon
-//!             │    ● eye                 azimuth α: from the front, +z, round to the right, +x
+//!             │    ● eye                 azimuth α: from the front, +z, toward the right, +x
 //!             │   ╱
 //!             │ ╱ ) ε                    w = (sin α cos ε, sin ε, cos α cos ε)
 //!      target ●──────── +x               u = (cos α, 0, −sin α)
@@ -10,9 +10,9 @@
 //!          +z                            eye = target + distance · w
 //! ```
 //!
-//! The axes come from the angles, not from a view-up, so the poles need no special treatment. At
-//! ε = 90° the camera looks straight down, and the azimuth decides which side is up. A turntable
-//! never jumps there.
+//! The axes come from the angles, not from a view-up, so the poles need no special treatment. At ε
+//! = 90° the camera looks straight down, and the azimuth determines which side is up. A turntable
+//! does not jump there.
 
 use crate::window::{check_finite, check_positive};
 use crate::{Basis, Camera, CameraError};
@@ -45,7 +45,7 @@ pub struct Orbit {
 }
 
 impl Orbit {
-    /// The camera at this position.
+    /// Returns the camera at this position.
     ///
     /// # Errors
     /// Returns an error if the distance is not positive or a number is not finite.
@@ -59,8 +59,8 @@ impl Orbit {
         Camera::new(self.target + basis.w() * self.distance, basis)
     }
 
-    /// `frames` positions, evenly spaced around the vertical axis and starting here. The last is
-    /// one step before the first.
+    /// Returns `frames` positions, evenly spaced around the vertical axis and starting here. The
+    /// last is one step before the first.
     pub fn turntable(self, frames: u32) -> impl ExactSizeIterator<Item = Self> + Clone {
         let step = TAU / f64::from(frames.max(1));
         (0..frames).map(move |i| {
@@ -69,11 +69,11 @@ impl Orbit {
         })
     }
 
-    /// The orbit position of `camera` around `target`. `None` if the camera does not look at the
-    /// target, is rolled, or is too far away for a finite distance.
+    /// Returns the orbit position of `camera` around `target`. `None` if the camera does not look
+    /// at the target, is rolled, or is too far away for a finite distance.
     ///
-    /// The inverse of [`camera`](Self::camera), with the azimuth in (−π, π] and the elevation in
-    /// [−π/2, π/2].
+    /// This is the inverse of [`camera`](Self::camera), with the azimuth in (−π, π] and the
+    /// elevation in [−π/2, π/2].
     #[must_use]
     pub fn from_camera(camera: Camera, target: Point<World>) -> Option<Self> {
         let offset = camera.eye() - target;
@@ -89,8 +89,8 @@ impl Orbit {
 }
 
 impl Basis {
-    /// The orientation of a camera at the given azimuth and elevation that looks at the center (see
-    /// [`Orbit`]).
+    /// Returns the orientation of a camera at the given azimuth and elevation that looks at the
+    /// center (see [`Orbit`]).
     ///
     /// # Errors
     /// Returns an error if an angle is not finite.

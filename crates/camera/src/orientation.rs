@@ -1,11 +1,11 @@
-//! Orientation by yaw, pitch and roll, as for an aircraft or a head.
+//! Orientation by yaw, pitch and roll, as for an aircraft.
 //!
 //! ```text
 //! [ u v w ] = R_y(yaw) · R_x(pitch) · R_z(roll)
 //!
 //! yaw    about the world's +y: positive turns the gaze to the left
-//! pitch  about the camera's own right axis: positive lifts the gaze
-//! roll   about the camera's own w: positive tips its head to the left, and the picture
+//! pitch  about the camera's own right axis: positive raises the gaze
+//! roll   about the camera's own w: positive tips the camera to the left, and the picture
 //!        turns clockwise
 //! ```
 //!
@@ -31,13 +31,13 @@ pub struct Orientation {
     pub yaw: f64,
     /// About the right axis; positive looks up.
     pub pitch: f64,
-    /// About the axis out of the picture; a positive roll tips the camera counterclockwise, as its
-    /// holder sees it.
+    /// About the axis out of the picture; positive tips the camera counterclockwise, as seen from
+    /// behind it.
     pub roll: f64,
 }
 
 impl Orientation {
-    /// The orientation with these angles.
+    /// Returns the basis with these angles.
     ///
     /// # Errors
     /// Returns an error if an angle is not finite.
@@ -47,7 +47,7 @@ impl Orientation {
         Basis::from_azimuth_elevation(self.yaw, -self.pitch)?.rolled(self.roll)
     }
 
-    /// The angles of an orientation: yaw and roll in (−π, π], pitch in [−π/2, π/2].
+    /// Returns the angles of an orientation: yaw and roll in (−π, π], pitch in [−π/2, π/2].
     ///
     /// When looking straight up or down, only the sum or difference of yaw and roll is determined,
     /// and roll is set to 0.
@@ -67,8 +67,8 @@ impl Orientation {
 }
 
 impl Basis {
-    /// This orientation rotated about its own w by `angle` radians. A positive angle tips the
-    /// camera counterclockwise as its holder sees it, so the picture turns clockwise.
+    /// Returns this orientation rotated about its own w by `angle` radians. A positive angle tips
+    /// the camera counterclockwise as seen from behind it, so the picture turns clockwise.
     ///
     /// # Errors
     /// Returns an error if the angle is not finite.

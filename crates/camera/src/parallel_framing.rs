@@ -1,10 +1,10 @@
-//! Framing in parallel projection: the smallest window that contains the image of given points.
+//! Framing in parallel projection: the smallest window that contains the image of a set of points.
 //!
 //! ```text
 //!        window
 //!    top ┌────────┐
 //!        │ ●    ● │ ◄── d      The box around the images of the points,
-//!        │    ●   │            in the wanted aspect.
+//!        │    ●   │            with the requested aspect.
 //! bottom └────────┘
 //!       left    right
 //! ```
@@ -47,8 +47,8 @@ pub struct ParallelFraming {
 /// fills the frame.
 ///
 /// The image touches two opposite sides of the padded frame and is centered between the other two.
-/// `aspect` is the width/height of the frame, and `padding` is the fraction of it left free on
-/// every side: 0.05 is 5%. If all images coincide, because the points are on one projector, the
+/// `aspect` is the width/height of the frame, and `padding` is the fraction of the frame left free
+/// on every side: 0.05 is 5%. If all images coincide, because the points are on one projector, the
 /// height of the frame is the diagonal of the points. A single point is framed as a cube with side
 /// 1 around it, or with a millionth of its distance from the origin if that is more.
 ///
@@ -80,15 +80,16 @@ where
     frame_oblique(points, orientation, -Vector::Z, aspect, padding)
 }
 
-/// Like [`frame_parallel`], with projectors along `projectors`: a direction in view space away from
-/// the viewer, that is, with z < 0. Its length does not matter; (0, 0, −1) is the orthographic
+/// Like [`frame_parallel`], but with projectors along `projectors`, a direction in view space that
+/// points away from the viewer (z < 0). Its length does not matter; (0, 0, −1) is the orthographic
 /// projection.
 ///
 /// The window is in the plane of the eye, z = 0: a point (x, y, z) of view space has its image at
 /// (x − z a/c, y − z b/c) for projectors (a, b, c).
 ///
 /// # Errors
-/// As for [`frame_parallel`]; also if the projectors are not finite or have z ≥ 0.
+/// Returns the errors of [`frame_parallel`], and an error if the projectors are not finite or have
+/// z ≥ 0.
 pub fn frame_oblique<I>(
     points: I,
     orientation: Basis,
@@ -107,8 +108,8 @@ where
     let image = ImageBounds::from_points(&points, shear);
     let (half_width, half_height, fit) = image.padded_window(&points, aspect, padding);
 
-    // From the center of the image, in the plane z = 0 through the center of the points, along the
-    // projector to the eye.
+    // The eye is on the projector through the center of the image, which is in the plane z = 0
+    // through the center of the points.
     let near = points.extent.diagonal();
     let z = points.extent.max.z + near;
     let middle = image.center();
@@ -120,7 +121,7 @@ where
     Ok(ParallelFraming { camera, left, right, bottom, top, near, far, constraint: fit })
 }
 
-/// The change of x and y per unit of z along a projector.
+/// Returns the change of x and y per unit of z along a projector.
 fn projector_shear(projectors: Vector<View>) -> Result<DVec3, FramingError> {
     let shear = projectors.raw() / projectors.z();
     let usable = projectors.is_finite() && projectors.z() < 0.0 && shear.is_finite();
@@ -152,7 +153,8 @@ impl ImageBounds {
         self.min * 0.5 + self.max * 0.5
     }
 
-    /// Half the width and height of the padded window.
+    /// Returns half the width and height of the padded window, and the constraint that decided
+    /// them.
     fn padded_window<I: Iterator<Item = Point<World>> + Clone>(
         &self,
         points: &PointCoordinates<I>,

@@ -1,7 +1,7 @@
 //! Points to be framed, in coordinates along the camera axes relative to the center of their
 //! bounds.
 //!
-//! Coordinates relative to the center keep the digits of small objects far from the origin. Objects
+//! Coordinates relative to the center stay accurate for small objects far from the origin. Objects
 //! so small and far away that the coordinates of an eye could not distinguish their parts count as
 //! one point, and one point is framed as a cube.
 
@@ -9,7 +9,7 @@ use crate::{Basis, Camera, FramingError};
 use glam::DVec3;
 use homog::{Bounds, Point, Vector, View, World};
 
-/// The largest coordinate of a point: sums and products with unit vectors stay finite.
+/// The largest coordinate of a point for which sums and products with unit vectors stay finite.
 const MAX_COORDINATE: f64 = 1e300;
 /// Points closer together than this fraction of their distance from the origin count as one.
 const SINGLE_POINT_TOLERANCE: f64 = 1e-12;
@@ -20,7 +20,8 @@ const SINGLE_POINT_SIDE: f64 = 1.0;
 /// The minimum side as a fraction of the point's distance from the origin.
 const SINGLE_POINT_RELATIVE_SIDE: f64 = 1e-6;
 
-/// Points that can be iterated several times, in the axes of `basis`, from `center`.
+/// Points that can be iterated several times, in coordinates along the axes of `basis` relative to
+/// `center`.
 pub(crate) struct PointCoordinates<I> {
     points: I,
     basis: Basis,
@@ -93,8 +94,9 @@ impl<I: Iterator<Item = Point<World>> + Clone> PointCoordinates<I> {
         }
     }
 
-    /// The camera whose eye has the given coordinates. `smallest` is the smallest length that the
-    /// position of the eye must resolve; too far away for that, there is no camera.
+    /// Returns the camera whose eye has the given coordinates. `smallest` is the smallest length
+    /// that the position of the eye must resolve. If the eye is too far away for that, it is an
+    /// error.
     pub(crate) fn camera_at(
         &self,
         eye: Vector<View>,

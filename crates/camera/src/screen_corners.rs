@@ -10,9 +10,9 @@
 //!                                          bottom = v · (a − e), top = v · (c − e)
 //! ```
 //!
-//! The picture is correct for this eye wherever it is: the screen becomes a hole in the wall. The
-//! gaze is perpendicular to the screen, not toward its center, and the window is as far off the
-//! axis as the eye is.
+//! The picture is correct for any position of the eye: the screen looks like a hole in the wall.
+//! The gaze is perpendicular to the screen, not toward its center, and the window is as far
+//! off-center as the eye is.
 //!
 //! Source: R. Kooima, *Generalized Perspective Projection*, 2008.
 
@@ -34,14 +34,14 @@ pub struct ScreenCorners {
 }
 
 impl ScreenCorners {
-    /// The camera at `eye`, and the window in the plane of the screen through which it sees the
-    /// world correctly.
+    /// Returns the camera at `eye`, and the window in the plane of the screen through which it sees
+    /// the world correctly.
     ///
     /// [`ViewWindow::at_distance`] moves the window to any near plane.
     ///
     /// # Errors
     /// Returns an error if a corner or the eye is not finite, a side has no length, the sides are
-    /// not perpendicular, or the eye is in the plane of the screen or behind it.
+    /// not perpendicular, or the eye is in the plane of the screen or behind the screen.
     ///
     /// ```
     /// use camera::ScreenCorners;
@@ -71,7 +71,7 @@ impl ScreenCorners {
         Ok(CameraView { camera, window })
     }
 
-    /// The axes of the screen.
+    /// Returns the axes of the screen.
     fn basis(self) -> Result<Basis, CameraError> {
         let right = unit_side(self.lower_left, self.lower_right, "lower right corner")?;
         let up = unit_side(self.lower_left, self.upper_left, "upper left corner")?;
@@ -84,7 +84,7 @@ impl ScreenCorners {
     }
 }
 
-/// The unit vector along a side of the screen.
+/// Returns the unit vector along a side of the screen.
 fn unit_side(
     from: Point<World>,
     to: Point<World>,

@@ -1,21 +1,21 @@
-//! Stereo: two eyes side by side, each with its off-axis window.
+//! Stereo: two eyes side by side, each with an off-axis window.
 //!
 //! ```text
 //!  ●━━━━━━━━━━━━━━━━━━━●    the plane of zero parallax: the same rectangle for both eyes
 //!   ╲ ╲             ╱ ╱
-//!    ╲   ╲       ╱   ╱      what is nearer stands out of the picture,
-//!     ╲     ╲ ╱     ╱       what is farther lies behind it
+//!    ╲   ╲       ╱   ╱      nearer points appear in front of the picture,
+//!     ╲     ╲ ╱     ╱       farther points appear behind it
 //!      ╲   ╱   ╲   ╱
 //!       ╲╱       ╲╱
 //!    left eye  right eye    interocular distance apart along u
 //! ```
 //!
 //! Both eyes look in the same direction; turning them inward (toe-in) would shift points
-//! vertically. Their windows are off the axis instead: for an eye e to the right of the middle,
-//! each side is at l − e · distance/zero_parallax on the plane at that distance.
+//! vertically. Instead, their windows are off the axis: for an eye e to the right of the middle, a
+//! side at l moves to l − e · distance/zero_parallax on the plane at that distance.
 //!
-//! [`apex_moved_view`] does what one lesson's `createFrustum` does with an off-axis window (LW-1,
-//! misprint M12): it moves the eye opposite the center of the window and keeps the frustum
+//! [`apex_moved_view`] treats an off-axis window like `createFrustum` in one lesson (LW-1, misprint
+//! M12): it moves the eye until it is opposite the center of the window, and keeps the frustum
 //! symmetric. The two agree only in the plane of the window, and a stereo pair made this way does
 //! not have the requested plane of zero parallax. It is provided for comparison.
 
@@ -53,9 +53,9 @@ pub struct StereoPair {
 }
 
 impl StereoRig {
-    /// The correct off-axis pair around a middle camera with the given window: same gaze, eyes
-    /// apart along u, and windows shifted to show both eyes the same rectangle in the plane of zero
-    /// parallax.
+    /// Returns the correct off-axis pair around a middle camera and its window. Both eyes have the
+    /// same gaze and are separated along u, and their windows are shifted to show both eyes the
+    /// same rectangle in the plane of zero parallax.
     ///
     /// # Errors
     /// Returns an error if a distance of the rig is not positive and finite, the window is empty,
@@ -86,11 +86,11 @@ impl StereoRig {
         })
     }
 
-    /// The pair from [`off_axis_pair`](Self::off_axis_pair), with the apex of each frustum moved
-    /// opposite the center of its window (LW-1).
+    /// Returns the pair from [`off_axis_pair`](Self::off_axis_pair), with the apex of each frustum
+    /// moved opposite the center of its window (LW-1).
     ///
     /// For comparison only: the eyes are closer together than requested, and their pictures
-    /// coincide at another distance.
+    /// coincide at a different distance.
     ///
     /// # Errors
     /// See [`off_axis_pair`](Self::off_axis_pair).
@@ -104,9 +104,9 @@ impl StereoRig {
         Ok(StereoPair { left: moved(left)?, right: moved(right)? })
     }
 
-    /// The offset to the right of the right eye's image of a point at `distance` from the left
-    /// eye's image, measured on the plane of zero parallax. It is negative in front of that plane
-    /// and equals the interocular distance at infinity.
+    /// Returns the offset to the right of the right eye's image of a point at `distance` from the
+    /// left eye's image, measured on the plane of zero parallax. It is negative in front of that
+    /// plane and equals the interocular distance at infinity.
     ///
     /// # Errors
     /// Returns an error if a distance is not positive and finite.
@@ -133,9 +133,9 @@ impl StereoRig {
     }
 }
 
-/// The camera and window that LW-1 makes from an off-axis window: the eye moves, parallel to the
-/// window, opposite its center, and the window becomes symmetric. The picture is unchanged only in
-/// the plane of the window.
+/// Returns the camera and window that LW-1 makes from an off-axis window: the eye moves parallel to
+/// the window until it is opposite the center, and the window becomes symmetric. The picture is
+/// unchanged only in the plane of the window.
 ///
 /// # Errors
 /// Returns an error if the window is empty, not finite or not in front of the eye, or if the eye is

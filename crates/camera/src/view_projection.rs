@@ -1,4 +1,4 @@
-//! A camera together with its projection, as the later stages take it.
+//! A camera together with its projection, as used by the later stages.
 
 use crate::Camera;
 use glam::{DVec3, DVec4, Vec4Swizzles};
@@ -15,22 +15,22 @@ pub struct ViewProjection {
 }
 
 impl ViewProjection {
-    /// The map from the world to clip space.
+    /// Returns the map from world space to clip space.
     #[must_use]
     pub fn world_to_clip(&self) -> Projective<World, Clip> {
         self.camera.world_to_view().then_project(self.view_to_clip)
     }
 
-    /// The viewer: the eye, or in a parallel projection the direction toward it, a point at
+    /// Returns the viewer: the eye, or in a parallel projection the direction toward it, a point at
     /// infinity.
     ///
     /// It is the only point without an image: the rows of x, y and w of the matrix all give 0 for
-    /// it. Its sign is chosen so depth grows toward the viewer: `viewer.xyz − p·viewer.w` is the
-    /// vector from a visible point p to the viewer.
+    /// it. Its sign is chosen so that depth grows toward the viewer: `viewer.xyz − p·viewer.w` is
+    /// the vector from a visible point p to the viewer.
     ///
     /// w is 1 for an eye and 0 for a direction. It is −1 in reverse perspective, such as the bottom
     /// row (p, q, r, 1) with r > 0: the lines of sight meet *behind* the scene, and points farther
-    /// from their center hide nearer ones.
+    /// from that center hide nearer points.
     #[must_use]
     pub fn viewer(&self) -> HPoint<World> {
         let viewer = self.blind_point();
@@ -38,7 +38,8 @@ impl ViewProjection {
         HPoint::from_raw(if viewer.w == 0.0 { viewer } else { viewer / viewer.w.abs() })
     }
 
-    /// Whether the picture is mirrored: a window with left and right (or bottom and top) exchanged.
+    /// Returns whether the picture is mirrored, as by a window with left and right (or bottom and
+    /// top) exchanged.
     ///
     /// The sign comes from the determinant of the matrix, the row of z times the point without an
     /// image: depth grows toward the viewer, who therefore has a positive z in clip space.
@@ -47,9 +48,9 @@ impl ViewProjection {
         self.world_to_clip().raw().row(2).dot(self.blind_point()) > 0.0
     }
 
-    /// The point without an image, as the four-dimensional cross product of the rows of x, y and w.
-    /// The determinant of three points and this one equals the determinant of (x, y, w) of their
-    /// images. The product points away from the viewer unless the picture is mirrored.
+    /// Returns the point without an image, as the four-dimensional cross product of the rows of x,
+    /// y and w. The determinant of three points and this one equals the determinant of (x, y, w) of
+    /// their images. The product points away from the viewer unless the picture is mirrored.
     fn blind_point(&self) -> DVec4 {
         let m = self.world_to_clip().raw();
         let rows = [m.row(0), m.row(1), m.row(3)];
@@ -74,11 +75,11 @@ mod tests {
 
     fn camera() -> Camera {
         Camera::look_at(Point::new(4.0, 3.0, 6.0), Point::new(0.0, 1.0, 0.0), Vector::Y)
-            .expect("a good camera")
+            .expect("a valid camera")
     }
 
     fn perspective(left: f64, right: f64) -> ViewProjection {
-        let frustum = Frustum::new(left, right, -1.0, 1.0, 1.0, 50.0).expect("a good frustum");
+        let frustum = Frustum::new(left, right, -1.0, 1.0, 1.0, 50.0).expect("a valid frustum");
         ViewProjection { camera: camera(), view_to_clip: frustum.view_to_clip(Convention::CHAPTER) }
     }
 
@@ -89,9 +90,9 @@ mod tests {
     }
 
     #[test]
-    fn the_viewer_of_a_parallel_projection_is_the_direction_against_the_gaze() {
+    fn the_viewer_of_a_parallel_projection_is_opposite_to_the_gaze() {
         let view_to_clip = Orthographic::new(-1.0, 1.0, -1.0, 1.0, 1.0, 50.0)
-            .expect("a good box")
+            .expect("a valid box")
             .view_to_clip(Convention::CHAPTER);
         let view_projection = ViewProjection { camera: camera(), view_to_clip };
         let viewer = view_projection.viewer();
@@ -103,14 +104,14 @@ mod tests {
     }
 
     #[test]
-    fn the_viewer_of_a_reverse_perspective_is_turned() {
+    fn the_viewer_of_a_reverse_perspective_has_negative_w() {
         for r in [-0.2, 0.2] {
             let perspective = NPoint::new(0.1, -0.05, r).expect("a perspective");
-            let volume = Orthographic::new(-2.0, 2.0, -2.0, 2.0, -1.0, 1.0).expect("a good box");
+            let volume = Orthographic::new(-2.0, 2.0, -2.0, 2.0, -1.0, 1.0).expect("a valid box");
             let view_to_clip =
                 perspective.depth_preserving().then(volume.view_to_clip(Convention::CHAPTER));
             let camera =
-                Camera::look_to(Point::ORIGIN, -Vector::Z, Vector::Y).expect("a good camera");
+                Camera::look_to(Point::ORIGIN, -Vector::Z, Vector::Y).expect("a valid camera");
             let view_projection = ViewProjection { camera, view_to_clip };
             let viewer = view_projection.viewer();
             // ONE-1: the lines of sight meet at (0, 0, −1/r).
@@ -124,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn only_a_window_with_exchanged_sides_mirrors() {
+    fn only_exchanged_sides_mirror_the_picture() {
         assert!(!perspective(-0.5, 3.0).is_mirrored());
         assert!(perspective(3.0, -0.5).is_mirrored());
     }

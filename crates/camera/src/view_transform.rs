@@ -6,15 +6,15 @@
 //!          projection
 //! ```
 //!
-//! Renderers, hidden-line removal and explanations share it, so all of them compute bit-identical
-//! pixel positions. Everything is f64.
+//! Renderers, hidden-line removal and explanations share it, so they all compute bit-identical
+//! pixel positions. All numbers are f64.
 
 use crate::ViewProjection;
 use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, Screen, Vector, World};
 
 /// World → clip → NDC → screen, and the point from which the picture is viewed.
 ///
-/// This crate has no viewport type: [`new`](Self::new) takes the finished map from NDC to pixels.
+/// This crate has no viewport type: [`new`](Self::new) accepts the complete map from NDC to pixels.
 ///
 /// ```
 /// use camera::{Camera, ViewProjection, ViewTransform};
@@ -40,16 +40,16 @@ pub struct ViewTransform {
 }
 
 impl ViewTransform {
-    /// The transform of a camera and projection on a viewport.
+    /// Creates the transform of a camera and projection on a viewport.
     #[must_use]
     pub fn new(view_projection: &ViewProjection, ndc_to_screen: Affine<Ndc, Screen>) -> Self {
         let viewer = view_projection.viewer();
         Self::with_world_to_clip(view_projection.world_to_clip(), ndc_to_screen, viewer)
     }
 
-    /// The transform with a custom clip space, for another graphics API or for one tile of a larger
-    /// image. `viewer` is the eye, or the point at infinity of a parallel view, which is scaled to
-    /// length 1.
+    /// Returns the transform with a custom clip space, for another graphics API or for one tile of
+    /// a larger image. `viewer` is the eye, or the point at infinity of a parallel view, which is
+    /// scaled to length 1.
     #[must_use]
     pub fn with_world_to_clip(
         world_to_clip: Projective<World, Clip>,
@@ -63,33 +63,34 @@ impl ViewTransform {
         Self { world_to_clip, ndc_to_screen, viewer }
     }
 
-    /// The product of the camera and projection matrices.
+    /// Returns the product of the camera and projection matrices.
     #[must_use]
     pub const fn world_to_clip(&self) -> Projective<World, Clip> {
         self.world_to_clip
     }
 
-    /// The viewport transform: NDC to pixels, and NDC z to depth.
+    /// Returns the viewport transform: NDC to pixels, and NDC z to depth.
     #[must_use]
     pub const fn ndc_to_screen(&self) -> Affine<Ndc, Screen> {
         self.ndc_to_screen
     }
 
-    /// World to pixels and depth in homogeneous coordinates: one matrix, before the divide.
+    /// Returns the map from the world to pixels and depth in homogeneous coordinates: one matrix,
+    /// before the divide.
     #[must_use]
     pub fn world_to_screen(&self) -> Projective<World, Screen> {
         Projective::from_raw(self.ndc_to_screen.raw() * self.world_to_clip.raw())
     }
 
-    /// The eye with w = 1, or in a parallel view the unit direction toward it with w = 0; in
-    /// reverse perspective w = −1 (see [`ViewProjection::viewer`]).
+    /// Returns the eye with w = 1, or in a parallel view the unit direction toward it with w = 0.
+    /// In reverse perspective, w is −1 (see [`ViewProjection::viewer`]).
     #[must_use]
     pub const fn viewer(&self) -> HPoint<World> {
         self.viewer
     }
 
-    /// The vector from a point to the eye. It has length 1 in a parallel view, and points away from
-    /// the center of a reverse perspective.
+    /// Returns the vector from a point to the eye. It has length 1 in a parallel view, and points
+    /// away from the center of a reverse perspective.
     #[must_use]
     #[inline]
     pub fn vector_to_viewer(&self, from: Point<World>) -> Vector<World> {
@@ -97,15 +98,15 @@ impl ViewTransform {
         Vector::from_raw(viewer.truncate() - from.raw() * viewer.w)
     }
 
-    /// A world point in clip space, for clipping before the divide.
+    /// Returns a world point in clip space, for clipping before the divide.
     #[must_use]
     #[inline]
     pub fn project_to_clip(&self, point: Point<World>) -> HPoint<Clip> {
         self.world_to_clip.transform_point(point)
     }
 
-    /// Perspective divide and viewport transform: pixels and depth of a clip-space point; `None` if
-    /// w is 0.
+    /// Performs the perspective divide and the viewport transform: returns the pixel position and
+    /// depth of a clip-space point, or `None` if w is 0.
     #[must_use]
     #[inline]
     pub fn project_to_screen(&self, point: HPoint<Clip>) -> Option<Point<Screen>> {
@@ -121,7 +122,7 @@ mod tests {
 
     fn transform(view_to_clip: Projective<homog::View, Clip>) -> ViewTransform {
         let eye = Point::new(4.0, 3.0, 6.0);
-        let camera = Camera::look_at(eye, Point::ORIGIN, Vector::Y).expect("a good camera");
+        let camera = Camera::look_at(eye, Point::ORIGIN, Vector::Y).expect("a valid camera");
         let half = Affine::<Ndc, Screen>::scale(320.0, -240.0, 0.5);
         let ndc_to_screen = half.then(Affine::translation(Vector::new(320.0, 240.0, 0.5)));
         ViewTransform::new(&ViewProjection { camera, view_to_clip }, ndc_to_screen)
@@ -129,7 +130,7 @@ mod tests {
 
     #[test]
     fn one_matrix_and_two_steps_give_the_same_pixel() {
-        let frustum = Frustum::new(-0.5, 0.5, -0.4, 0.4, 1.0, 50.0).expect("a good frustum");
+        let frustum = Frustum::new(-0.5, 0.5, -0.4, 0.4, 1.0, 50.0).expect("a valid frustum");
         let transform = transform(frustum.view_to_clip(Convention::CHAPTER));
         let point = Point::new(0.3, -0.2, 0.5);
         let expected = transform.project_to_screen(transform.project_to_clip(point));
@@ -140,11 +141,11 @@ mod tests {
 
     #[test]
     fn the_viewer_is_the_eye_or_a_unit_direction() {
-        let frustum = Frustum::new(-0.5, 0.5, -0.4, 0.4, 1.0, 50.0).expect("a good frustum");
+        let frustum = Frustum::new(-0.5, 0.5, -0.4, 0.4, 1.0, 50.0).expect("a valid frustum");
         let perspective = transform(frustum.view_to_clip(Convention::CHAPTER));
         let to_eye = perspective.vector_to_viewer(Point::ORIGIN);
         assert!((to_eye - Vector::new(4.0, 3.0, 6.0)).length() < 1e-12, "{to_eye:?}");
-        let volume = Orthographic::new(-7.0, 7.0, -7.0, 7.0, 1.0, 50.0).expect("a good box");
+        let volume = Orthographic::new(-7.0, 7.0, -7.0, 7.0, 1.0, 50.0).expect("a valid box");
         let parallel = transform(volume.view_to_clip(Convention::CHAPTER));
         assert_eq!(parallel.viewer().w(), 0.0);
         assert!((parallel.vector_to_viewer(Point::ORIGIN).length() - 1.0).abs() < 1e-15);

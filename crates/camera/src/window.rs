@@ -2,16 +2,16 @@
 //!
 //! ```text
 //!             eye ●
-//!                ╱ ╲             a plane across the gaze, `distance` ahead of the eye;
+//!                ╱ ╲             a plane perpendicular to the gaze, at `distance` from the eye;
 //!  left ────────┼───┼──── right  x to the right and y up from where the gaze meets it
 //! ```
 //!
-//! It is plain numbers, because a camera has no projection: pass them to a frustum or an
-//! orthographic box whose near distance is `distance`.
+//! The window consists of plain numbers, because a camera has no projection. Pass them to a frustum
+//! or an orthographic box whose near distance is `distance`.
 
 use crate::{CameraError, Slopes};
 
-/// The largest number of a window: rays through pixels far outside it are still finite.
+/// The largest number in a window for which rays through pixels far outside it are still finite.
 const WINDOW_LIMIT: f64 = 1e290;
 
 /// A rectangle on the plane at `distance` in front of an eye, in view space.
@@ -30,11 +30,11 @@ pub struct ViewWindow {
 }
 
 impl ViewWindow {
-    /// The window on the plane at another distance that subtends the same angles.
+    /// Returns the window on the plane at another distance that subtends the same angles.
     ///
     /// # Errors
-    /// Returns an error if a distance, old or new, is not positive and finite, or if the window,
-    /// old or new, is empty or not finite.
+    /// Returns an error if the old or new distance is not positive and finite, or if the old or new
+    /// window is empty or not finite.
     ///
     /// ```
     /// use camera::ViewWindow;
@@ -56,7 +56,7 @@ impl ViewWindow {
         moved.check_perspective().map(|()| moved)
     }
 
-    /// The slopes of the four sides: the window on the plane at distance 1.
+    /// Returns the slopes of the four sides: the window on the plane at distance 1.
     ///
     /// # Errors
     /// See [`at_distance`](Self::at_distance).
@@ -86,7 +86,8 @@ impl ViewWindow {
         Ok(())
     }
 
-    /// Like [`check_edges`](Self::check_edges); the window must also be in front of the eye.
+    /// Like [`check_edges`](Self::check_edges), but also rejects windows that are not in front of
+    /// the eye.
     pub(crate) fn check_perspective(self) -> Result<(), CameraError> {
         self.check_edges()?;
         check_positive("distance of the window", self.distance)
@@ -94,7 +95,7 @@ impl ViewWindow {
 }
 
 impl Slopes {
-    /// The window of this frame on the plane at `distance`.
+    /// Returns the window of this frame on the plane at `distance`.
     ///
     /// # Errors
     /// Returns an error if the distance is not positive and finite, or if slopes are not finite or

@@ -4,7 +4,7 @@
 //!   [ a a a t ]     linear      t = 0, bottom row (0, 0, 0, 1): the origin stays
 //!   [ a a a t ]     affine      bottom row (0, 0, 0, 1): parallel lines stay parallel, w stays 1
 //!   [ a a a t ]     projective  anything else: w = p x + q y + r z + h varies, and where it is 0
-//!   [ p q r h ]                 points go to infinity
+//!   [ p q r h ]                 points map to infinity
 //! ```
 //!
 //! Each kind contains the one above it. A common factor does not matter: the bottom row

@@ -1,7 +1,7 @@
 //! Clip ranges: the extent of clip space after the divide.
 //!
 //! ```text
-//!  range        near   far    y     of
+//!  range        near   far    y     used by
 //!  CHAPTER       +1     −1    up    the textbook, with w > 0 (PE-3)
 //!  OPENGL        −1     +1    up    OpenGL, WebGL
 //!  ZERO_ONE       0      1    up    Direct3D, Metal, WebGPU

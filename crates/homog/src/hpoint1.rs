@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!     x
-//!     │          ╱  x = 1.5 h: all [1.5 h, h] are the number 1.5
+//!     │          ╱  x = 1.5 h: all [1.5 h, h] represent the number 1.5
 //! 1.5 ┤     ●
 //!     │   ╱ ╎
 //!     │ ╱   ╎

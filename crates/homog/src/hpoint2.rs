@@ -2,8 +2,8 @@
 //!
 //! ```text
 //!          h
-//!          │        ╱  the ray of all [−2k, −k, 2k]
-//!   h = 1 ─┼──────●─── meets the plane h = 1 in (−1, −1/2)
+//!          │        ╱  the line of all [−2k, −k, 2k]
+//!   h = 1 ─┼──────●─── meets the plane h = 1 at (−1, −1/2)
 //!          │    ╱
 //!          │  ╱
 //!          0

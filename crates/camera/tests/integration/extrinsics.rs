@@ -1,4 +1,4 @@
-//! Extrinsic parameters to cameras and back, in all axes.
+//! Conversion of extrinsic parameters to cameras and back, in all axes.
 
 use camera::{Camera, CameraAxes, CameraError, Extrinsics};
 use homog::{Point, World};
@@ -44,7 +44,7 @@ fn near<const N: usize>(
 
 proptest! {
     #[test]
-    fn coordinates_are_those_of_view_space_with_other_signs(
+    fn coordinates_differ_from_view_space_only_in_sign(
         camera in camera(),
         point in triple(),
     ) {
@@ -57,7 +57,7 @@ proptest! {
     }
 
     #[test]
-    fn cameras_come_back(camera in camera(), axes in axes(), others in axes()) {
+    fn cameras_round_trip(camera in camera(), axes in axes(), others in axes()) {
         let extrinsics = Extrinsics::from_camera(camera, axes).in_axes(others);
         prop_assert_eq!(extrinsics.axes(), others);
         let (rotation, eye) = extrinsics.to_pose();
@@ -79,7 +79,7 @@ proptest! {
     }
 
     #[test]
-    fn pytorch3d_multiplies_rows(camera in camera(), point in triple()) {
+    fn pytorch3d_uses_row_vectors(camera in camera(), point in triple()) {
         let extrinsics = Extrinsics::from_camera(camera, CameraAxes::Pytorch3d);
         let rows = extrinsics.rotation();
         let transposed = [0, 1, 2].map(|i| [0, 1, 2].map(|j: usize| rows[j][i]));
@@ -93,7 +93,7 @@ proptest! {
 }
 
 #[test]
-fn a_quarter_turn_has_the_quaternion_of_the_books() {
+fn a_quarter_turn_has_the_textbook_quaternion() {
     // About +z by 90°: (cos 45°, 0, 0, sin 45°); x maps to y.
     let half = 0.5_f64.sqrt();
     let made = Extrinsics::from_quaternion([half, 0.0, 0.0, half], [0.0; 3], CameraAxes::OpenCv);
@@ -102,7 +102,7 @@ fn a_quarter_turn_has_the_quaternion_of_the_books() {
 }
 
 #[test]
-fn half_turns_have_quaternions_too() {
+fn half_turns_have_quaternions() {
     for rotation in [
         [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]],
         [[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]],
@@ -136,7 +136,7 @@ fn invalid_rotations_are_rejected() {
     assert_eq!(zero, Err(CameraError::ZeroQuaternion));
     let far = Extrinsics::new(IDENTITY, [f64::MAX, 0.0, 0.0], CameraAxes::OpenCv);
     assert!(matches!(far.and_then(Extrinsics::to_camera), Err(CameraError::EyeTooFar { .. })));
-    // Six digits, as files have them, make a camera nonetheless.
+    // Six digits, as in files, are precise enough for a camera.
     let rounded = [[0.866025, -0.5, 0.0], [0.5, 0.866025, 0.0], [0.0, 0.0, 1.0]];
     let camera = new(rounded).and_then(Extrinsics::to_camera).expect("a camera");
     assert!((camera.u().length() - 1.0).abs() < 1e-15);

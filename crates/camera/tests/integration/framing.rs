@@ -1,4 +1,5 @@
-//! Framing is tight: the image touches the padded frame, nothing is cropped, the rest is centered.
+//! Tests that framing is tight: the image touches the padded frame, is not cropped, and is centered
+//! in the other direction.
 
 use camera::{
     Basis, FramingConstraint, FramingError, Slopes, frame_oblique, frame_parallel,
@@ -29,8 +30,8 @@ fn slopes() -> impl Strategy<Value = Slopes> {
     })
 }
 
-/// Least and greatest of some numbers, as parts of the window: −1 at its lower, +1 at its upper
-/// end.
+/// Returns the minimum and maximum of some numbers relative to the window: −1 is its lower end, +1
+/// its upper end.
 fn reach(numbers: impl Iterator<Item = f64>, low: f64, high: f64) -> [f64; 2] {
     let mut ends = [f64::INFINITY, -f64::INFINITY];
     for x in numbers.map(|x| (2.0 * x - low - high) / (high - low)) {
@@ -39,7 +40,8 @@ fn reach(numbers: impl Iterator<Item = f64>, low: f64, high: f64) -> [f64; 2] {
     ends
 }
 
-/// The frame is touched at ±(1 − 2 padding) in the direction of `fit`, and nowhere left.
+/// Asserts that the image touches the frame at ±(1 − 2 padding) in the direction of `fit`, and that
+/// it fits and is centered in the other.
 fn assert_tight(x: [f64; 2], y: [f64; 2], fit: FramingConstraint, padding: f64) {
     let rim = 1.0 - 2.0 * padding;
     let (tight, other) = if fit == FramingConstraint::Width { (x, y) } else { (y, x) };
@@ -98,25 +100,26 @@ fn parallel(points: &[[f64; 3]]) -> Result<camera::ParallelFraming, FramingError
 }
 
 #[test]
-fn a_lone_point_is_framed_as_a_unit_cube() {
+fn a_single_point_is_framed_as_a_unit_cube() {
     for place in [[0.0; 3], [3.0, -4.0, 5.0]] {
-        let framing = perspective(&[place]).expect("one point will do");
+        let framing = perspective(&[place]).expect("one point is enough");
         assert_eq!(framing.camera.eye(), Point::from(place) + Vector::new(0.0, 0.0, 1.5));
         assert_eq!(
             (framing.near, framing.far, framing.constraint),
             (1.0, 2.0, FramingConstraint::Loose)
         );
-        assert_eq!(perspective(&[place, place]), Ok(framing), "twice the same is one point");
-        let flat = parallel(&[place]).expect("one point will do");
+        assert_eq!(perspective(&[place, place]), Ok(framing), "two equal points count as one");
+        let flat = parallel(&[place]).expect("one point is enough");
         assert_eq!((flat.top, flat.right, flat.constraint), (0.5, 1.0, FramingConstraint::Loose));
     }
-    let far = perspective(&[[1e20, 0.0, 0.0]]).expect("far out, but a place");
+    let far = perspective(&[[1e20, 0.0, 0.0]]).expect("far away, but finite");
     assert!(far.near > 0.0 && far.camera.eye().z() > 0.0);
 }
 
 #[test]
-fn flat_and_straight_things_are_framed() {
-    let wall = perspective(&[[-2.0, -1.0, 0.0], [2.0, 1.0, 0.0]]).expect("a wall across the gaze");
+fn flat_and_straight_sets_of_points_are_framed() {
+    let wall = perspective(&[[-2.0, -1.0, 0.0], [2.0, 1.0, 0.0]])
+        .expect("a wall perpendicular to the gaze");
     assert_eq!((wall.near, wall.far), (2.0, 2.0));
     let line = perspective(&[[0.0, 0.0, 0.0], [0.0, 0.0, 64.0]]).expect("a line along the gaze");
     assert_eq!((line.near, line.far, line.constraint), (1.0, 65.0, FramingConstraint::Loose));
@@ -125,20 +128,20 @@ fn flat_and_straight_things_are_framed() {
         (line.top, line.near, line.far, line.constraint),
         (4.0, 8.0, 16.0, FramingConstraint::Loose)
     );
-    let level = parallel(&[[0.0, 0.0, 0.0], [8.0, 0.0, 0.0]]).expect("a level line");
+    let level = parallel(&[[0.0, 0.0, 0.0], [8.0, 0.0, 0.0]]).expect("a horizontal line");
     assert_eq!((level.right, level.top, level.constraint), (4.0, 2.0, FramingConstraint::Width));
 }
 
 #[test]
-fn a_needle_towards_the_viewer_keeps_its_clearance() {
+fn the_eye_stays_clear_of_a_needle_toward_the_viewer() {
     let needle = [[0.01, 0.0, 0.0], [-0.01, 0.0, 0.0], [0.0, 0.0, 6.4]];
-    let framing = perspective(&needle).expect("thin, but a thing");
+    let framing = perspective(&needle).expect("thin, but valid");
     assert_eq!(framing.constraint, FramingConstraint::Loose);
     assert!((framing.near - 0.1).abs() < 1e-5, "near is {}", framing.near);
 }
 
 #[test]
-fn what_cannot_be_framed_is_refused_with_its_values() {
+fn invalid_framing_is_rejected_with_its_values() {
     assert_eq!(perspective(&[]), Err(FramingError::NoPoints));
     assert!(matches!(
         perspective(&[[0.0; 3], [0.0, f64::NAN, 0.0]]),

@@ -1,4 +1,5 @@
-//! Look-at and look-to: the chapter's exercise, its misprint, the laws, and every way to fail.
+//! Look-at and look-to: the chapter's exercise, misprints in the sources, the laws, and every
+//! error.
 
 use camera::{Basis, Camera, CameraError};
 use homog::{Affine, Point, Vector, World};
@@ -32,12 +33,12 @@ proptest! {
     }
 
     #[test]
-    fn c12_m_cam_is_undone_by_its_inverse_and_puts_the_eye_at_the_origin(
+    fn c12_m_cam_has_an_inverse_and_maps_the_eye_to_the_origin(
         camera in camera(), p in triple(),
     ) {
         let p = Point::<World>::from(p);
         let back = camera.view_to_world().transform_point(camera.world_to_view().transform_point(p));
-        prop_assert!((back - p).length() < 1e-12, "{p} comes back as {back}");
+        prop_assert!((back - p).length() < 1e-12, "{p} becomes {back}");
         prop_assert!((camera.world_to_view().transform_point(camera.eye()) - Point::ORIGIN).length() < 1e-13);
         let ahead = camera.world_to_view().transform_point(camera.eye() + camera.gaze() * 2.0);
         prop_assert!((ahead - Point::new(0.0, 0.0, -2.0)).length() < 1e-12);
@@ -47,7 +48,7 @@ proptest! {
     fn lengths_of_gaze_and_up_do_not_matter(camera in camera(), a in -900..900, b in -900..900) {
         let scale = |exponent: i32| libm::scalbn(1.0, exponent);
         let again = Camera::look_to(camera.eye(), camera.gaze() * scale(a), camera.v() * scale(b));
-        let again = again.expect("only lengths have changed");
+        let again = again.expect("only the lengths changed");
         prop_assert!((again.u() - camera.u()).length() < 1e-15);
     }
 }
@@ -65,9 +66,9 @@ fn exercise_10_c46_camera_above_looking_down() {
     assert_eq!(rows, want);
 }
 
-/// Chapter §10 no. 18: a set of notes prints the third row of the translation as (0, 0, 0, −ze).
+/// Chapter §10 no. 18: one set of notes prints the third row of the translation as (0, 0, 0, −ze).
 #[test]
-fn misprint_m11_a_translation_without_its_one_is_singular() {
+fn misprint_m11_a_translation_without_the_diagonal_one_is_singular() {
     let eye = Point::<World>::new(1.0, 2.0, 3.0);
     let camera = Camera::new(eye, Basis::WORLD).expect("a finite eye");
     let mut printed = camera.translation().raw();
@@ -77,7 +78,11 @@ fn misprint_m11_a_translation_without_its_one_is_singular() {
     let depth = |map: Affine<World, World>, z: f64| {
         map.then(camera.rotation()).transform_point(Point::new(0.0, 0.0, z)).z()
     };
-    assert_eq!((depth(printed, 0.0), depth(printed, -7.0)), (-3.0, -3.0), "all at one depth");
+    assert_eq!(
+        (depth(printed, 0.0), depth(printed, -7.0)),
+        (-3.0, -3.0),
+        "all have the same depth"
+    );
     assert_eq!(
         (depth(camera.translation(), 0.0), depth(camera.translation(), -7.0)),
         (-3.0, -10.0)
@@ -85,10 +90,10 @@ fn misprint_m11_a_translation_without_its_one_is_singular() {
     assert_eq!(camera.translation().then(camera.rotation()), camera.world_to_view());
 }
 
-/// Notes have the camera look "from the −z axis": it is at the origin of its own space and looks
-/// along −z, so its target is there.
+/// Some notes say that the camera looks "from the −z axis". In fact it is at the origin of its own
+/// space and looks along −z, so its target is on the −z axis.
 #[test]
-fn misprint_m11b_the_camera_looks_along_minus_z_and_does_not_stand_there() {
+fn misprint_m11b_the_camera_looks_along_minus_z_and_is_at_the_origin() {
     let (eye, target) = (Point::new(4.0, -1.0, 2.0), Point::new(1.0, 3.0, 2.0));
     let camera = Camera::look_at(eye, target, Vector::Z).expect("a gaze");
     let view = camera.world_to_view();
@@ -97,7 +102,7 @@ fn misprint_m11b_the_camera_looks_along_minus_z_and_does_not_stand_there() {
 }
 
 #[test]
-fn a_millionth_of_a_radian_between_up_and_gaze_is_enough_and_costs_no_digits() {
+fn up_a_millionth_of_a_radian_from_the_gaze_loses_no_digits() {
     let t = 1e-6;
     let camera =
         Camera::look_to(Point::ORIGIN, v(1.0, 2.0, 3.0), v(1.0 + t, 2.0, 3.0)).expect("valid");
@@ -107,7 +112,7 @@ fn a_millionth_of_a_radian_between_up_and_gaze_is_enough_and_costs_no_digits() {
 }
 
 #[test]
-fn every_degenerate_camera_is_refused_with_its_values() {
+fn degenerate_cameras_are_rejected_with_their_values() {
     let at = |x: f64, y: f64, z: f64| Point::<World>::new(x, y, z);
     let (o, y, z) = (Point::ORIGIN, Vector::Y, Vector::Z);
     let nan = f64::NAN;
@@ -137,7 +142,7 @@ fn every_degenerate_camera_is_refused_with_its_values() {
     ] {
         assert!(
             matches!(got, Err(CameraError::NotFinite { name: said, .. }) if said == name),
-            "{got:?} should speak of the {name}"
+            "{got:?} should mention the {name}"
         );
     }
     let far = Camera::look_to(at(f64::MAX, 0.0, 0.0), z, y);
@@ -145,17 +150,17 @@ fn every_degenerate_camera_is_refused_with_its_values() {
 }
 
 #[test]
-fn messages_name_values_and_remedy() {
+fn messages_contain_values_and_a_remedy() {
     let top =
         Camera::look_to(Point::ORIGIN, v(0.0, -1.0, 0.0), Vector::Y).expect_err("up is parallel");
     assert_eq!(
         top.to_string(),
-        "the view-up (0, 1, 0) is parallel to the gaze (0, -1, 0): choose another, such as (0, 0, -1)"
+        "the view-up (0, 1, 0) is parallel to the gaze (0, -1, 0): choose another view-up, such as (0, 0, -1)"
     );
 }
 
 #[test]
-fn the_fallback_makes_top_views_and_still_refuses_a_zero_gaze() {
+fn the_fallback_allows_top_views_but_not_a_zero_gaze() {
     let o = Point::ORIGIN;
     for (gaze, up) in [
         (v(0.0, -2.0, 0.0), -Vector::Z),
@@ -163,7 +168,7 @@ fn the_fallback_makes_top_views_and_still_refuses_a_zero_gaze() {
         (v(0.0, 0.0, -1.0), Vector::Y),
         (v(4.0, 0.0, 0.0), Vector::Y),
     ] {
-        let camera = Camera::look_to_or_fallback(o, gaze, gaze).expect("the fallback's purpose");
+        let camera = Camera::look_to_or_fallback(o, gaze, gaze).expect("the fallback applies");
         assert_eq!(camera.v(), up, "looking along {gaze}");
         assert_eq!(Camera::look_to_or_fallback(o, gaze, Vector::ZERO), Ok(camera));
         assert_eq!(Camera::look_at_or_fallback(o, o + gaze, gaze), Ok(camera));
@@ -174,7 +179,7 @@ fn the_fallback_makes_top_views_and_still_refuses_a_zero_gaze() {
 }
 
 #[test]
-fn eye_and_target_at_opposite_ends_of_the_numbers_still_give_a_direction() {
+fn eye_and_target_at_opposite_ends_of_the_range_give_a_direction() {
     let far = f64::MAX / 4.0;
     let camera =
         Camera::look_at(Point::new(0.0, 0.0, far), Point::new(0.0, 0.0, -f64::MAX), Vector::Y);

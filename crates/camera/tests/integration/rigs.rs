@@ -33,7 +33,8 @@ fn window() -> impl Strategy<Value = ViewWindow> {
     )
 }
 
-/// Where a view sees a point, as parts of its window from the lower left corner.
+/// Returns the position at which a view sees a point, as fractions of its window from the lower
+/// left corner.
 fn seen(view: CameraView, point: Point<World>) -> [f64; 2] {
     let p = view.camera.world_to_view().transform_point(point);
     let w = view.window;
@@ -41,8 +42,8 @@ fn seen(view: CameraView, point: Point<World>) -> [f64; 2] {
     [(x - w.left) / (w.right - w.left), (y - w.bottom) / (w.top - w.bottom)]
 }
 
-/// The point at `distance` along the gaze whose image is at `at`, in parts of the window from the
-/// lower left corner.
+/// Returns the point at `distance` along the gaze whose image is at `at`, in fractions of the
+/// window from the lower left corner.
 fn point_ahead(camera: Camera, window: ViewWindow, at: [f64; 2], distance: f64) -> Point<World> {
     let x = window.left + (window.right - window.left) * at[0];
     let y = window.bottom + (window.top - window.bottom) * at[1];
@@ -56,7 +57,7 @@ fn close(a: Basis, b: Basis) -> bool {
 
 proptest! {
     #[test]
-    fn attitudes_are_read_back(yaw in -3.1..3.1, pitch in -1.5..1.5, roll in -3.1..3.1) {
+    fn attitudes_round_trip(yaw in -3.1..3.1, pitch in -1.5..1.5, roll in -3.1..3.1) {
         let attitude = Orientation { yaw, pitch, roll };
         let back = Orientation::from_basis(attitude.basis().expect("finite"));
         for (got, want) in [(back.yaw, yaw), (back.pitch, pitch), (back.roll, roll)] {
@@ -84,14 +85,14 @@ proptest! {
     }
 
     #[test]
-    fn an_orbit_looks_at_its_target_and_is_read_back(
+    fn orbits_look_at_their_target_and_round_trip(
         target in triple(), azimuth in -3.1..3.1, elevation in -1.57..1.57, distance in 0.1..50.0,
     ) {
         let orbit = Orbit { target: target.into(), azimuth, elevation, distance };
         let camera = orbit.camera().expect("valid");
         let middle = camera.world_to_view().transform_point(orbit.target);
         prop_assert!((middle - Point::new(0.0, 0.0, -distance)).length() < 1e-12);
-        let back = Orbit::from_camera(camera, orbit.target).expect("it looks at it, level");
+        let back = Orbit::from_camera(camera, orbit.target).expect("a level camera that looks at the target");
         prop_assert!((back.azimuth - azimuth).abs() < 1e-9);
         prop_assert!((back.elevation - elevation).abs() < 1e-9);
         prop_assert!((back.distance - distance).abs() < 1e-12);
@@ -100,7 +101,7 @@ proptest! {
     }
 
     #[test]
-    fn a_stereo_pair_meets_at_zero_parallax_and_nowhere_else(
+    fn stereo_pairs_coincide_only_at_zero_parallax(
         middle in camera(), window in window(), at in [0.0..1.0, 0.0..1.0],
         interocular in 0.01..1.0, zero_parallax in 0.5..20.0, distance in 0.5..40.0,
     ) {
@@ -108,12 +109,12 @@ proptest! {
         let pair = rig.off_axis_pair(middle, window).expect("valid");
         let ahead = |distance: f64| point_ahead(middle, window, at, distance);
 
-        // In the plane of zero parallax both eyes and the middle see the same.
+        // In the plane of zero parallax, both eyes and the middle camera see the same point.
         let [left, right] = [pair.left, pair.right].map(|eye| seen(eye, ahead(zero_parallax)));
         for i in 0..2 {
             prop_assert!((left[i] - right[i]).abs() < 1e-10 && (left[i] - at[i]).abs() < 1e-10);
         }
-        // Elsewhere they differ by the parallax, and never vertically.
+        // Elsewhere they differ by the parallax, but never vertically.
         let [left, right] = [pair.left, pair.right].map(|eye| seen(eye, ahead(distance)));
         let width = (window.right - window.left) * zero_parallax / window.distance;
         let parallax = rig.parallax(distance).expect("positive");
@@ -122,7 +123,7 @@ proptest! {
     }
 
     #[test]
-    fn c65_the_apex_moved_variant_agrees_on_the_windows_plane_only(
+    fn c65_the_apex_moved_variant_agrees_only_on_the_plane_of_the_window(
         camera in camera(), window in window(), at in [0.0..1.0, 0.0..1.0],
     ) {
         let whole = CameraView { camera, window };
@@ -140,7 +141,7 @@ proptest! {
     }
 
     #[test]
-    fn a_screen_is_a_hole_in_the_wall(camera in camera(), size in [0.1..5.0, 0.1..5.0], eye in triple()) {
+    fn a_screen_looks_like_a_hole_in_the_wall(camera in camera(), size in [0.1..5.0, 0.1..5.0], eye in triple()) {
         let (u, v) = (camera.u() * size[0], camera.v() * size[1]);
         let corner = camera.eye();
         let screen =
@@ -160,7 +161,7 @@ proptest! {
 }
 
 #[test]
-fn orbits_pass_through_the_named_views_poles_included() {
+fn orbits_pass_through_the_named_views_including_the_poles() {
     let quarter = FRAC_PI_2;
     for (azimuth, elevation, view) in [
         (0.0, 0.0, NamedView::Front),
@@ -186,7 +187,7 @@ fn an_orbit_too_far_to_measure_is_rejected() {
         )
     };
     assert!(orbit(1e308).is_some());
-    assert_eq!(orbit(1.5e308), None, "√2 times that is not a number");
+    assert_eq!(orbit(1.5e308), None, "√2 times that is out of range");
 }
 
 #[test]
@@ -199,22 +200,25 @@ fn a_turntable_closes_without_repeating_its_first_frame() {
 }
 
 #[test]
-fn attitudes_turn_the_way_they_say() {
+fn attitudes_turn_in_the_documented_directions() {
     let gaze = |yaw: f64, pitch: f64| {
         Orientation { yaw, pitch, roll: 0.0 }.basis().expect("finite").gaze()
     };
     assert!(gaze(0.1, 0.0).x() < 0.0, "positive yaw looks left");
     assert!(gaze(0.0, 0.1).y() > 0.0, "positive pitch looks up");
     let tipped = Basis::WORLD.rolled(0.1).expect("finite");
-    assert!(tipped.v().x() < 0.0, "positive roll tips the head to the left");
+    assert!(tipped.v().x() < 0.0, "positive roll tips the camera to the left");
     let up = Orientation { yaw: 0.5, pitch: FRAC_PI_2, roll: 0.25 }.basis().expect("finite");
     let read = Orientation::from_basis(up);
     assert_eq!(read.roll, 0.0);
-    assert!(close(read.basis().expect("finite"), up), "straight up, yaw takes all");
+    assert!(
+        close(read.basis().expect("finite"), up),
+        "yaw contains the whole rotation when looking straight up"
+    );
 }
 
 #[test]
-fn a_pair_with_moved_apexes_does_not_meet_where_it_was_told_to() {
+fn apex_moved_pairs_do_not_coincide_at_the_requested_distance() {
     let middle = Camera::new(Point::ORIGIN, Basis::WORLD).expect("valid");
     let rig = StereoRig { interocular: 0.5, zero_parallax: 8.0 };
     let meeting = Point::new(0.0, 0.0, -8.0);
@@ -224,7 +228,7 @@ fn a_pair_with_moved_apexes_does_not_meet_where_it_was_told_to() {
     let wrong = rig.pair_apex_moved(middle, WINDOW).expect("valid");
     assert!(across(wrong).abs() > 0.01);
     let apart = wrong.right.camera.eye().x() - wrong.left.camera.eye().x();
-    assert_eq!(apart, 0.5 * (1.0 - 2.0 / 8.0), "and the eyes are closer than told");
+    assert_eq!(apart, 0.5 * (1.0 - 2.0 / 8.0), "the eyes are closer than requested");
 }
 
 #[test]
@@ -235,13 +239,13 @@ fn a_camera_node_may_be_scaled_and_mirrored() {
     let camera = Camera::from_frame(node).expect("not flat");
     assert_eq!(camera.eye(), Point::new(1.0, 2.0, 3.0));
     let turned = Basis::from_azimuth_elevation(0.5, 0.0).expect("finite");
-    assert!(close(camera.basis(), turned), "neither scale nor mirror turns a camera");
+    assert!(close(camera.basis(), turned), "neither scaling nor mirroring turns a camera");
     let flat = Camera::from_frame(Affine::<Model, World>::scale(1.0, 1.0, 0.0));
     assert_eq!(flat, Err(CameraError::ZeroGaze));
 }
 
 #[test]
-fn rigs_refuse_what_has_no_meaning() {
+fn rigs_reject_invalid_parameters() {
     let camera = Camera::new(Point::ORIGIN, Basis::WORLD).expect("valid");
     let rig = StereoRig { interocular: 0.06, zero_parallax: 2.0 };
     let is_not_positive =
@@ -273,7 +277,7 @@ fn rigs_refuse_what_has_no_meaning() {
 }
 
 #[test]
-fn screens_must_be_rectangles_before_the_eye() {
+fn screens_must_be_rectangles_in_front_of_the_eye() {
     let o = Point::<World>::ORIGIN;
     let wall =
         ScreenCorners { lower_left: o, lower_right: o + Vector::X, upper_left: o + Vector::Y };
