@@ -26,7 +26,7 @@ fn main() -> Result<(), FramingError> {
     let lens = Slopes::vertical_angle(40_f64.to_radians(), 3.0 / 2.0)?;
 
     println!(
-        "Where to stand so that the house fills the picture, with a margin of 5 percent on each side:"
+        "Where to stand so that the house fills the picture with a 5 percent margin on each side:"
     );
     for view in NamedView::ALL {
         let view_projection = frame_perspective(house, view.basis(), lens, 0.05)?;

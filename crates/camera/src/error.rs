@@ -28,7 +28,8 @@ pub enum CameraError {
     ZeroUp,
     /// View-up and gaze are parallel, so no side of the picture is up.
     #[error(
-        "the view-up {up} is parallel to the gaze {gaze}: choose another view-up, such as {suggestion}"
+        "the view-up {up} is parallel to the gaze {gaze}: choose another view-up, such as \
+         {suggestion}"
     )]
     UpParallelToGaze {
         /// The rejected view-up.

@@ -38,7 +38,7 @@
 //! | eye and target, or eye and gaze | [`Camera::look_at`], [`Camera::look_to`] |
 //! | the same, accepting any view-up | [`Camera::look_at_or_fallback`] |
 //! | a name: front, top, isometric and so on | [`NamedView`] |
-//! | points that must fit in the picture | [`frame_perspective`], [`frame_parallel`], [`frame_oblique`] |
+//! | points to fit in the picture | [`frame_perspective`], [`frame_parallel`], [`frame_oblique`] |
 //! | an orbit around a target, or a turntable | [`Orbit`] |
 //! | yaw, pitch and roll | [`Orientation`] |
 //! | a node of a scene | [`Camera::from_frame`] |

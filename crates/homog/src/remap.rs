@@ -45,7 +45,9 @@ pub enum RemapError {
         at: f64,
     },
     /// The result is too large.
-    #[error("mapping [{}, {}] to [{}, {}] exceeds the range of f64", from[0], from[1], to[0], to[1])]
+    #[error(
+        "mapping [{}, {}] to [{}, {}] exceeds the range of f64", from[0], from[1], to[0], to[1]
+    )]
     OutOfRange {
         /// The source interval.
         from: [f64; 2],

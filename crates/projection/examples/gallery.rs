@@ -1,14 +1,14 @@
-//! A house in every planar projection of the textbooks, drawn in text characters.
+//! Draws a house in every planar projection of the textbooks, as text.
 //!
 //! ```text
 //! cargo run -p alberti-projection --example gallery
 //! ```
 //!
-//! Walks the classification tree and draws the edges of a small house in a typical projection of
-//! each leaf. Questions to ask: in which pictures do parallel edges stay parallel, which edges keep
-//! their length, and how many vanishing points are there?
+//! The program walks the classification tree and draws the edges of a small house in a typical
+//! projection for each leaf. Questions to ask: in which pictures do parallel edges stay parallel,
+//! which edges keep their length, and how many vanishing points are there?
 
-#![allow(clippy::print_stdout, reason = "an example speaks on its standard output")]
+#![allow(clippy::print_stdout, reason = "the example prints its results")]
 
 use homog::Point;
 use projection::{
@@ -16,7 +16,8 @@ use projection::{
     principal_vanishing_points,
 };
 
-/// The corners of the house: x right, y up, z toward the viewer. The ridge runs along z.
+/// The corners of the house, with x to the right, y up and z toward the viewer. The ridge runs
+/// along z.
 const CORNERS: [[f64; 3]; 10] = [
     [-1.0, -1.0, 1.0],
     [1.0, -1.0, 1.0],
@@ -47,7 +48,7 @@ fn main() -> Result<(), ProjectionError> {
     Ok(())
 }
 
-/// The picture: view space to clip space, divide, then to rows and columns.
+/// Draws the picture: maps view space to clip space, divides, and converts to rows and columns.
 fn draw(projection: Classical) -> Result<String, ProjectionError> {
     let volume = Orthographic::new(-3.3, 3.3, -2.2, 2.75, -4.0, 4.0)?;
     let view_to_clip = projection.view_to_clip(volume, Convention::CHAPTER)?;
@@ -66,7 +67,7 @@ fn draw(projection: Classical) -> Result<String, ProjectionError> {
     Ok(canvas.into_iter().map(|row| row.into_iter().collect::<String>() + "\n").collect())
 }
 
-/// Characters along the straight line between two points.
+/// Draws characters along the straight line between two points.
 fn line(canvas: &mut [Vec<char>], start: (f64, f64), end: (f64, f64), letter: char) {
     const STEPS: u32 = 200;
     for i in 0..=STEPS {

@@ -1,10 +1,11 @@
-//! The apex-moved frustum of the WebGL lesson: similar parameters to glFrustum, but another map.
+//! The apex-moved frustum of the WebGL lesson: similar parameters to glFrustum, but a different
+//! map.
 //!
 //! ```text
 //!   Frustum                    ApexMovedFrustum
 //!              window                     window
 //!               ┐                          ┐
-//!   eye ●───────┤ seen at            ●─────┤  the apex stands right behind the
+//!   eye ●───────┤ seen at            ●─────┤  the apex is directly behind the
 //!               ┘ an angle                 ┘  window's center, beside the eye
 //! ```
 //!
@@ -37,8 +38,8 @@ pub struct ApexMovedFrustum {
     about_apex: Frustum,
 }
 
-/// The four steps of the lesson, in the order in which a point passes them. Their product is the
-/// matrix (C66).
+/// The four steps of the lesson, in the order in which a point passes through them. Their product
+/// is the matrix (C66).
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct ApexMovedSteps {
@@ -47,18 +48,19 @@ pub struct ApexMovedSteps {
     /// Eq7, with the 0 missing at the end of its last row (M14): maps the depth and sets w to the
     /// distance.
     pub map_depth: Projective<View, View>,
-    /// Eq3: projects x and y onto the near plane by multiplying them with near.
+    /// Eq3: projects x and y onto the near plane by multiplying them by near.
     pub project: Affine<View, View>,
     /// Eq6: scales the window to 2 × 2.
     pub scale_window: Affine<View, Clip>,
 }
 
 impl ApexMovedFrustum {
-    /// The frustum from the apex ((left + right)/2, (bottom + top)/2, 0) through the window on the
-    /// near plane.
+    /// Creates the frustum from the apex ((left + right)/2, (bottom + top)/2, 0) through the window
+    /// on the near plane.
     ///
     /// # Errors
-    /// As for [`Frustum::new`]; also, the far plane of the lesson must be finite.
+    /// Returns the errors of [`Frustum::new`], and an error if `far` is infinite, which the lesson
+    /// does not support.
     pub fn new(
         left: f64,
         right: f64,
@@ -71,57 +73,59 @@ impl ApexMovedFrustum {
         check_finite("far", far)?;
         let centered = Window::centered(window.width(), window.height())?;
         Frustum::from_window(window, near, far)?;
-        // The lesson scales the window by itself, not together with near.
+        // The lesson scales the window separately, not together with near.
         centered.window_fit(1.0)?;
         Ok(Self { window, about_apex: Frustum::from_window(centered, near, far)? })
     }
 
-    /// The window on the near plane.
+    /// Returns the window on the near plane.
     #[must_use]
     pub const fn window(self) -> Window {
         self.window
     }
 
-    /// The distance of the near plane.
+    /// Returns the distance of the near plane.
     #[must_use]
     pub const fn near(self) -> f64 {
         self.about_apex.near()
     }
 
-    /// The distance of the far plane.
+    /// Returns the distance of the far plane.
     #[must_use]
     pub const fn far(self) -> f64 {
         self.about_apex.far()
     }
 
-    /// The position from which the picture looks correct.
+    /// Returns the position from which the picture looks correct.
     #[must_use]
     pub fn apex(self) -> Point<View> {
         let (x, y) = self.window.center();
         Point::new(x, y, 0.0)
     }
 
-    /// The centered frustum as seen from the apex.
+    /// Returns the centered frustum as seen from the apex.
     #[must_use]
     pub const fn about_apex(self) -> Frustum {
         self.about_apex
     }
 
-    /// The projection matrix: move the apex to the origin, then the centered frustum.
+    /// Returns the projection matrix, which moves the apex to the origin and then applies the
+    /// centered frustum.
     #[must_use]
     pub fn view_to_clip(self, convention: Convention) -> Projective<View, Clip> {
         let to_apex = Affine::<View, View>::translation(Point::ORIGIN - self.apex());
         to_apex.then_project(self.about_apex.view_to_clip(convention))
     }
 
-    /// Its inverse in closed form.
+    /// Returns the inverse of [`view_to_clip`](Self::view_to_clip) in closed form.
     #[must_use]
     pub fn clip_to_view(self, convention: Convention) -> Projective<Clip, View> {
         let from_apex = Affine::<View, View>::translation(self.apex() - Point::ORIGIN);
         self.about_apex.clip_to_view(convention).then(from_apex)
     }
 
-    /// The lesson's equations 2, 7, 3 and 6 as factors of the matrix, for the given convention.
+    /// Returns the lesson's equations 2, 7, 3 and 6 as factors of the matrix, in the given
+    /// convention.
     #[must_use]
     pub fn steps(self, convention: Convention) -> ApexMovedSteps {
         let near = self.near();

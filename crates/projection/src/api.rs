@@ -1,9 +1,10 @@
-//! Builders under the names that graphics interfaces use.
+//! Builders under the names used by graphics APIs.
 //!
-//! All take distances and return only the matrix. They reject an infinite `far` if the formula
-//! needs a finite one. Each is one line over [`Frustum`], [`Perspective`] or [`Orthographic`] with
-//! its [`Convention`]. `fovy` is in radians (M19), `aspect` is width / height. `lh`: looks
-//! along +z; `zo`: depth from zero to one; `rev`: near at 1; `inf`: no far plane.
+//! All accept distances and return only the matrix. They reject an infinite `far` if the formula
+//! needs a finite one. Each is a one-line wrapper around [`Frustum`], [`Perspective`] or
+//! [`Orthographic`] with its [`Convention`]. `fovy` is in radians (M19), and `aspect` is width /
+//! height. In the names, `lh` means that the camera looks along +z, `zo` that depth is from zero to
+//! one, `rev` that near is at 1, and `inf` that there is no far plane.
 //!
 //! ```
 //! use projection::{Convention, Frustum, api};
@@ -98,54 +99,55 @@ macro_rules! by_angle {
 }
 
 by_window! {
-    /// GL-1, glFrustum (C91): right-handed, near at −1, far at +1.
+    /// Builds glFrustum (GL-1, C91): right-handed, near at −1, far at +1.
     frustum_gl, Convention::OPENGL
 }
 by_window! {
-    /// D3D-4: right-handed, near at 0, far at 1.
+    /// Builds D3D-4: right-handed, near at 0, far at 1.
     frustum_rh_zo, ZERO_ONE_RH
 }
 by_window! {
-    /// D3D-3: left-handed, near at 0, far at 1.
+    /// Builds D3D-3: left-handed, near at 0, far at 1.
     frustum_lh_zo, ZERO_ONE_LH
 }
 by_box! {
-    /// GL-3, glOrtho and `MV.js` ortho (C90): right-handed, near at −1, far at +1.
+    /// Builds glOrtho and the `ortho` of `MV.js` (GL-3, C90): right-handed, near at −1, far at +1.
     ortho_gl, Convention::OPENGL
 }
 by_box! {
-    /// D3D-6: right-handed, near at 0, far at 1.
+    /// Builds D3D-6: right-handed, near at 0, far at 1.
     ortho_rh_zo, ZERO_ONE_RH
 }
 by_box! {
-    /// D3D-5: left-handed, near at 0, far at 1.
+    /// Builds D3D-5: left-handed, near at 0, far at 1.
     ortho_lh_zo, ZERO_ONE_LH
 }
 by_angle! {
-    /// GL-2 and LW-2: gluPerspective, `MV.js` perspective, createPerspective (C92).
+    /// Builds gluPerspective, the `perspective` of `MV.js`, and createPerspective
+    /// (GL-2, LW-2, C92).
     perspective_gl, Convention::OPENGL
 }
 by_angle! {
-    /// D3D-2: right-handed, near at 0, far at 1.
+    /// Builds D3D-2: right-handed, near at 0, far at 1.
     perspective_rh_zo, ZERO_ONE_RH
 }
 by_angle! {
-    /// D3D-1: D3DXMatrixPerspectiveFovLH (C60), for column vectors.
+    /// Builds D3DXMatrixPerspectiveFovLH (D3D-1, C60), for column vectors.
     perspective_lh_zo, ZERO_ONE_LH
 }
 by_angle! {
-    /// RV-1: right-handed, near at 1, far at 0.
+    /// Builds RV-1: right-handed, near at 1, far at 0.
     perspective_rh_zo_rev, ZERO_ONE_RH.reversed()
 }
 by_angle! {
-    /// IF-1: right-handed, near at −1, infinity at +1.
+    /// Builds IF-1: right-handed, near at −1, infinity at +1.
     perspective_gl_inf, Convention::OPENGL, infinite
 }
 by_angle! {
-    /// IF-2: right-handed, near at 0, infinity at 1.
+    /// Builds IF-2: right-handed, near at 0, infinity at 1.
     perspective_rh_zo_inf, ZERO_ONE_RH, infinite
 }
 by_angle! {
-    /// IF-3: right-handed, near at 1, infinity at 0: depth = near/distance.
+    /// Builds IF-3: right-handed, near at 1, infinity at 0: depth = near/distance.
     perspective_rh_zo_rev_inf, ZERO_ONE_RH.reversed(), infinite
 }

@@ -1,4 +1,5 @@
-//! Axonometric projection: orthographic onto a plane parallel to no principal face (AX-1; C76).
+//! Axonometric projection: orthographic projection onto a plane that is not parallel to any
+//! principal face (AX-1; C76).
 //!
 //! ```text
 //!      isometric 1:1:1        dimetric 42°/7°  1:1:½      trimetric
@@ -9,7 +10,7 @@
 //! ```
 //!
 //! The object is rotated by −α about y and then by β about x until the normal of the plane points
-//! at the viewer; then z is dropped. A unit along an axis at angle γ to the plane shrinks to cos γ.
+//! at the viewer. Then z is dropped. A unit along an axis at angle γ to the plane shrinks to cos γ.
 //! The squares of the three ratios sum to 2.
 
 use crate::ProjectionError;
@@ -17,7 +18,8 @@ use crate::error::{check_finite, check_positive};
 use crate::matrix::check_representable;
 use homog::{Affine, Normal, Point, Vector, View};
 
-/// An axonometric projection; [`foreshortening`](Self::foreshortening) gives its kind.
+/// An axonometric projection. Its [`kind`](Self::kind) depends on its
+/// [`foreshortening`](Self::foreshortening).
 ///
 /// ```
 /// use projection::{Axonometric, AxonometricKind};
@@ -36,18 +38,18 @@ pub struct Axonometric {
 /// Kinds of axonometric projections, by the number of equally foreshortened axes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum AxonometricKind {
-    /// All three equal.
+    /// All three axes are foreshortened equally.
     Isometric,
-    /// Two equal.
+    /// Two axes are foreshortened equally.
     Dimetric,
-    /// All different.
+    /// All three axes are foreshortened differently.
     Trimetric,
     /// An axis is perpendicular to the plane: a principal view, possibly rotated.
     Multiview,
 }
 
 impl Axonometric {
-    /// The projection that rotates by −`alpha` about y, then by `beta` about x, in radians.
+    /// Returns the projection that rotates by −`alpha` about y, then by `beta` about x, in radians.
     ///
     /// # Errors
     /// Returns an error if an angle is not finite.
@@ -57,8 +59,8 @@ impl Axonometric {
         Ok(Self { alpha, beta, origin: Point::ORIGIN })
     }
 
-    /// The projection onto the plane whose normal points to the viewer; y stays vertical. For a
-    /// normal along ±y, α is 0.
+    /// Returns the projection onto the plane with this normal, which points to the viewer. The y
+    /// axis stays vertical. For a normal along ±y, α is 0.
     ///
     /// # Errors
     /// Returns an error if the normal is zero or not finite.
@@ -73,8 +75,8 @@ impl Axonometric {
         Self::by_angles(alpha, libm::atan2(unit.y, level))
     }
 
-    /// The projection that foreshortens the x, y and z axes as x : y : z, seen from the octant of
-    /// positive axes.
+    /// Returns the projection that foreshortens the x, y and z axes as x : y : z, seen from the
+    /// octant of positive axes.
     ///
     /// The ratios may have any common factor. The square of each must not exceed the sum of the
     /// squares of the other two.
@@ -100,16 +102,17 @@ impl Axonometric {
         Self::by_normal(Normal::new(nx, ny, nz))
     }
 
-    /// All axes equal: α = 45°, sin β = 1/√3.
+    /// Returns the isometric projection, which foreshortens all axes equally: α = 45°, sin β =
+    /// 1/√3.
     #[must_use]
     pub fn isometric() -> Self {
         let beta = libm::atan(core::f64::consts::FRAC_1_SQRT_2);
         Self { alpha: core::f64::consts::FRAC_PI_4, beta, origin: Point::ORIGIN }
     }
 
-    /// The dimetric projection of engineering drawing (ISO 5456-3): x and y in full, z halved. In
-    /// the drawing, the z axis is at 41.4° (called 42°) and the x axis at 7.2° (called 7°) to the
-    /// horizontal.
+    /// Returns the dimetric projection of engineering drawing (ISO 5456-3), with x and y at full
+    /// length and z at half length. In the drawing, the z axis is at 41.4° (called 42°) and the x
+    /// axis at 7.2° (called 7°) to the horizontal.
     #[must_use]
     pub fn dimetric_42_7() -> Self {
         // The normal is (1, 1, √7)/3.
@@ -117,7 +120,7 @@ impl Axonometric {
         Self { alpha, beta: libm::asin(1.0 / 3.0), origin: Point::ORIGIN }
     }
 
-    /// This projection with `origin` mapped to the origin of the picture.
+    /// Returns this projection with `origin` mapped to the origin of the picture.
     ///
     /// # Errors
     /// Returns an error if the origin is not finite.
@@ -130,25 +133,25 @@ impl Axonometric {
         Ok(moved)
     }
 
-    /// α, the rotation about y, in radians.
+    /// Returns α, the rotation about y, in radians.
     #[must_use]
     pub const fn alpha(self) -> f64 {
         self.alpha
     }
 
-    /// β, the rotation about x, in radians.
+    /// Returns β, the rotation about x, in radians.
     #[must_use]
     pub const fn beta(self) -> f64 {
         self.beta
     }
 
-    /// The point that maps to the origin of the picture.
+    /// Returns the point that maps to the origin of the picture.
     #[must_use]
     pub const fn origin(self) -> Point<View> {
         self.origin
     }
 
-    /// The images of the unit vectors of the axes as columns; the third row is the depth.
+    /// Returns the images of the unit vectors of the axes as columns; the third row is the depth.
     fn axes(self) -> [Vector<View>; 3] {
         let (sin_a, cos_a) = libm::sincos(self.alpha);
         let (sin_b, cos_b) = libm::sincos(self.beta);
@@ -159,7 +162,8 @@ impl Axonometric {
         ]
     }
 
-    /// The rotated object with its depth: Rx(β) Ry(−α) T(−origin). Its z axis points to the viewer.
+    /// Returns the rotated object with its depth: Rx(β) Ry(−α) T(−origin). Its z axis points to the
+    /// viewer.
     #[must_use]
     pub fn depth_preserving(self) -> Affine<View, View> {
         let [x, y, z] = self.axes();
@@ -167,7 +171,8 @@ impl Axonometric {
         to_origin.then(Affine::from_frame(x, y, z, Point::ORIGIN))
     }
 
-    /// Its inverse: the transposed rotation, then the translation back.
+    /// Returns the inverse of [`depth_preserving`](Self::depth_preserving): the transposed
+    /// rotation, then the translation back.
     #[must_use]
     pub fn depth_preserving_inverse(self) -> Affine<View, View> {
         let [x, y, z] = self.axes().map(Vector::raw);
@@ -176,20 +181,21 @@ impl Axonometric {
         Affine::from_frame(to_x, to_y, to_z, self.origin)
     }
 
-    /// The classical projection: the rotated object with z dropped. Singular.
+    /// Returns the classical projection: the rotated object with z dropped. It is singular.
     #[must_use]
     pub fn onto_plane(self) -> Affine<View, View> {
         self.depth_preserving().then(Affine::scale(1.0, 1.0, 0.0))
     }
 
-    /// The lengths of the images of the unit vectors along x, y and z; their squares sum to 2.
+    /// Returns the lengths of the images of the unit vectors along x, y and z; their squares sum to
+    /// 2.
     #[must_use]
     pub fn foreshortening(self) -> [f64; 3] {
         self.axes().map(|axis| libm::hypot(axis.x(), axis.y()))
     }
 
-    /// The directions in which the x, y and z axes are drawn, in radians counterclockwise from the
-    /// right; `None` for an axis that appears as a point.
+    /// Returns the directions in which the x, y and z axes are drawn, in radians counterclockwise
+    /// from the right. An axis that appears as a point has the direction `None`.
     #[must_use]
     pub fn drawn_angles(self) -> [Option<f64>; 3] {
         self.axes().map(|axis| {
@@ -198,7 +204,7 @@ impl Axonometric {
         })
     }
 
-    /// The kind, with ratios compared to twelve digits.
+    /// Returns the kind, with ratios compared to twelve digits.
     #[must_use]
     pub fn kind(self) -> AxonometricKind {
         let [x, y, z] = self.foreshortening();

@@ -1,9 +1,9 @@
 //! The matrices P, M_orth and M_per of the textbook (Shirley and Marschner, ch. 8), with its signs
 //! and names.
 //!
-//! Here `n` and `f` are *z coordinates*, not distances: the camera looks along −z, hence 0 > n > f.
-//! Near maps to +1, far to −1. After P and M_per a visible point has w = z < 0. For clipping use
-//! [`m_per_positive`], the same map with the sign of w flipped (PE-3), which is
+//! Here `n` and `f` are *z coordinates*, not distances: the camera looks along −z, so 0 > n > f.
+//! Near maps to +1 and far to −1. After P and M_per, a visible point has w = z < 0. For clipping,
+//! use [`m_per_positive`], the same map with the sign of w flipped (PE-3), which is
 //! [`Convention::CHAPTER`].
 //!
 //! ```
@@ -21,7 +21,8 @@ use crate::matrix::{check_representable, from_rows};
 use crate::{Convention, Fov, Frustum, Orthographic, ProjectionError, Window};
 use homog::{Affine, Clip, Projective, View};
 
-/// P: keeps z on the planes z = n and z = f and divides x and y by z/n (PE-1; C22, C24).
+/// Returns P, which preserves z on the planes z = n and z = f and divides x and y by z/n (PE-1;
+/// C22, C24).
 ///
 /// ```text
 /// [ n 0  0    0  ]
@@ -31,7 +32,8 @@ use homog::{Affine, Clip, Projective, View};
 /// ```
 ///
 /// # Errors
-/// Returns an error if n or f is 0 or not finite, n = f, or they are on different sides of the eye.
+/// Returns an error if n or f is 0 or not finite, if n = f, or if they are on different sides of
+/// the eye.
 pub fn p(n: f64, f: f64) -> Result<Projective<View, View>, ProjectionError> {
     check_same_side(n, f)?;
     let rows =
@@ -40,7 +42,7 @@ pub fn p(n: f64, f: f64) -> Result<Projective<View, View>, ProjectionError> {
     Ok(Projective::from_raw(check_representable(from_rows(rows), "depth range")?))
 }
 
-/// The exact inverse of [`p`] (C25).
+/// Returns the exact inverse of [`p`] (C25).
 ///
 /// # Errors
 /// See [`p`].
@@ -56,7 +58,8 @@ pub fn p_inverse(n: f64, f: f64) -> Result<Projective<View, View>, ProjectionErr
     Ok(Projective::from_raw(check_representable(from_rows(rows), "depth range")?))
 }
 
-/// The inverse of [`p`] times nf, without fractions: the same projective map (exercise 6, M14).
+/// Returns the inverse of [`p`] times nf, without fractions: the same projective map (exercise 6,
+/// M14).
 ///
 /// # Errors
 /// See [`p`].
@@ -71,7 +74,7 @@ pub fn p_inverse_scaled(n: f64, f: f64) -> Result<Projective<View, View>, Projec
 fn check_same_side(n: f64, f: f64) -> Result<(), ProjectionError> {
     for (parameter, value) in [("n", n), ("f", f)] {
         if check_finite(parameter, value)? == 0.0 {
-            let allowed = "a plane that does not pass through the eye";
+            let allowed = "nonzero, because the plane z = 0 passes through the eye";
             return Err(ProjectionError::OutOfRange { parameter, value, allowed });
         }
     }
@@ -85,7 +88,7 @@ fn check_same_side(n: f64, f: f64) -> Result<(), ProjectionError> {
     Ok(())
 }
 
-/// M_orth: the box [l, r] × [b, t] × [f, n] to [−1, 1]³ (OR-1; C7, C8).
+/// Returns M_orth, which maps the box [l, r] × [b, t] × [f, n] to [−1, 1]³ (OR-1; C7, C8).
 ///
 /// # Errors
 /// Returns an error if a number is not finite, two opposite sides coincide, or n > f does not hold.
@@ -101,7 +104,7 @@ pub fn m_orth(
     Affine::from_raw(raw).ok_or(ProjectionError::Unrepresentable { what: "box" })
 }
 
-/// The inverse of [`m_orth`].
+/// Returns the inverse of [`m_orth`].
 ///
 /// # Errors
 /// See [`m_orth`].
@@ -132,7 +135,8 @@ fn signed_box(
     Ok(volume)
 }
 
-/// M_per = M_orth P as in the textbook: w = z, negative in front of the eye (PE-2; C27, C29).
+/// Returns M_per = M_orth P as in the textbook, with w = z, which is negative in front of the eye
+/// (PE-2; C27, C29).
 ///
 /// # Errors
 /// Returns an error if a number is not finite, the window on z = n is empty, or 0 > n > f does not
@@ -148,7 +152,8 @@ pub fn m_per(
     Ok(Projective::from_raw(-m_per_positive(l, r, b, t, n, f)?.raw()))
 }
 
-/// −M_per: the same map as [`m_per`] with w = −z, positive in front of the eye (PE-3).
+/// Returns −M_per, the same map as [`m_per`] but with w = −z, which is positive in front of the eye
+/// (PE-3).
 ///
 /// # Errors
 /// See [`m_per`].
@@ -163,7 +168,7 @@ pub fn m_per_positive(
     Ok(signed_frustum(l, r, b, t, n, f)?.view_to_clip(Convention::CHAPTER))
 }
 
-/// The inverse of [`m_per`].
+/// Returns the inverse of [`m_per`].
 ///
 /// # Errors
 /// See [`m_per`].
@@ -189,15 +194,15 @@ fn signed_frustum(
 ) -> Result<Frustum, ProjectionError> {
     for (parameter, value) in [("n", n), ("f", f)] {
         if check_finite(parameter, value)? >= 0.0 {
-            let allowed = "below 0, since the camera looks along −z";
+            let allowed = "below 0, because the camera looks along −z";
             return Err(ProjectionError::OutOfRange { parameter, value, allowed });
         }
     }
     Frustum::new(l, r, b, t, -n, -f)
 }
 
-/// The window on z = n for a vertical field of view `theta` and an image of nx × ny square pixels
-/// (FOV-1, C33): t = |n| tan(θ/2), r = t nx/ny.
+/// Returns the window on z = n for a vertical field of view `theta` and an image of nx × ny square
+/// pixels (FOV-1, C33): t = |n| tan(θ/2), r = t nx/ny.
 ///
 /// # Errors
 /// Returns an error if theta is not between 0 and π, nx or ny is not above 0, n is not below 0, or
@@ -211,8 +216,8 @@ pub fn window_from_fov(theta: f64, nx: f64, ny: f64, n: f64) -> Result<Window, P
     Window::new(-right, right, -top, top)
 }
 
-/// The vertical field of view of the symmetric window whose top edge is at `t` on z = n: θ = 2
-/// atan(t/|n|) (FOV-1).
+/// Returns the vertical field of view of the symmetric window whose top edge is at `t` on z = n: θ
+/// = 2 atan(t/|n|) (FOV-1).
 ///
 /// # Errors
 /// Returns an error if t is not above 0, n is not below 0, or either is not finite.

@@ -1,8 +1,8 @@
 //! Any classical projection, ready to render.
 //!
 //! The classical projections drop z: their matrices are singular and cannot decide visibility. With
-//! depth kept and a view volume around the object, each becomes an ordinary matrix from view space
-//! to clip space (PR-1, C89).
+//! depth preserved and a view volume around the object, each becomes an ordinary matrix from view
+//! space to clip space (PR-1, C89).
 
 use crate::{
     Axonometric, Convention, NPoint, Oblique, Orthographic, Planometric, PrincipalView,
@@ -25,18 +25,18 @@ use homog::{Affine, Clip, Projective, Space, View};
 pub enum Classical {
     /// A principal view.
     Multiview(PrincipalView),
-    /// Orthographic onto an inclined plane.
+    /// An orthographic projection onto an inclined plane.
     Axonometric(Axonometric),
-    /// Parallel, oblique to the plane z = const.
+    /// A parallel projection, oblique to the plane z = const.
     Oblique(Oblique),
-    /// Parallel, oblique to the ground.
+    /// A parallel projection, oblique to the ground.
     Planometric(Planometric),
-    /// Central.
+    /// A central projection.
     NPoint(NPoint),
 }
 
 impl Classical {
-    /// The singular matrix of the textbook: z is dropped.
+    /// Returns the singular matrix of the textbook, which drops z.
     #[must_use]
     pub fn onto_plane(self) -> Projective<View, View> {
         match self {
@@ -50,7 +50,8 @@ impl Classical {
         }
     }
 
-    /// The depth-preserving variant: x and y as in the picture, and larger z nearer to the viewer.
+    /// Returns the depth-preserving variant, in which x and y are as in the picture and points with
+    /// larger z are nearer to the viewer.
     #[must_use]
     pub fn depth_preserving(self) -> Projective<View, View> {
         match self {
@@ -62,7 +63,7 @@ impl Classical {
         }
     }
 
-    /// The inverse of [`depth_preserving`](Self::depth_preserving), in closed form.
+    /// Returns the inverse of [`depth_preserving`](Self::depth_preserving), in closed form.
     #[must_use]
     pub fn depth_preserving_inverse(self) -> Projective<View, View> {
         match self {
@@ -77,7 +78,7 @@ impl Classical {
         }
     }
 
-    /// The complete projection.
+    /// Returns the complete projection.
     ///
     /// `volume` is the visible part of the picture. Its window is in the picture plane, and near
     /// and far are measured from that plane away from the viewer. For perspectives they are
@@ -96,7 +97,7 @@ impl Classical {
         check_finite_map(right_handed.convert(convention, self.depth_preserving().then(fit)))
     }
 
-    /// The inverse of [`view_to_clip`](Self::view_to_clip), in closed form.
+    /// Returns the inverse of [`view_to_clip`](Self::view_to_clip), in closed form.
     ///
     /// # Errors
     /// See [`view_to_clip`](Self::view_to_clip).
@@ -113,7 +114,7 @@ impl Classical {
         check_finite_map(inverse.then(turn))
     }
 
-    /// The box of the picture after the divide.
+    /// Returns the box of the picture after the divide.
     fn picture_box(self, volume: Orthographic) -> Result<Orthographic, ProjectionError> {
         let Self::NPoint(perspective) = self else { return Ok(volume) };
         let image = |parameter, distance: f64| {

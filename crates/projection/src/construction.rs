@@ -2,15 +2,15 @@
 //!
 //! ```text
 //!   three points:  the principal point is the orthocenter of their triangle,
-//!                  the eye's distance from it the height of the box corner above the triangle
-//!   two points:    the principal point lies on the horizon between them,
-//!                  the eye on the half circle over them
+//!                  the eye's distance from it is the height of the box corner above the triangle
+//!   two points:    the principal point is on the horizon between them,
+//!                  and the eye is on the semicircle over them
 //!   one point:     the principal point is the vanishing point
 //!
 //!   VP x ●──────────────┼──────● VP z     horizon
 //!         ╲      principal   ╱
 //!            ╲             ╱              d² = −(VPx − P)·(VPz − P)
-//!               ╲___●___╱  eye, turned down into the picture plane
+//!               ╲___●___╱  eye, rotated into the picture plane
 //! ```
 
 use crate::error::{check_finite, check_positive};
@@ -18,7 +18,7 @@ use crate::{Frustum, ProjectionError, Window};
 use glam::DVec2;
 use homog::{Affine, Point, Vector, View, World};
 
-/// The eye and the orientation of the world that give three axes the chosen vanishing points.
+/// The eye and the world orientation for which three axes have the chosen vanishing points.
 ///
 /// The picture plane is `distance` in front of the eye; positions on it are (x, y) in any unit and
 /// from any origin.
@@ -42,7 +42,8 @@ pub struct ConstructedPerspective {
 }
 
 impl ConstructedPerspective {
-    /// One-point perspective: lines along z meet at `z`, and the eye is `distance` in front of it.
+    /// Constructs a one-point perspective: lines along z meet at `z`, and the eye is `distance` in
+    /// front of it.
     ///
     /// # Errors
     /// Returns an error if a number is not finite or the distance is not above 0.
@@ -52,10 +53,10 @@ impl ConstructedPerspective {
         Ok(Self { principal, distance, axes: [Vector::X, Vector::Y, Vector::Z] })
     }
 
-    /// Two-point perspective: lines along x meet at `x`, lines along z at `z`, and y is parallel to
-    /// the picture plane.
+    /// Constructs a two-point perspective: lines along x meet at `x`, lines along z meet at `z`,
+    /// and y is parallel to the picture plane.
     ///
-    /// `fraction` is the position of the principal point between the two, 0 at `x` and 1 at `z`.
+    /// `fraction` is the position of the principal point between the two: 0 at `x`, 1 at `z`.
     ///
     /// # Errors
     /// Returns an error if a number is not finite, the points coincide, or the fraction is not
@@ -87,7 +88,7 @@ impl ConstructedPerspective {
         Self::oriented(principal, distance, up, gaze_into_picture(z - principal, distance)?)
     }
 
-    /// Three-point perspective: lines along x, y and z meet at the three given points.
+    /// Constructs a three-point perspective: lines along x, y and z meet at the three given points.
     ///
     /// # Errors
     /// Returns an error if a number is not finite or the points do not form an acute triangle.
@@ -102,7 +103,7 @@ impl ConstructedPerspective {
         );
         let z = check_picture_point("vanishing point of z", z)?;
         let impossible = |reason| ProjectionError::ImpossibleVanishingPoints { reason };
-        let principal = orthocenter(x, y, z).ok_or(impossible("they lie on one line"))?;
+        let principal = orthocenter(x, y, z).ok_or(impossible("they are collinear"))?;
         let [square_1, square_2, square_3] =
             [(x, y), (y, z), (z, x)].map(|(a, b)| -(a - principal).dot(b - principal));
         let square = (square_1 + square_2 + square_3) / 3.0;
@@ -115,7 +116,8 @@ impl ConstructedPerspective {
         Self::oriented(principal, distance, up, gaze_into_picture(z - principal, distance)?)
     }
 
-    /// Makes z point out of the picture and chooses the x that makes the world right-handed.
+    /// Creates the perspective with z pointing out of the picture and x chosen to make the world
+    /// right-handed.
     fn oriented(
         principal: DVec2,
         distance: f64,
@@ -130,27 +132,27 @@ impl ConstructedPerspective {
         Ok(Self { principal, distance, axes: [right, up, out] })
     }
 
-    /// The foot of the perpendicular from the eye to the picture plane.
+    /// Returns the foot of the perpendicular from the eye to the picture plane.
     #[must_use]
     pub fn principal_point(self) -> (f64, f64) {
         self.principal.into()
     }
 
-    /// The distance of the eye from the picture plane.
+    /// Returns the distance of the eye from the picture plane.
     #[must_use]
     pub const fn distance(self) -> f64 {
         self.distance
     }
 
-    /// The orientation of the world in front of the eye, which is at the world's origin.
+    /// Returns the orientation of the world in front of the eye, which is at the world's origin.
     #[must_use]
     pub fn world_to_view(self) -> Affine<World, View> {
         let [x, y, z] = self.axes;
         Affine::from_frame(x, y, z, Point::ORIGIN)
     }
 
-    /// The frustum through `window`, a part of the picture in the coordinates of the vanishing
-    /// points.
+    /// Returns the frustum through `window`, a part of the picture in the coordinates of the
+    /// vanishing points.
     ///
     /// # Errors
     /// Returns an error unless 0 < near < far.
@@ -178,7 +180,7 @@ fn is_usable_distance(distance: f64) -> bool {
     (1e-140..1e140).contains(&distance)
 }
 
-/// The unit direction from the eye to a point of the picture plane.
+/// Returns the unit direction from the eye to a point of the picture plane.
 fn gaze_into_picture(
     from_principal: DVec2,
     distance: f64,
@@ -187,7 +189,7 @@ fn gaze_into_picture(
     direction.normalized().ok_or(ProjectionError::Unrepresentable { what: "vanishing point" })
 }
 
-/// The orthocenter of the triangle; `None` if it is flat.
+/// Returns the orthocenter of the triangle, or `None` if the corners are collinear.
 fn orthocenter(a: DVec2, b: DVec2, c: DVec2) -> Option<DVec2> {
     // (h − a)·(c − b) = 0 and (h − b)·(a − c) = 0
     let (u, v) = (c - b, a - c);

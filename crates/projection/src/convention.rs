@@ -1,4 +1,4 @@
-//! Conventions: the direction the camera looks in and the extent of clip space.
+//! Conventions: the viewing direction of the camera and the extent of clip space.
 //!
 //! ```text
 //!  convention      looks along   NDC y   near at   far at
@@ -10,8 +10,8 @@
 //! ```
 //!
 //! All have w > 0 in front of the eye. A projection is described once, without a convention, and
-//! can be written as a matrix in any of them. [`Convention::convert`] converts matrices from
-//! elsewhere.
+//! can be written as a matrix in any of them. [`Convention::convert`] converts matrices from other
+//! sources.
 
 use crate::ProjectionError;
 use glam::DMat4;
@@ -29,7 +29,7 @@ pub enum Handedness {
 /// The layout of view space and clip space (C30, C100).
 ///
 /// # Guarantees
-/// Both depths lie in [−1, 1] and are at least 10⁻⁶ apart.
+/// Both depths are in [−1, 1] and at least 10⁻⁶ apart.
 ///
 /// ```
 /// use projection::Convention;
@@ -50,56 +50,56 @@ impl Convention {
     pub const OPENGL: Self = Self::new(Handedness::Right, ClipRange::OPENGL);
     /// Vulkan: y down, near at 0, far at 1.
     pub const VULKAN: Self = Self::new(Handedness::Right, ClipRange::VULKAN);
-    /// Direct3D as in its helper library (D3D-1): left-handed, near at 0, far at 1.
+    /// Direct3D as used by its helper library (D3D-1): left-handed, near at 0, far at 1.
     pub const DIRECT3D: Self = Self::new(Handedness::Left, ClipRange::ZERO_ONE);
     /// Metal with a right-handed view space: near at 0, far at 1.
     pub const METAL: Self = Self::new(Handedness::Right, ClipRange::ZERO_ONE);
     /// WebGPU with a right-handed view space (D3D-2): near at 0, far at 1.
     pub const WEBGPU: Self = Self::METAL;
 
-    /// The convention with the given handedness and clip range.
+    /// Creates a convention from its handedness and clip range.
     #[must_use]
     pub const fn new(handedness: Handedness, range: ClipRange) -> Self {
         Self { handedness, range }
     }
 
-    /// The extent of clip space: pass it to the viewport and to the clip volume.
+    /// Returns the extent of clip space: pass it to the viewport and to the clip volume.
     #[must_use]
     pub const fn range(self) -> ClipRange {
         self.range
     }
 
-    /// This convention with the near and far depths exchanged (reversed z).
+    /// Returns this convention with the near and far depths exchanged (reversed z).
     #[must_use]
     pub const fn reversed(self) -> Self {
         Self { range: self.range.reversed(), ..self }
     }
 
-    /// This convention for a view space that looks along −z.
+    /// Returns this convention for a view space that looks along −z.
     #[must_use]
     pub const fn right_handed(self) -> Self {
         self.with_handedness(Handedness::Right)
     }
 
-    /// This convention for a view space that looks along +z.
+    /// Returns this convention for a view space that looks along +z.
     #[must_use]
     pub const fn left_handed(self) -> Self {
         self.with_handedness(Handedness::Left)
     }
 
-    /// This convention with the given handedness of view space.
+    /// Returns this convention with the given handedness of view space.
     #[must_use]
     pub const fn with_handedness(self, handedness: Handedness) -> Self {
         Self { handedness, ..self }
     }
 
-    /// This convention with the given direction of y after the divide.
+    /// Returns this convention with the given direction of y after the divide.
     #[must_use]
     pub const fn with_ndc_y(self, ndc_y: NdcY) -> Self {
         Self { range: self.range.with_y(ndc_y), ..self }
     }
 
-    /// This convention with other depths for the near and far planes.
+    /// Returns this convention with different depths for the near and far planes.
     ///
     /// # Errors
     /// Returns an error unless both depths are in [−1, 1] and at least 10⁻⁶ apart.
@@ -107,31 +107,31 @@ impl Convention {
         Ok(Self { range: self.range.with_depths(near_depth, far_depth)?, ..self })
     }
 
-    /// The handedness of view space.
+    /// Returns the handedness of view space.
     #[must_use]
     pub const fn handedness(self) -> Handedness {
         self.handedness
     }
 
-    /// The direction of y after the divide.
+    /// Returns the direction of y after the divide.
     #[must_use]
     pub const fn ndc_y(self) -> NdcY {
         self.range.y()
     }
 
-    /// The depth after the divide of points on the near plane.
+    /// Returns the depth of the near plane after the divide.
     #[must_use]
     pub const fn near_depth(self) -> f64 {
         self.range.near_depth()
     }
 
-    /// The depth after the divide of points on the far plane.
+    /// Returns the depth of the far plane after the divide.
     #[must_use]
     pub const fn far_depth(self) -> f64 {
         self.range.far_depth()
     }
 
-    /// The z of a view-space point at distance 1 in front of the eye: −1 or +1.
+    /// Returns the z of a view-space point at distance 1 in front of the eye: −1 or +1.
     #[must_use]
     pub const fn ahead(self) -> f64 {
         match self.handedness {
@@ -140,7 +140,7 @@ impl Convention {
         }
     }
 
-    /// The y coordinate of the window's top edge after the divide: +1 or −1.
+    /// Returns the y coordinate of the window's top edge after the divide: +1 or −1.
     #[must_use]
     pub const fn top(self) -> f64 {
         self.range.top()
@@ -149,8 +149,8 @@ impl Convention {
     /// Converts a projection matrix from this convention to `to`.
     ///
     /// Flips of y and z are exact. The depth is remapped linearly, which is exact between the
-    /// conventions of this module. View space gets the handedness of `to`: the same scene with its
-    /// z axis flipped.
+    /// conventions of this module. View space gets the handedness of `to`: it is the same scene
+    /// with its z axis flipped.
     ///
     /// ```
     /// use projection::{Convention, Fov, Perspective};
@@ -174,8 +174,8 @@ impl Convention {
         Projective::from_raw(columns)
     }
 
-    /// The map from this convention's clip space to the clip space of `to`. It changes only y and
-    /// depth, because view space stays the same.
+    /// Returns the map from this convention's clip space to the clip space of `to`. It changes only
+    /// y and depth, because view space stays the same.
     #[must_use]
     pub fn clip_to_clip(self, to: Self) -> Projective<Clip, Clip> {
         let (factor, offset) = self.depth_remap(to);
@@ -186,7 +186,7 @@ impl Convention {
         Projective::from_raw(map)
     }
 
-    /// The factor and offset of the linear map between the depths of two conventions.
+    /// Returns the factor and offset of the linear map between the depths of two conventions.
     fn depth_remap(self, to: Self) -> (f64, f64) {
         let length = self.far_depth() - self.near_depth();
         let factor = (to.far_depth() - to.near_depth()) / length;

@@ -8,12 +8,13 @@
 //!        unrotated    → orthographic                  at the origin, unrotated → frustum
 //!        rotated      → axonometric, placed           beside it, centered     → apex moved (LW-1)
 //!      z in x and y   → oblique                       anywhere, rotated      → placed
-//!      no inverse     → classical: the center is what the matrix sends to nothing
+//!      no inverse     → classical: the center is the null vector of the matrix
 //! ```
 //!
 //! A matrix and its multiples are the same map, so a common factor is removed first and reported. A
 //! matrix does not identify its convention: the OpenGL matrix of (N, F) is the zero-to-one matrix
-//! of (2FN/(F+N), F). Therefore the caller must name one; [`readings`] tries the named ones.
+//! of (2FN/(F+N), F). Therefore the caller must specify one; [`readings`] tries all named
+//! conventions.
 
 use crate::placement::{self, Placement};
 use crate::{
@@ -51,11 +52,11 @@ pub enum Decomposed {
     },
     /// An axis-aligned box.
     Orthographic(Orthographic),
-    /// A classical projection with depth kept, and its visible volume.
+    /// A depth-preserving classical projection, and its view volume.
     Classical {
         /// The projection.
         projection: Classical,
-        /// The window on the picture, and near and far.
+        /// The window on the picture, and the near and far planes.
         volume: Orthographic,
     },
     /// An orthographic projection whose rotation is not axonometric: a camera and a box in one
@@ -66,12 +67,12 @@ pub enum Decomposed {
         /// The box.
         volume: Orthographic,
     },
-    /// The bare map of an n-point perspective with depth kept, without a view volume.
+    /// The depth-preserving map of an n-point perspective, without a view volume.
     NPoint(NPoint),
     /// A classical projection that drops a dimension: singular.
     Flat {
-        /// The center of projection: the null vector of the matrix. w = 0 if the projectors are
-        /// parallel.
+        /// The center of projection, which is the null vector of the matrix. Its w is 0 if the
+        /// projectors are parallel.
         center: HPoint<View>,
         /// The projection, if it drops z in one of the known ways.
         projection: Option<Classical>,
@@ -91,7 +92,7 @@ pub struct Decomposition {
 }
 
 impl Decomposition {
-    /// Whether the parts not checked by a builder are finite.
+    /// Returns whether the parts that were not checked by a builder are finite.
     fn is_finite(&self) -> bool {
         let kind = match self.kind {
             Decomposed::PlacedFrustum { placement, .. }
@@ -113,9 +114,9 @@ pub enum DecomposeError {
     /// An entry is NaN or infinite.
     #[error("the entry in row {row}, column {column} is not a finite number")]
     NotFinite {
-        /// Counted from 0.
+        /// The row, counted from 0.
         row: usize,
-        /// Counted from 0.
+        /// The column, counted from 0.
         column: usize,
     },
     /// More than one dimension is lost.
@@ -131,8 +132,10 @@ pub enum DecomposeError {
          no supported projection has this shear"
     )]
     Sheared,
-    /// Near and far make no sense in this convention.
-    #[error("in this convention near and far would be {near} and {far}; allowed: 0 < near < far")]
+    /// The near and far planes are invalid in this convention.
+    #[error(
+        "in this convention, near and far would be {near} and {far}, but 0 < near < far is required"
+    )]
     DepthRange {
         /// The distance that the matrix maps to the near depth.
         near: f64,
@@ -144,7 +147,7 @@ pub enum DecomposeError {
     Refused(#[from] ProjectionError),
 }
 
-/// The projection with this matrix (column vectors) in the given convention.
+/// Returns the projection that has this matrix (for column vectors) in the given convention.
 ///
 /// ```
 /// use projection::{Convention, Decomposed, Frustum, decompose};
@@ -192,7 +195,7 @@ fn decompose_recognized(
     decompose_central(matrix, convention)
 }
 
-/// Every named convention in which the matrix makes sense, with the resulting projection.
+/// Returns every named convention in which the matrix is a valid projection, with that projection.
 pub fn readings(
     view_to_clip: Projective<View, Clip>,
 ) -> impl Iterator<Item = (Convention, Decomposition)> {
@@ -221,7 +224,7 @@ fn check_finite(matrix: DMat4) -> Result<(), DecomposeError> {
     Ok(())
 }
 
-/// The identity with (p, q, r, 1) as bottom row, up to a factor.
+/// Recognizes the identity with (p, q, r, 1) as its bottom row, up to a factor.
 fn bare_npoint(matrix: DMat4) -> Option<(NPoint, f64)> {
     let factor = matrix.w_axis.w;
     let unit = matrix * (1.0 / factor);
@@ -230,7 +233,7 @@ fn bare_npoint(matrix: DMat4) -> Option<(NPoint, f64)> {
     Some((NPoint::new(p, q, r).ok()?, factor)).filter(|_| bare)
 }
 
-/// Rank 3: the null vector is the center of projection.
+/// Decomposes a matrix of rank 3, whose null vector is the center of projection.
 fn decompose_onto_plane(matrix: DMat4, rank: usize) -> Result<Decomposition, DecomposeError> {
     let center = placement::null_vector(matrix)
         .filter(|_| rank == 3)
@@ -246,7 +249,7 @@ fn decompose_onto_plane(matrix: DMat4, rank: usize) -> Result<Decomposition, Dec
     })
 }
 
-/// The classical projection with these rows and z dropped.
+/// Returns the classical projection with these rows and z dropped.
 fn recognize_onto_plane(x: DVec4, y: DVec4, w: DVec4) -> Option<Classical> {
     if x == DVec4::X && y == DVec4::Y && w != DVec4::W {
         return NPoint::new(w.x, w.y, w.z).ok().map(Into::into).filter(|_| w.w == 1.0);
@@ -262,7 +265,7 @@ fn recognize_onto_plane(x: DVec4, y: DVec4, w: DVec4) -> Option<Classical> {
     upright_axonometric([x, y, x.cross(y)]).map(Into::into)
 }
 
-/// The axonometric projection whose rotation has these rows, if there is one.
+/// Returns the axonometric projection whose rotation has these rows, if any.
 fn upright_axonometric([x, y, z]: [DVec3; 3]) -> Option<Axonometric> {
     let axonometric = Axonometric::by_normal(Normal::from_raw(z)).ok()?;
     let turn = axonometric.depth_preserving().raw();
@@ -270,11 +273,11 @@ fn upright_axonometric([x, y, z]: [DVec3; 3]) -> Option<Axonometric> {
     (same(0, x) && same(1, y) && same(2, z)).then_some(axonometric)
 }
 
-/// w = 1 everywhere.
+/// Decomposes a parallel projection: w = 1 everywhere.
 fn decompose_parallel(matrix: DMat4, convention: Convention) -> Result<Decomposed, DecomposeError> {
     let mut columns = matrix;
     columns.z_axis *= -convention.ahead();
-    // From here on view space looks along −z.
+    // From here on, view space looks along −z.
     let (x, y, z) = (columns.row(0), columns.row(1) * convention.top(), columns.row(2));
     if placement::maps_axes_separately(x, y, z) {
         let volume = decompose_upright_box(x.x, x.w, y.y, y.w, (-z.z, z.w), convention)?;
@@ -289,7 +292,8 @@ fn decompose_parallel(matrix: DMat4, convention: Convention) -> Result<Decompose
     decompose_rotated_box([x, y, z], convention)
 }
 
-/// x' = ax x + tx, y' = ay y + ty, depth' = factor D + offset; `depth` holds the last two.
+/// Decomposes x' = ax x + tx, y' = ay y + ty, depth' = factor D + offset, where `depth` is
+/// (factor, offset).
 fn decompose_upright_box(
     ax: f64,
     tx: f64,
@@ -331,14 +335,14 @@ fn decompose_rotated_box(
     Ok(Decomposed::PlacedOrthographic { placement, volume })
 }
 
-/// w varies.
+/// Decomposes a central projection: w varies.
 fn decompose_central(
     matrix: DMat4,
     convention: Convention,
 ) -> Result<Decomposition, DecomposeError> {
     let mut columns = matrix;
     columns.z_axis *= -convention.ahead();
-    // From here on view space looks along −z and y points up.
+    // From here on, view space looks along −z and y points up.
     if convention.top() < 0.0 {
         columns = DMat4::from_diagonal(DVec4::new(1.0, -1.0, 1.0, 1.0)) * columns;
     }
@@ -351,7 +355,8 @@ fn decompose_central(
         Ok(Decomposition { kind: decompose_frustum(placement, convention)?, factor })
     };
     match with_factor(if unturned && last.z > 0.0 { -length } else { length }) {
-        // The sign of w is free: a rotated camera with w < 0 in front of it looks the other way.
+        // The sign of w is arbitrary: a rotated camera with w < 0 in front of it looks in the
+        // opposite direction.
         Err(DecomposeError::DepthRange { near, .. }) if near < 0.0 && !unturned => {
             with_factor(-length)
         }
@@ -381,15 +386,15 @@ fn decompose_frustum(
         .unwrap_or(Decomposed::PlacedFrustum { placement: found.as_affine(), frustum }))
 }
 
-/// The near plane of a depth row: z' = w · near depth there, where w is the distance −z.
+/// Returns the near plane of a depth row: z' = w · near depth there, where w is the distance −z.
 fn inclined_near_plane(depth: DVec4, convention: Convention) -> Plane<View> {
     let plane = depth + DVec4::Z * convention.near_depth();
     let inwards = (convention.far_depth() - convention.near_depth()).signum();
     Plane::from_raw(plane * (inwards / plane.truncate().length()))
 }
 
-/// The named projection of an unrotated camera: its eye is at the origin, or beside it with a
-/// centered window.
+/// Returns the named projection of an unrotated camera: its eye is at the origin, or beside it with
+/// a centered window.
 fn recognize_frustum(found: Placement, frustum: Frustum) -> Option<Decomposed> {
     let (eye, w, near) = (found.eye, frustum.window(), frustum.near());
     let size = DVec4::new(w.width(), w.height(), near, 0.0);
@@ -406,7 +411,7 @@ fn recognize_frustum(found: Placement, frustum: Frustum) -> Option<Decomposed> {
     centered.then_some(Decomposed::ApexMoved(moved))
 }
 
-/// The distances at which factor + offset/D equals the near and far depths.
+/// Returns the distances at which factor + offset/D equals the near and far depths.
 fn depth_planes(
     factor: f64,
     offset: f64,

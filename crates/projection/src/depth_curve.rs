@@ -1,7 +1,7 @@
 //! The depth curve: depth as a function of distance, and its resolution (ZP-1).
 //!
 //! ```text
-//! depth 1 ┤            ________      perspective spends half of the depth range on the stretch
+//! depth 1 ┤            ________      perspective uses half of the depth range for distances
 //!         │      ___---              from N to 2FN/(F+N), about twice the near distance
 //!       ½ ┤   .-´
 //!         │  /
@@ -17,9 +17,10 @@ use crate::{Convention, Frustum, Orthographic, Perspective, ProjectionError};
 /// The storage format of depth values.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum DepthFormat {
-    /// As integers with the given number of bits, 1 to 64, spread evenly from near to far depth.
+    /// Integers with this number of bits, 1 to 64, spread evenly from the near depth to the far
+    /// depth.
     FixedPoint(u32),
-    /// As 32-bit floating-point numbers, in the range of the convention.
+    /// 32-bit floating-point numbers, in the depth range of the convention.
     Float32,
 }
 
@@ -47,10 +48,10 @@ pub struct DepthCurve {
 }
 
 impl DepthCurve {
-    /// The curve of a perspective; `far` may be infinite.
+    /// Returns the curve of a perspective projection. `far` may be infinite.
     ///
     /// # Errors
-    /// Returns an error if not 0 < near < far.
+    /// Returns an error unless 0 < near < far.
     pub fn perspective(
         near: f64,
         far: f64,
@@ -60,7 +61,7 @@ impl DepthCurve {
         Ok(Self { near, far, convention, shape: CurveShape::Central })
     }
 
-    /// The straight line for a parallel projection.
+    /// Returns the curve of a parallel projection, which is a straight line.
     ///
     /// # Errors
     /// Returns an error if a distance is not finite or both are equal.
@@ -69,7 +70,8 @@ impl DepthCurve {
         Ok(volume.depth_curve(convention))
     }
 
-    /// (a, b) of depth = a + b/D for a perspective, of depth = a D + b for a parallel projection.
+    /// Returns (a, b), where depth = a + b/D for a perspective projection and depth = a D + b for a
+    /// parallel projection.
     ///
     /// For OpenGL these are the lesson's c2 = (F+N)/(F−N) and c1 = 2FN/(N−F) (C67).
     #[must_use]
@@ -81,8 +83,8 @@ impl DepthCurve {
         (row.factor, row.offset)
     }
 
-    /// The depth of points at `distance`; `None` in the plane of the eye, for NaN, and for results
-    /// too large to represent.
+    /// Returns the depth of points at `distance`, or `None` in the plane of the eye, for NaN, and
+    /// if the result is too large to represent.
     #[must_use]
     pub fn depth(self, distance: f64) -> Option<f64> {
         let (at_near, at_far) = (self.convention.near_depth(), self.convention.far_depth());
@@ -91,7 +93,8 @@ impl DepthCurve {
         depth.is_finite().then_some(depth)
     }
 
-    /// The fraction of the depth range between the near plane and `distance`: 0 at near, 1 at far.
+    /// Returns the fraction of the depth range that is used between the near plane and `distance`:
+    /// 0 at near, 1 at far.
     fn depth_fraction(self, distance: f64) -> f64 {
         let (near, far) = (self.near, self.far);
         match self.shape {
@@ -101,9 +104,10 @@ impl DepthCurve {
         }
     }
 
-    /// The distance at which points have the given depth: linearizes a depth buffer.
+    /// Returns the distance at which points have the given depth, to linearize a depth buffer.
     ///
-    /// `None` if no finite distance has it, such as the far depth of an infinite projection.
+    /// `None` if no finite distance has this depth, such as the far depth of an infinite
+    /// projection.
     #[must_use]
     pub fn distance(self, depth: f64) -> Option<f64> {
         let (at_near, at_far) = (self.convention.near_depth(), self.convention.far_depth());
@@ -117,8 +121,8 @@ impl DepthCurve {
         distance.is_finite().then_some(distance)
     }
 
-    /// The derivative of depth with respect to distance, d depth/dD; `None` in the plane of the
-    /// eye.
+    /// Returns the derivative of depth with respect to distance, d depth/dD, or `None` in the plane
+    /// of the eye.
     #[must_use]
     pub fn slope(self, distance: f64) -> Option<f64> {
         let (a, b) = self.coefficients();
@@ -129,8 +133,8 @@ impl DepthCurve {
         (slope.is_finite() && distance.is_finite()).then_some(slope)
     }
 
-    /// The distance at which half of the depth range is used up: 2FN/(F+N) for a perspective, 2N
-    /// without a far plane.
+    /// Returns the distance at which half of the depth range is used up: 2FN/(F+N) for a
+    /// perspective projection, or 2N without a far plane.
     #[must_use]
     pub fn half_range_distance(self) -> f64 {
         let (near, far) = (self.near, self.far);
@@ -140,11 +144,12 @@ impl DepthCurve {
         }
     }
 
-    /// The smallest step from `distance` toward the far plane that changes the stored depth.
+    /// Returns the smallest step from `distance` toward the far plane that changes the stored
+    /// depth.
     ///
     /// # Errors
-    /// Returns an error if the distance is not finite or, for a perspective, not above 0; or if the
-    /// format does not have 1 to 64 bits.
+    /// Returns an error if the distance is not finite or, for a perspective projection, not above
+    /// 0, or if the format does not have 1 to 64 bits.
     pub fn resolution(self, distance: f64, format: DepthFormat) -> Result<f64, ProjectionError> {
         match self.shape {
             CurveShape::Central => check_positive("distance", distance)?,
@@ -158,10 +163,10 @@ impl DepthCurve {
         step.is_finite().then_some(step).ok_or(lost)
     }
 
-    /// One step of the range, 1/(2^bits − 1), divided by the slope.
+    /// Returns one step of the range, 1/(2^bits − 1), divided by the slope.
     fn fixed_step(self, distance: f64, bits: u32) -> Result<f64, ProjectionError> {
         if !(1..=64).contains(&bits) {
-            let allowed = "1 to 64";
+            let allowed = "from 1 to 64";
             return Err(ProjectionError::OutOfRange {
                 parameter: "bits",
                 value: f64::from(bits),
@@ -174,8 +179,9 @@ impl DepthCurve {
         Ok(range / parts / slope)
     }
 
-    /// The distance between the stored depth, rounded to f32, and the next value toward far.
-    #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is the subject")]
+    /// Returns the distance between the stored depth, rounded to f32, and the next value toward
+    /// far.
+    #[expect(clippy::cast_possible_truncation, reason = "the stored depth is an f32")]
     fn float_step(self, distance: f64) -> Option<f64> {
         let here = self.depth(distance)? as f32;
         let is_far_greater = self.convention.far_depth() > self.convention.near_depth();
@@ -190,7 +196,7 @@ impl DepthCurve {
         }
     }
 
-    /// (distance, depth) for each distance: the table of the lesson (LW-3, C68).
+    /// Returns (distance, depth) for each distance, as in the table of the lesson (LW-3, C68).
     pub fn table(
         self,
         distances: impl IntoIterator<Item = f64>,
@@ -200,7 +206,7 @@ impl DepthCurve {
 }
 
 impl Perspective {
-    /// The depth curve of this projection.
+    /// Returns the depth curve of this projection.
     #[must_use]
     pub fn depth_curve(self, convention: Convention) -> DepthCurve {
         DepthCurve { near: self.near(), far: self.far(), convention, shape: CurveShape::Central }
@@ -208,7 +214,7 @@ impl Perspective {
 }
 
 impl Frustum {
-    /// The depth curve of this projection.
+    /// Returns the depth curve of this projection.
     #[must_use]
     pub fn depth_curve(self, convention: Convention) -> DepthCurve {
         DepthCurve { near: self.near(), far: self.far(), convention, shape: CurveShape::Central }
@@ -216,18 +222,18 @@ impl Frustum {
 }
 
 impl Orthographic {
-    /// The depth curve of this projection.
+    /// Returns the depth curve of this projection.
     #[must_use]
     pub fn depth_curve(self, convention: Convention) -> DepthCurve {
         DepthCurve { near: self.near(), far: self.far(), convention, shape: CurveShape::Parallel }
     }
 }
 
-/// A and B of the third row (0, 0, A, B) over w = z, where A + B/z is `at_1` for z = `z_1` and
-/// `at_2` for z = `z_2`: `first` is (`z_1`, `at_1`), and `second` is (`z_2`, `at_2`).
+/// Returns A and B of the third row (0, 0, A, B) for w = z, where A + B/z is `at_1` for z = `z_1`
+/// and `at_2` for z = `z_2`. `first` is (`z_1`, `at_1`), and `second` is (`z_2`, `at_2`).
 ///
-/// This determines the third row of P (exercise 3, C40): with z kept on n and f, A = n + f and B =
-/// −nf. With −1 at z = −N and +1 at z = −F it gives the OpenGL row (C56) with its sign flipped.
+/// This determines the third row of P (exercise 3, C40): with z preserved on n and f, A = n + f and
+/// B = −nf. With −1 at z = −N and +1 at z = −F it gives the OpenGL row (C56) with its sign flipped.
 ///
 /// # Errors
 /// Returns an error if a number is not finite, a z is 0, or both z are equal.
@@ -235,7 +241,7 @@ pub fn third_row(first: (f64, f64), second: (f64, f64)) -> Result<(f64, f64), Pr
     let ((z_1, at_1), (z_2, at_2)) = (first, second);
     for (parameter, value) in [("z_1", z_1), ("z_2", z_2)] {
         if check_finite(parameter, value)? == 0.0 {
-            return Err(ProjectionError::OutOfRange { parameter, value, allowed: "not 0" });
+            return Err(ProjectionError::OutOfRange { parameter, value, allowed: "nonzero" });
         }
     }
     check_finite("at_1", at_1)?;

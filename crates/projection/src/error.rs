@@ -12,17 +12,17 @@ pub enum ProjectionError {
     NotFinite {
         /// The name of the parameter.
         parameter: &'static str,
-        /// The value given.
+        /// The rejected value.
         value: f64,
     },
     /// The parameter is out of range.
-    #[error("`{parameter}` is {value}; allowed: {allowed}")]
+    #[error("`{parameter}` is {value}; it must be {allowed}")]
     OutOfRange {
         /// The name of the parameter.
         parameter: &'static str,
-        /// The value given.
+        /// The rejected value.
         value: f64,
-        /// The allowed values, in words.
+        /// A description of the allowed values, as in "it must be …".
         allowed: &'static str,
     },
     /// Two opposite edges of the window coincide, so the picture has no width or no height.
@@ -44,9 +44,9 @@ pub enum ProjectionError {
     /// The far plane is not beyond the near plane.
     #[error("`far` ({far}) must be beyond `near` ({near}) along the line of sight")]
     FarNotBeyondNear {
-        /// The near plane as given.
+        /// The rejected near plane.
         near: f64,
-        /// The far plane as given.
+        /// The rejected far plane.
         far: f64,
     },
     /// A direction has length zero.
@@ -61,17 +61,17 @@ pub enum ProjectionError {
     /// The center of projection is in the projection plane.
     #[error("the center of projection is on the projection plane")]
     CenterOnPlane,
-    /// There is no vanishing point (p = q = r = 0), hence no perspective.
+    /// There is no vanishing point (p = q = r = 0), so this is not a perspective.
     #[error("p, q and r are all 0: this is a parallel projection, without vanishing points")]
     NoVanishingPoint,
     /// No eye has these two or three vanishing points.
     #[error("no eye sees these vanishing points in perpendicular directions: {reason}")]
     ImpossibleVanishingPoints {
-        /// The reason.
+        /// The reason why no eye exists.
         reason: &'static str,
     },
     /// No axonometric projection has these three foreshortening ratios.
-    #[error("no axonometric projection foreshortens the axes as {x} : {y} : {z}; {reason}")]
+    #[error("no axonometric projection has the foreshortening ratios {x} : {y} : {z}; {reason}")]
     ImpossibleForeshortening {
         /// The ratio of the x axis.
         x: f64,
@@ -83,7 +83,7 @@ pub enum ProjectionError {
         reason: &'static str,
     },
     /// The frustum's window is not centered on the line of sight, so no field of view describes it.
-    #[error("the window is off center; a field of view cannot describe it")]
+    #[error("the window is off-center; a field of view cannot describe it")]
     OffCenter,
     /// Each parameter is valid, but the matrix would overflow or underflow.
     #[error("the {what} is too large, too small or too extreme to compute with")]
@@ -93,12 +93,12 @@ pub enum ProjectionError {
     },
 }
 
-/// Returns a finite number and rejects any other.
+/// Returns the value if it is finite, and an error otherwise.
 pub(crate) fn check_finite(parameter: &'static str, value: f64) -> Result<f64, ProjectionError> {
     if value.is_finite() { Ok(value) } else { Err(ProjectionError::NotFinite { parameter, value }) }
 }
 
-/// Returns a finite number above zero and rejects any other.
+/// Returns the value if it is finite and above 0, and an error otherwise.
 pub(crate) fn check_positive(parameter: &'static str, value: f64) -> Result<f64, ProjectionError> {
     if check_finite(parameter, value)? > 0.0 {
         Ok(value)
@@ -107,7 +107,7 @@ pub(crate) fn check_positive(parameter: &'static str, value: f64) -> Result<f64,
     }
 }
 
-/// Returns an angle strictly between 0 and π and rejects any other.
+/// Returns the angle if it is strictly between 0 and π, and an error otherwise.
 pub(crate) fn check_opening_angle(
     parameter: &'static str,
     value: f64,

@@ -3,7 +3,8 @@
 use crate::ProjectionError;
 use crate::error::{check_finite, check_opening_angle, check_positive};
 
-/// The field of view of a perspective; angles are in radians, between 0 and π (FOV-1, C33, C49).
+/// The field of view of a perspective projection. Angles are in radians, between 0 and π
+/// (FOV-1, C33, C49).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Fov {
     /// The angle between the centers of the bottom and top edges.
@@ -12,11 +13,11 @@ pub enum Fov {
     Horizontal(f64),
     /// The angle between opposite corners.
     Diagonal(f64),
-    /// A lens of the given focal length in front of a film, in the same unit.
+    /// A lens with a focal length in front of a film, both in the same unit.
     FocalLength {
-        /// The distance between lens and film.
+        /// The focal length: the distance between lens and film.
         focal: f64,
-        /// The extent of the film.
+        /// The size of the film.
         film: SensorSize,
     },
 }
@@ -48,26 +49,26 @@ pub struct HalfSlopes {
 }
 
 impl Fov {
-    /// The vertical field of view in degrees, the usual unit in files and conversation.
+    /// Returns the vertical field of view in degrees, the most common unit in files and dialogs.
     #[must_use]
     pub fn vertical_degrees(degrees: f64) -> Self {
         Self::Vertical(degrees.to_radians())
     }
 
-    /// The horizontal field of view in degrees.
+    /// Returns the horizontal field of view in degrees.
     #[must_use]
     pub fn horizontal_degrees(degrees: f64) -> Self {
         Self::Horizontal(degrees.to_radians())
     }
 
-    /// The "35 mm equivalent" focal length in millimeters, based on the film's diagonal.
+    /// Returns the "35 mm equivalent" focal length in millimeters, based on the film's diagonal.
     #[must_use]
     pub const fn equivalent_35mm(focal: f64) -> Self {
         Self::FocalLength { focal, film: SensorSize::FULL_FRAME_MM }
     }
 
-    /// Half the window at distance 1 in front of the eye, for an image with the given aspect (width
-    /// / height).
+    /// Returns half the size of the window at distance 1 in front of the eye, for an image with
+    /// this aspect (width / height).
     ///
     /// # Errors
     /// Returns an error if the aspect, a length or the angle is not finite or out of range.
@@ -121,8 +122,8 @@ fn half_slopes_by_diagonal(half: f64, aspect: f64) -> HalfSlopes {
     HalfSlopes { x: half * (aspect / diagonal), y: half / diagonal }
 }
 
-/// The angle subtended at the eye by the interval from `low` to `high` on a plane at `distance`, in
-/// radians: atan(high/distance) − atan(low/distance) (FOV-1).
+/// Returns the angle subtended at the eye by the interval from `low` to `high` on a plane at
+/// `distance`, in radians: atan(high/distance) − atan(low/distance) (FOV-1).
 ///
 /// # Errors
 /// Returns an error if a number is not finite or the distance is not above 0.

@@ -5,12 +5,12 @@ use crate::matrix::{self, DepthRow, WindowFit};
 use crate::{Convention, ProjectionError, Window};
 use homog::{Clip, Projective, View};
 
-/// The perspective through a window on the near plane (PE-2 and GL-1; C91).
+/// The perspective projection through a window on the near plane (PE-2 and GL-1; C91).
 ///
 /// ```text
-///               top ┐            The eye is the apex; the window may lie anywhere beside
-///  eye ●────────────┤ D = near   the line of sight: stereo pairs, tiles, lens shift and
-///               bot ┘            pictures on walls need that.
+///               top ┐            The eye is the apex; the window need not be centered on
+///  eye ●────────────┤ D = near   the line of sight, as in stereo pairs, tiles, lens shift
+///               bot ┘            and pictures on walls.
 /// ```
 ///
 /// # Guarantees
@@ -34,7 +34,8 @@ pub struct Frustum {
 }
 
 impl Frustum {
-    /// The frustum from the eye through the window [left, right] × [bottom, top] on the near plane.
+    /// Creates the frustum from the eye through the window [left, right] × [bottom, top] on the
+    /// near plane.
     ///
     /// `near` and `far` are distances in front of the eye; `far` may be infinite.
     ///
@@ -52,7 +53,7 @@ impl Frustum {
         Self::from_window(Window::new(left, right, bottom, top)?, near, far)
     }
 
-    /// The frustum through `window` on the near plane.
+    /// Returns the frustum through `window` on the near plane.
     ///
     /// # Errors
     /// See [`new`](Self::new).
@@ -64,8 +65,8 @@ impl Frustum {
         Ok(frustum)
     }
 
-    /// The frustum whose window at distance 1 in front of the eye has the edges `slopes`: the
-    /// tangents of the four angles.
+    /// Returns the frustum whose window at distance 1 in front of the eye has the edges `slopes`:
+    /// the tangents of the four angles.
     ///
     /// # Errors
     /// See [`new`](Self::new).
@@ -76,42 +77,43 @@ impl Frustum {
         Self::from_window(window, near, far)
     }
 
-    /// A frustum with checked parts.
+    /// Creates a frustum from parts that are already checked.
     pub(crate) const fn new_unchecked(window: Window, near: f64, far: f64) -> Self {
         Self { window, near, far }
     }
 
-    /// The window on the near plane.
+    /// Returns the window on the near plane.
     #[must_use]
     pub const fn window(self) -> Window {
         self.window
     }
 
-    /// The window at distance 1 in front of the eye: left/near, right/near, bottom/near, top/near.
+    /// Returns the window at distance 1 in front of the eye: left/near, right/near, bottom/near,
+    /// top/near.
     #[must_use]
     pub fn slopes(self) -> Window {
         self.window.scaled(1.0 / self.near)
     }
 
-    /// The distance of the near plane.
+    /// Returns the distance of the near plane.
     #[must_use]
     pub const fn near(self) -> f64 {
         self.near
     }
 
-    /// The distance of the far plane, possibly infinite.
+    /// Returns the distance of the far plane, possibly infinite.
     #[must_use]
     pub const fn far(self) -> f64 {
         self.far
     }
 
-    /// The projection matrix.
+    /// Returns the projection matrix.
     #[must_use]
     pub fn view_to_clip(self, convention: Convention) -> Projective<View, Clip> {
         matrix::central_matrix(self.window_fit(), self.depth_row(convention), convention)
     }
 
-    /// Its inverse in closed form (IV-1).
+    /// Returns the inverse of [`view_to_clip`](Self::view_to_clip) in closed form (IV-1).
     #[must_use]
     pub fn clip_to_view(self, convention: Convention) -> Projective<Clip, View> {
         matrix::central_inverse(self.window_fit(), self.depth_row(convention), convention)
@@ -126,7 +128,7 @@ impl Frustum {
     }
 }
 
-/// Checks that 0 < near < far and that the planes are usable.
+/// Checks that 0 < near < far and that the matrix can represent the planes.
 pub(crate) fn check_planes(near: f64, far: f64) -> Result<(), ProjectionError> {
     check_positive("near", near)?;
     if far != f64::INFINITY {

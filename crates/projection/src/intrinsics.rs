@@ -1,7 +1,7 @@
-//! Pinhole cameras by intrinsic parameters, as in camera calibration (C61, GL-1).
+//! Pinhole cameras described by intrinsic parameters, as in camera calibration (C61, GL-1).
 //!
 //! ```text
-//!      [ fx  s  cx ]     column = fx X/Z + s Y/Z + cx      X right, Y down, Z ahead of the eye
+//!      [ fx  s  cx ]     column = fx X/Z + s Y/Z + cx      X right, Y down, Z in front of the eye
 //!  K = [  0 fy  cy ]     row    =          fy Y/Z + cy
 //!      [  0  0   1 ]
 //! ```
@@ -16,7 +16,8 @@ use crate::{Convention, Frustum, ProjectionError, Window};
 use glam::{DMat4, DVec4};
 use homog::{Clip, PixelCenters, Point, Projective, View};
 
-/// The perspective of a pinhole camera by its focal lengths and principal point in pixels.
+/// The perspective projection of a pinhole camera, described by its focal lengths and principal
+/// point in pixels.
 ///
 /// # Guarantees
 /// All numbers are finite, and fx, fy, width and height are above 0.
@@ -25,8 +26,8 @@ use homog::{Clip, PixelCenters, Point, Projective, View};
 /// use homog::{PixelCenters, Point};
 /// use projection::Intrinsics;
 /// let lens = Intrinsics::new([500.0, 500.0], [319.5, 239.5], [640, 480])?;
-/// // One unit to the right, two ahead: 250 columns beside the principal point.
-/// let pixel = lens.project(Point::new(1.0, 0.0, -2.0)).expect("ahead of the eye");
+/// // One unit to the right and two ahead: 250 columns to the right of the principal point.
+/// let pixel = lens.project(Point::new(1.0, 0.0, -2.0)).expect("in front of the eye");
 /// assert_eq!(pixel, [569.5, 239.5]);
 /// assert_eq!(lens.pixel_centers(), PixelCenters::Integer);
 /// # Ok::<(), projection::ProjectionError>(())
@@ -41,8 +42,8 @@ pub struct Intrinsics {
 }
 
 impl Intrinsics {
-    /// The lens with focal lengths (fx, fy) and principal point (cx, cy), in pixels, for pictures
-    /// of `size` (columns, rows). There is no skew, and pixel centers are at integers.
+    /// Creates a lens with focal lengths (fx, fy) and principal point (cx, cy), in pixels, for
+    /// pictures of `size` (columns, rows). There is no skew, and pixel centers are at integers.
     ///
     /// # Errors
     /// Returns an error if a number is not finite, or a focal length or a side is not above 0.
@@ -59,11 +60,12 @@ impl Intrinsics {
         Self { focal_length, principal_point, skew: 0.0, size, pixel_centers }.checked()
     }
 
-    /// The lens with the matrix K, given row by row.
+    /// Creates a lens from the matrix K, row by row. A multiple of K is accepted and divided by its
+    /// last entry.
     ///
     /// # Errors
-    /// As for [`new`](Self::new); also if `K[1][0]` or the last row is not as above. A scaled
-    /// matrix is divided by its last entry.
+    /// Returns the errors of [`new`](Self::new), and an error if `K[1][0]` or the last row is not
+    /// as shown above.
     pub fn from_rows(rows: [[f64; 3]; 3], size: [u32; 2]) -> Result<Self, ProjectionError> {
         for value in rows.as_flattened() {
             check_finite("K", *value)?;
@@ -78,7 +80,8 @@ impl Intrinsics {
         Self::new([fx / scale, fy / scale], [cx / scale, cy / scale], size)?.with_skew(skew / scale)
     }
 
-    /// This lens with a skew: the change of the column per row downward.
+    /// Returns this lens with skew s, the entry `K[0][1]`, in pixels. The column of a point shifts
+    /// by s/fy per row downward.
     ///
     /// # Errors
     /// Returns an error if the skew is not finite or too large to compute with.
@@ -86,14 +89,14 @@ impl Intrinsics {
         Self { skew: check_finite("skew", skew)?, ..self }.checked()
     }
 
-    /// This lens with its numbers reinterpreted under another pixel-center convention. The numbers
-    /// are unchanged.
+    /// Returns this lens with its numbers reinterpreted under another pixel-center convention. The
+    /// numbers are unchanged.
     #[must_use]
     pub const fn with_pixel_centers(self, pixel_centers: PixelCenters) -> Self {
         Self { pixel_centers, ..self }
     }
 
-    /// This lens with its principal point converted to another pixel-center convention.
+    /// Returns this lens with its principal point converted to another pixel-center convention.
     #[must_use]
     pub fn in_pixel_centers(self, pixel_centers: PixelCenters) -> Self {
         let by = pixel_centers.first_center() - self.pixel_centers.first_center();
@@ -101,7 +104,7 @@ impl Intrinsics {
         Self { principal_point, pixel_centers, ..self }
     }
 
-    /// The lens of a picture that shows the window of a frustum, with pixel centers at
+    /// Returns the lens of a picture that shows the window of a frustum, with pixel centers at
     /// half-integers.
     ///
     /// # Errors
@@ -115,12 +118,12 @@ impl Intrinsics {
         Ok(lens.with_pixel_centers(PixelCenters::Half))
     }
 
-    /// The lens of a perspective matrix, with pixel centers at half-integers: the inverse of
-    /// [`view_to_clip`](Self::view_to_clip).
+    /// Returns the lens of a perspective matrix, with pixel centers at half-integers: the inverse
+    /// of [`view_to_clip`](Self::view_to_clip).
     ///
     /// # Errors
-    /// Returns an error if the matrix is not a perspective whose rows and columns run like those of
-    /// a picture.
+    /// Returns an error if the matrix is not the perspective projection of an unrotated camera, or
+    /// if it mirrors the picture.
     pub fn from_view_to_clip(
         view_to_clip: Projective<View, Clip>,
         convention: Convention,
@@ -142,46 +145,46 @@ impl Intrinsics {
         Ok(lens.with_pixel_centers(PixelCenters::Half))
     }
 
-    /// The focal lengths fx and fy, in pixels.
+    /// Returns the focal lengths fx and fy, in pixels.
     #[must_use]
     pub const fn focal_length(self) -> [f64; 2] {
         self.focal_length
     }
 
-    /// The principal point (cx, cy): the pixel coordinates of the line of sight.
+    /// Returns the principal point (cx, cy): the pixel coordinates of the line of sight.
     #[must_use]
     pub const fn principal_point(self) -> [f64; 2] {
         self.principal_point
     }
 
-    /// The skew: the change of the column per row downward.
+    /// Returns the skew s, the entry `K[0][1]`, in pixels.
     #[must_use]
     pub const fn skew(self) -> f64 {
         self.skew
     }
 
-    /// The columns and rows of the picture.
+    /// Returns the number of columns and rows of the picture.
     #[must_use]
     pub const fn size(self) -> [u32; 2] {
         self.size
     }
 
-    /// The positions of pixel centers.
+    /// Returns the positions of pixel centers.
     #[must_use]
     pub const fn pixel_centers(self) -> PixelCenters {
         self.pixel_centers
     }
 
-    /// The matrix K, row by row.
+    /// Returns the matrix K, row by row.
     #[must_use]
     pub const fn to_rows(self) -> [[f64; 3]; 3] {
         let ([fx, fy], [cx, cy]) = (self.focal_length, self.principal_point);
         [[fx, self.skew, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]]
     }
 
-    /// The pixel coordinates of a point; `None` unless it is in front of the eye.
+    /// Returns the pixel coordinates of a point, or `None` if it is not in front of the eye.
     ///
-    /// View space is right-handed, y up, looking along −z: X = x, Y = −y, Z = −z.
+    /// View space is right-handed, with y up and looking along −z: X = x, Y = −y, Z = −z.
     #[must_use]
     pub fn project(self, point: Point<View>) -> Option<[f64; 2]> {
         let ([fx, fy], [cx, cy]) = (self.focal_length, self.principal_point);
@@ -191,8 +194,8 @@ impl Intrinsics {
         (ahead > 0.0 && pixel.into_iter().all(f64::is_finite)).then_some(pixel)
     }
 
-    /// The point of view space seen at the given pixel coordinates, `depth` in front of the eye
-    /// along its axis; not finite if the numbers are not.
+    /// Returns the view-space point seen at the given pixel coordinates, at distance `depth` in
+    /// front of the eye along the line of sight. It is not finite if the input is not.
     #[must_use]
     pub fn unproject(self, [column, row]: [f64; 2], depth: f64) -> Point<View> {
         let ([fx, fy], [cx, cy]) = (self.focal_length, self.principal_point);
@@ -201,7 +204,7 @@ impl Intrinsics {
         Point::new(x * depth, -y * depth, -depth)
     }
 
-    /// The frustum with this window, if there is no skew.
+    /// Returns the frustum with this window, if there is no skew.
     ///
     /// # Errors
     /// Returns an error if there is a skew or 0 < near < far does not hold.
@@ -216,11 +219,11 @@ impl Intrinsics {
         Frustum::from_slopes(slopes, near, far)
     }
 
-    /// The projection matrix; `far` may be infinite.
+    /// Returns the projection matrix; `far` may be infinite.
     ///
     /// ```text
     ///  x' = 2fx/w x − 2s/w y + (2cx/w − 1) D       with cx, cy from the corner of the picture,
-    ///  y' =          2fy/h y + (1 − 2cy/h) D       and D ahead of the eye; depth as in GL-1
+    ///  y' =          2fy/h y + (1 − 2cy/h) D       and D in front of the eye; depth as in GL-1
     /// ```
     ///
     /// # Errors
@@ -243,7 +246,7 @@ impl Intrinsics {
         ])))
     }
 
-    /// The inverse of [`view_to_clip`](Self::view_to_clip) in closed form (IV-1).
+    /// Returns the inverse of [`view_to_clip`](Self::view_to_clip) in closed form (IV-1).
     ///
     /// # Errors
     /// Returns an error unless 0 < near < far.
@@ -265,19 +268,19 @@ impl Intrinsics {
         )))
     }
 
-    /// NDC per slope, to the right and upward.
+    /// Returns the scale factors from slopes to NDC, to the right and upward.
     fn scale(self) -> [f64; 2] {
         let [width, height] = self.size.map(f64::from);
         [2.0 * self.focal_length[0] / width, 2.0 * self.focal_length[1] / height]
     }
 
-    /// The line of sight, in NDC with y up.
+    /// Returns the position of the line of sight, in NDC with y up.
     fn center(self) -> [f64; 2] {
         let ([width, height], [cx, cy]) = (self.size.map(f64::from), self.corner_principal_point());
         [2.0 * cx / width - 1.0, 1.0 - 2.0 * cy / height]
     }
 
-    /// The principal point, measured from the corner of the picture.
+    /// Returns the principal point, measured from the corner of the picture.
     fn corner_principal_point(self) -> [f64; 2] {
         self.in_pixel_centers(PixelCenters::Half).principal_point
     }

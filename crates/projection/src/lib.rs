@@ -1,4 +1,4 @@
-//! Every planar projection of the textbooks and graphics interfaces, with checked parameters.
+//! Every planar projection of the textbooks and graphics APIs, with checked parameters.
 //!
 //! ```text
 //!                window on the near plane
@@ -11,10 +11,10 @@
 //!                 └─────┘╱                                  −1      +1
 //! ```
 //!
-//! Describe a projection once, by familiar parameters, and it is checked once. Every builder
+//! Describe a projection once, with familiar parameters, and it is checked once. Every builder
 //! returns a `Result` whose error names the parameter, its value and the allowed range. The result
-//! can be written as a matrix in any [`Convention`], has its inverse in closed form, and never
-//! contains NaN or infinities.
+//! can be written as a matrix in any [`Convention`], has a closed-form inverse, and never contains
+//! NaN or infinities.
 //!
 //! ```
 //! use homog::Point;
@@ -32,7 +32,7 @@
 //! let wrong = Perspective::new(Fov::Vertical(45.0), 16.0 / 9.0, 0.5, 100.0);
 //! assert_eq!(
 //!     wrong.expect_err("45 radians").to_string(),
-//!     "`vertical field of view` is 45; allowed: between 0 and π radians, exclusive",
+//!     "`vertical field of view` is 45; it must be between 0 and π radians, exclusive",
 //! );
 //! # Ok::<(), projection::ProjectionError>(())
 //! ```
@@ -53,17 +53,18 @@
 //! | any of those five as a renderable matrix | [`Classical`] |
 //! | any center and any plane | [`Projector`] |
 //! | P, M_orth, M_per of the textbook (Shirley and Marschner, ch. 8) | [`chapter`] |
-//! | glFrustum, gluPerspective, D3DX… by name | [`api`] |
+//! | glFrustum, gluPerspective, D3DX functions by name | [`api`] |
 //! | the lesson's createFrustum | [`ApexMovedFrustum`] |
-//! | where parallel lines meet | [`vanishing_point`], [`principal_vanishing_points`] |
+//! | the points where parallel lines meet | [`vanishing_point`], [`principal_vanishing_points`] |
 //! | the resolution of a depth buffer | [`DepthCurve`] |
 //! | corners, planes and eye of the view volume | [`ViewVolume`] |
 //! | the parameters of a matrix in a known convention | [`decompose()`], [`readings`] |
-//! | the family tree | [`ProjectionClass`] |
+//! | the classification tree | [`ProjectionClass`] |
 //!
-//! View space is right-handed unless the convention says otherwise: x right, y up, looking along
-//! −z. Column vectors, angles in radians, f64. Example: `gallery`. For matrices in unknown
-//! conventions, use the crate `recognition`.
+//! View space is right-handed unless the convention specifies otherwise: x right, y up, looking
+//! along −z. Vectors are columns, angles are in radians, and numbers are f64. The example `gallery`
+//! draws a house in every projection. For matrices in unknown conventions, use the `recognition`
+//! crate.
 #![no_std]
 
 extern crate alloc;
@@ -108,7 +109,7 @@ pub use depth_curve::{DepthCurve, DepthFormat, third_row};
 pub use error::ProjectionError;
 pub use fov::{Fov, HalfSlopes, SensorSize, opening_angle_of};
 pub use frustum::Frustum;
-/// The types of points, maps and spaces, re-exported to save a second dependency.
+/// The types of points, maps and spaces, re-exported so that users need no second dependency.
 pub use homog;
 pub use intrinsics::Intrinsics;
 pub use multiview::{PrincipalPlane, PrincipalView, SheetAngle};

@@ -45,8 +45,8 @@ pub(crate) struct DepthRow {
 }
 
 impl DepthRow {
-    /// z'/D is the near depth at D = near and the far depth at D = far, which may be infinite
-    /// (IF-1..3).
+    /// Returns the row for which z'/D is the near depth at D = near and the far depth at D = far,
+    /// which may be infinite (IF-1..3).
     pub(crate) fn central(near: f64, far: f64, convention: Convention) -> Self {
         let (at_near, at_far) = (convention.near_depth(), convention.far_depth());
         if far == f64::INFINITY {
@@ -60,7 +60,7 @@ impl DepthRow {
         }
     }
 
-    /// z' is the near depth at D = near and the far depth at D = far.
+    /// Returns the row for which z' is the near depth at D = near and the far depth at D = far.
     pub(crate) fn parallel(near: f64, far: f64, convention: Convention) -> Self {
         let (at_near, at_far) = (convention.near_depth(), convention.far_depth());
         Self {
@@ -84,17 +84,17 @@ impl DepthRow {
     }
 }
 
-/// Small enough to be multiplied by the factors of a convention.
+/// Returns whether the value is small enough to be multiplied by the factors of a convention.
 pub(crate) fn is_bounded(value: f64) -> bool {
     value.abs() < 1e280
 }
 
-/// Bounded, with a bounded reciprocal.
+/// Returns whether both the value and its reciprocal are bounded.
 pub(crate) fn is_invertible(value: f64) -> bool {
     is_bounded(value) && value.abs() > 1e-280
 }
 
-/// The central form: w is the distance in front of the eye.
+/// Returns the central form, in which w is the distance in front of the eye.
 pub(crate) fn central_matrix(
     fit: WindowFit,
     depth: DepthRow,
@@ -109,7 +109,7 @@ pub(crate) fn central_matrix(
     ))
 }
 
-/// The inverse of [`central_matrix`], by IV-1.
+/// Returns the inverse of [`central_matrix`], by IV-1.
 pub(crate) fn central_inverse(
     fit: WindowFit,
     depth: DepthRow,
@@ -129,7 +129,7 @@ pub(crate) fn central_inverse(
     ))
 }
 
-/// The parallel form: w stays 1.
+/// Returns the parallel form, in which w stays 1.
 pub(crate) fn parallel_matrix(
     fit: WindowFit,
     depth: DepthRow,
@@ -144,7 +144,7 @@ pub(crate) fn parallel_matrix(
     ))
 }
 
-/// The inverse of [`parallel_matrix`].
+/// Returns the inverse of [`parallel_matrix`].
 pub(crate) fn parallel_inverse(
     fit: WindowFit,
     depth: DepthRow,
@@ -164,7 +164,7 @@ pub(crate) fn parallel_inverse(
     ))
 }
 
-/// The matrix with the given rows.
+/// Creates a matrix from its rows.
 pub(crate) fn from_rows(rows: [[f64; 4]; 4]) -> DMat4 {
     DMat4::from_cols_array_2d(&rows).transpose()
 }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!        y                    top ⟂ y          third angle: top above the front view,
-//!        │                      │              the right side at its right
+//!        │                      │              the right side to its right
 //!        │    ⟋ front ⟂ z     ┌───┐
 //!        └──── x              │top│
 //!      ⟋                      ├───┼────┐
@@ -25,11 +25,11 @@ pub enum PrincipalPlane {
 }
 
 impl PrincipalPlane {
-    /// All three, in the order of the axis they drop.
+    /// All three planes, in the order of the axes they drop.
     pub const ALL: [Self; 3] = [Self::Yoz, Self::Zox, Self::Xoy];
 
-    /// The classical projection: sets the coordinate perpendicular to the plane to 0. Singular;
-    /// applying it again changes nothing.
+    /// Returns the classical projection, which sets the coordinate perpendicular to the plane to 0.
+    /// It is singular, and applying it twice is the same as applying it once.
     #[must_use]
     pub fn onto_plane<S: Space>(self) -> Affine<S, S> {
         match self {
@@ -62,7 +62,7 @@ impl PrincipalView {
     pub const ALL: [Self; 6] =
         [Self::Front, Self::Back, Self::Right, Self::Left, Self::Top, Self::Bottom];
 
-    /// The plane of projection.
+    /// Returns the plane of projection.
     #[must_use]
     pub const fn plane(self) -> PrincipalPlane {
         match self {
@@ -72,8 +72,8 @@ impl PrincipalView {
         }
     }
 
-    /// The rotation that maps the view's own axes to x right, y up and z toward the viewer: exact,
-    /// with entries 0 and ±1.
+    /// Returns the rotation that maps the view's axes to x right, y up and z toward the viewer. It
+    /// is exact, with entries 0 and ±1.
     #[must_use]
     pub fn depth_preserving(self) -> Affine<View, View> {
         let (x, y, z) = match self {
@@ -89,11 +89,11 @@ impl PrincipalView {
         Affine::from_raw(rows).unwrap_or(Affine::IDENTITY)
     }
 
-    /// The column and row of the view on a sheet, relative to the front view at (0, 0), x right and
-    /// y up.
+    /// Returns the column and row of the view on a sheet, relative to the front view at (0, 0),
+    /// with x to the right and y up.
     ///
-    /// In third angle a view is on the side from which it is seen, in first angle on the opposite
-    /// side. The back view follows the right or left side.
+    /// In third-angle projection, a view is on the side from which it is seen; in first-angle
+    /// projection, it is on the opposite side. The back view follows the right or left side.
     #[must_use]
     pub const fn sheet_position(self, angle: SheetAngle) -> (i32, i32) {
         let (x, y) = match self {
@@ -114,10 +114,10 @@ impl PrincipalView {
 /// The layout of views on a sheet (ISO 5456-2).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum SheetAngle {
-    /// The object is between viewer and sheet: the view from the left is on the right. Common in
-    /// Europe and China.
+    /// The object is between the viewer and the sheet: the view from the left is on the right.
+    /// Common in Europe and China.
     First,
-    /// The sheet is between viewer and object: the view from the left is on the left. Common in
-    /// America.
+    /// The sheet is between the viewer and the object: the view from the left is on the left.
+    /// Common in America.
     Third,
 }

@@ -6,14 +6,15 @@
 //!  skewed prism   ──shear──► centered ──fit──────────────────────────────► [−1, 1]³
 //! ```
 //!
-//! Afterward, one clipper serves all projections (VV-1, VV-2; C86..C89).
+//! Afterward, a single clipper works for all projections (VV-1, VV-2; C86..C89).
 
 use crate::matrix::from_rows;
 use crate::{Convention, Frustum, Oblique, Orthographic};
 use glam::DMat4;
 use homog::{Affine, Clip, Projective, View};
 
-/// The factors of a parallel projection, in the order in which a point passes them (VV-1, C86).
+/// The factors of a parallel projection, in the order in which a point passes through them
+/// (VV-1, C86).
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct ParallelFactors {
@@ -24,7 +25,7 @@ pub struct ParallelFactors {
 }
 
 impl ParallelFactors {
-    /// The product.
+    /// Returns the product of the factors.
     #[must_use]
     pub fn view_to_clip(self) -> Projective<View, Clip> {
         self.shear.then_project(self.fit)
@@ -32,9 +33,10 @@ impl ParallelFactors {
 }
 
 impl Oblique {
-    /// The factors for the oblique prism whose window is in the plane of projection (VV-1, C86).
+    /// Returns the factors for the oblique prism whose window is in the plane of projection
+    /// (VV-1, C86).
     ///
-    /// `volume` gives the window on the plane, and near and far as distances from z = 0.
+    /// `volume` contains the window on the plane, and the near and far distances from z = 0.
     #[must_use]
     pub fn factors(self, volume: Orthographic, convention: Convention) -> ParallelFactors {
         let right_handed = convention.right_handed();
@@ -50,7 +52,7 @@ impl Oblique {
         ParallelFactors { shear, fit: volume.view_to_clip(convention) }
     }
 
-    /// The complete projection of the oblique prism, with shear and fit in one matrix.
+    /// Returns the complete projection of the oblique prism, with shear and fit in one matrix.
     #[must_use]
     pub fn view_to_clip(
         self,
@@ -61,7 +63,7 @@ impl Oblique {
     }
 }
 
-/// The factors of a frustum, in the order in which a point passes them (VV-2, C87, C88).
+/// The factors of a frustum, in the order in which a point passes through them (VV-2, C87, C88).
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct FrustumFactors {
@@ -74,7 +76,7 @@ pub struct FrustumFactors {
 }
 
 impl FrustumFactors {
-    /// The product.
+    /// Returns the product of the factors.
     #[must_use]
     pub fn view_to_clip(self) -> Projective<View, Clip> {
         self.shear.then(self.scale).then_project(self.depth)
@@ -82,8 +84,8 @@ impl FrustumFactors {
 }
 
 impl Frustum {
-    /// Shear, scale and depth map, whose product is [`view_to_clip`](Self::view_to_clip) (VV-2,
-    /// C87).
+    /// Returns the shear, scale and depth map, whose product is
+    /// [`view_to_clip`](Self::view_to_clip) (VV-2, C87).
     #[must_use]
     pub fn factors(self, convention: Convention) -> FrustumFactors {
         let (near, window) = (self.near(), self.window());
@@ -109,7 +111,8 @@ impl Frustum {
         }
     }
 
-    /// Shear and scale to the canonical frustum of the slides: sides x, y = ±D, far at distance 1.
+    /// Returns the shear and scale to the canonical frustum of the slides, which has the sides x, y
+    /// = ±D and the far plane at distance 1.
     ///
     /// `None` if there is no far plane or the window is too narrow for a finite scale.
     #[must_use]

@@ -1,26 +1,26 @@
-//! One-, two- and three-point perspective by the bottom row (p, q, r, 1) (ONE-1, TWO-1, THREE-1;
-//! C82, C83).
+//! One-, two- and three-point perspective, defined by the bottom row (p, q, r, 1) (ONE-1, TWO-1,
+//! THREE-1; C82, C83).
 //!
 //! ```text
-//! [ 1 0 0 0 ]     each of p, q, r that is not 0 gives its axis a vanishing point:
+//! [ 1 0 0 0 ]     each nonzero p, q or r gives its axis a vanishing point:
 //! [ 0 1 0 0 ]     x at (1/p, 0, 0), y at (0, 1/q, 0), z at (0, 0, 1/r)
 //! [ 0 0 1 0 ]
-//! [ p q r 1 ]     what is drawn is z = 0 after the divide
+//! [ p q r 1 ]     the picture is z = 0 after the divide
 //! ```
 //!
 //! Points of the plane px + qy + rz = 0 do not move. The eye is at (0, 0, −1/r) or, for r = 0,
 //! infinitely far away along z.
 //!
 //! One-point perspective from an eye (0, 0, d) has p = q = 0 and r = −1/d. The magnification d/(d −
-//! z) of a point is below 1 behind the plane (z < 0), above 1 between plane and eye, and negative
-//! behind the eye (M20).
+//! z) of a point is below 1 behind the plane (z < 0), above 1 between the plane and the eye, and
+//! negative behind the eye (M20).
 
 use crate::ProjectionError;
 use crate::error::check_finite;
 use crate::matrix::{from_rows, is_bounded, is_invertible};
 use homog::{HPoint, Projective, View};
 
-/// A perspective by p, q and r.
+/// A perspective projection defined by p, q and r.
 ///
 /// # Guarantees
 /// p, q and r are finite and not all 0.
@@ -41,7 +41,7 @@ pub struct NPoint {
 }
 
 impl NPoint {
-    /// The perspective with bottom row (p, q, r, 1).
+    /// Creates the perspective projection with the bottom row (p, q, r, 1).
     ///
     /// # Errors
     /// Returns an error if a number is not finite, or all are 0.
@@ -58,7 +58,7 @@ impl NPoint {
         Ok(Self { p, q, r })
     }
 
-    /// The one-point perspective onto z = 0 from the eye (0, 0, d) (ONE-1).
+    /// Returns the one-point perspective onto z = 0 from the eye (0, 0, d) (ONE-1).
     ///
     /// # Errors
     /// Returns an error if d is 0 or not finite.
@@ -69,8 +69,8 @@ impl NPoint {
         Self::new(0.0, 0.0, -1.0 / d)
     }
 
-    /// The perspective whose axes vanish at (x, 0, 0), (0, y, 0) and (0, 0, z); `None` keeps the
-    /// lines of an axis parallel.
+    /// Returns the perspective whose axes vanish at (x, 0, 0), (0, y, 0) and (0, 0, z); `None`
+    /// keeps the lines of an axis parallel.
     ///
     /// # Errors
     /// Returns an error if a coordinate is 0 or not finite, or all are `None`.
@@ -82,7 +82,7 @@ impl NPoint {
         let reciprocal = |parameter, at: Option<f64>| match at {
             None => Ok(0.0),
             Some(0.0) => {
-                let allowed = "any coordinate except 0";
+                let allowed = "nonzero";
                 Err(ProjectionError::OutOfRange { parameter, value: 0.0, allowed })
             }
             Some(value) => Ok(1.0 / check_finite(parameter, value)?),
@@ -92,13 +92,14 @@ impl NPoint {
         Self::new(x, y, reciprocal("vanishing point of z", z)?)
     }
 
-    /// (p, q, r).
+    /// Returns (p, q, r).
     #[must_use]
     pub const fn bottom_row(self) -> [f64; 3] {
         [self.p, self.q, self.r]
     }
 
-    /// The number of nonzero values among p, q and r: the number of principal vanishing points.
+    /// Returns the number of nonzero values among p, q and r: the number of principal vanishing
+    /// points.
     #[must_use]
     pub fn count(self) -> usize {
         self.bottom_row().iter().filter(|&&entry| entry != 0.0).count()
@@ -111,7 +112,7 @@ impl NPoint {
         self.p == 0.0 && self.q == 0.0
     }
 
-    /// The eye: (0, 0, −1/r), or for r = 0 the direction of z.
+    /// Returns the eye: (0, 0, −1/r), or for r = 0 the direction of z.
     #[must_use]
     pub fn eye(self) -> HPoint<View> {
         if self.r == 0.0 {
@@ -129,26 +130,27 @@ impl NPoint {
         ]))
     }
 
-    /// The map that keeps z before the divide; it is invertible.
+    /// Returns the map that preserves z before the divide. It is invertible.
     #[must_use]
     pub fn depth_preserving(self) -> Projective<View, View> {
         self.matrix(1.0, 1.0)
     }
 
-    /// Its inverse: the bottom row with p, q and r negated.
+    /// Returns the inverse of [`depth_preserving`](Self::depth_preserving): its bottom row has p, q
+    /// and r negated.
     #[must_use]
     pub fn depth_preserving_inverse(self) -> Projective<View, View> {
         self.matrix(1.0, -1.0)
     }
 
-    /// The classical projection: z dropped. Singular.
+    /// Returns the classical projection, which drops z. It is singular.
     #[must_use]
     pub fn onto_plane(self) -> Projective<View, View> {
         self.matrix(0.0, 1.0)
     }
 
-    /// The image of a point of the line x = y = 0 after the divide; `None` in the plane of the eye
-    /// and behind it.
+    /// Returns the image of a point on the line x = y = 0 after the divide, or `None` in the plane
+    /// of the eye and behind it.
     pub(crate) fn depth_on_axis(self, z: f64) -> Option<f64> {
         let h = self.r * z + 1.0;
         (h > 0.0 && is_bounded(z / h)).then_some(z / h)

@@ -8,15 +8,15 @@
 //!   ───────┼────── x
 //! ```
 //!
-//! Faces parallel to the plane keep their shape and size. Cavalier: L1 = 1, α = 45°; cabinet: L1 =
-//! ½, tan α = 2.
+//! Faces parallel to the plane keep their shape and size. The cavalier projection has L1 = 1 and α
+//! = 45°, and the cabinet projection has L1 = ½ and tan α = 2.
 
 use crate::ProjectionError;
 use crate::error::check_finite;
 use crate::matrix::{from_rows, is_bounded};
 use homog::{Affine, Vector, View};
 
-/// An oblique (or, with L1 = 0, the orthographic) projection onto a plane z = const.
+/// An oblique projection onto a plane z = const, or the orthographic projection if L1 = 0.
 ///
 /// # Guarantees
 /// The slant and the plane are finite.
@@ -51,11 +51,11 @@ pub enum ObliqueKind {
 }
 
 impl Oblique {
-    /// Onto z = 0, with a unit of z drawn with length `length` in direction `phi`, in radians
-    /// counterclockwise from the right (OB-1).
+    /// Creates a projection onto z = 0 that draws a unit of z with length `length` in direction
+    /// `phi`, in radians counterclockwise from the right (OB-1).
     ///
     /// z points toward the viewer. Drafters measure the receding axis instead: depth that recedes
-    /// to the upper right at 45° is φ = 225°.
+    /// to the upper right at 45° corresponds to φ = 225°.
     ///
     /// # Errors
     /// Returns an error if a number is not finite or the length is below 0.
@@ -72,8 +72,8 @@ impl Oblique {
         Self::new_checked(length * cos, length * sin, 0.0)
     }
 
-    /// Onto z = 0, with projectors at angle `alpha` to the plane and depth drawn in direction
-    /// `phi`: L1 = cot α.
+    /// Creates a projection onto z = 0 with projectors at angle `alpha` to the plane and depth
+    /// drawn in direction `phi`. L1 is cot α.
     ///
     /// # Errors
     /// Returns an error if an angle is not finite or α is not in (0, π/2].
@@ -86,7 +86,7 @@ impl Oblique {
         Self::new((cos / sin).max(0.0), phi)
     }
 
-    /// Onto the plane z = `plane_z` with projectors along `direction` (OB-2).
+    /// Creates a projection onto the plane z = `plane_z` with projectors along `direction` (OB-2).
     ///
     /// # Errors
     /// Returns an error if a number is not finite, or the direction is zero or parallel to the
@@ -105,7 +105,8 @@ impl Oblique {
         Self::new_checked(x, y, check_finite("plane z", plane_z)?)
     }
 
-    /// Full depth, in direction `phi` (usually 45° or 30°).
+    /// Creates the cavalier projection, which draws depth at full length in direction `phi`
+    /// (usually 45° or 30°).
     ///
     /// # Errors
     /// Returns an error if the angle is not finite.
@@ -113,7 +114,8 @@ impl Oblique {
         Self::new(1.0, phi)
     }
 
-    /// Half depth, in direction `phi` (usually 45° or 30°).
+    /// Creates the cabinet projection, which draws depth at half length in direction `phi` (usually
+    /// 45° or 30°).
     ///
     /// # Errors
     /// Returns an error if the angle is not finite.
@@ -130,37 +132,38 @@ impl Oblique {
         }
     }
 
-    /// L1, the drawn length of a unit of depth.
+    /// Returns L1, the drawn length of a unit of depth.
     #[must_use]
     pub fn length(self) -> f64 {
         libm::hypot(self.slant_x, self.slant_y)
     }
 
-    /// φ, the direction in which depth is drawn; 0 for the orthographic projection.
+    /// Returns φ, the direction in which depth is drawn. It is 0 for the orthographic projection.
     #[must_use]
     pub fn phi(self) -> f64 {
         libm::atan2(self.slant_y, self.slant_x)
     }
 
-    /// α, the angle between projectors and plane: π/2 for the orthographic projection.
+    /// Returns α, the angle between the projectors and the plane. It is π/2 for the orthographic
+    /// projection.
     #[must_use]
     pub fn alpha(self) -> f64 {
         libm::atan2(1.0, self.length())
     }
 
-    /// The direction of the projectors, away from the viewer: (L1 cos φ, L1 sin φ, −1).
+    /// Returns the direction of the projectors, away from the viewer: (L1 cos φ, L1 sin φ, −1).
     #[must_use]
     pub const fn direction(self) -> Vector<View> {
         Vector::new(self.slant_x, self.slant_y, -1.0)
     }
 
-    /// The z of the plane of projection.
+    /// Returns the z of the plane of projection.
     #[must_use]
     pub const fn plane_z(self) -> f64 {
         self.plane_z
     }
 
-    /// The kind, with the length compared to twelve digits.
+    /// Returns the kind, with the length compared to twelve digits.
     #[must_use]
     pub fn kind(self) -> ObliqueKind {
         let is = |length: f64| (self.length() - length).abs() < 1e-12;
@@ -172,14 +175,14 @@ impl Oblique {
         }
     }
 
-    /// The shear that makes the projectors parallel to z and keeps z: x' = x + (z − z_p) L1 cos φ,
-    /// and y' likewise.
+    /// Returns the shear that makes the projectors parallel to z and preserves z: x' = x + (z −
+    /// z_p) L1 cos φ, and y' likewise.
     #[must_use]
     pub fn depth_preserving(self) -> Affine<View, View> {
         self.shear(self.slant_x, self.slant_y)
     }
 
-    /// Its inverse: the opposite shear.
+    /// Returns the inverse of [`depth_preserving`](Self::depth_preserving): the opposite shear.
     #[must_use]
     pub fn depth_preserving_inverse(self) -> Affine<View, View> {
         self.shear(-self.slant_x, -self.slant_y)
@@ -195,7 +198,8 @@ impl Oblique {
         Affine::from_raw(rows).unwrap_or(Affine::IDENTITY)
     }
 
-    /// The classical projection: every point maps to the plane z = z_p. Singular.
+    /// Returns the classical projection, which maps every point to the plane z = z_p. It is
+    /// singular.
     #[must_use]
     pub fn onto_plane(self) -> Affine<View, View> {
         let drop = Affine::<View, View>::scale(1.0, 1.0, 0.0);
@@ -204,7 +208,7 @@ impl Oblique {
     }
 }
 
-/// The plan oblique or planometric projection: the ground plan keeps its shape, and heights are
+/// The plan oblique, or planometric, projection: the ground plan keeps its shape, and heights are
 /// drawn vertically.
 ///
 /// With full heights it is the military projection.
@@ -225,7 +229,8 @@ pub struct Planometric {
 }
 
 impl Planometric {
-    /// The plan rotated by `turn` radians counterclockwise, with heights scaled by `height`.
+    /// Creates the projection with the plan rotated by `turn` radians counterclockwise and heights
+    /// scaled by `height`.
     ///
     /// # Errors
     /// Returns an error if a number is not finite or the height is below 0.
@@ -242,7 +247,8 @@ impl Planometric {
         Ok(Self { turn, rise: Oblique::new_checked(0.0, height, 0.0)? })
     }
 
-    /// The military projection: full heights, with the plan usually rotated by 45° or 30°.
+    /// Creates the military projection, with full heights and the plan rotated by `turn`, usually
+    /// 45° or 30°.
     ///
     /// # Errors
     /// Returns an error if the angle is not finite.
@@ -250,19 +256,20 @@ impl Planometric {
         Self::new(turn, 1.0)
     }
 
-    /// The angle by which the plan is rotated, in radians counterclockwise.
+    /// Returns the angle by which the plan is rotated, in radians counterclockwise.
     #[must_use]
     pub const fn turn(self) -> f64 {
         self.turn
     }
 
-    /// The scale factor of heights.
+    /// Returns the scale factor of heights.
     #[must_use]
     pub const fn height(self) -> f64 {
         self.rise.slant_y
     }
 
-    /// Rotated, seen from above, and sheared to draw heights vertically: z is the height.
+    /// Returns the map that rotates the plan, views it from above, and shears it to draw heights
+    /// vertically. Its z is the height.
     #[must_use]
     pub fn depth_preserving(self) -> Affine<View, View> {
         let from_above = crate::PrincipalView::Top.depth_preserving();
@@ -271,15 +278,15 @@ impl Planometric {
             .then(self.rise.depth_preserving())
     }
 
-    /// Its inverse.
+    /// Returns the inverse of [`depth_preserving`](Self::depth_preserving).
     #[must_use]
     pub fn depth_preserving_inverse(self) -> Affine<View, View> {
-        // The view from below rotates the other way about x.
+        // The view from below rotates in the opposite direction about x.
         let from_front = crate::PrincipalView::Bottom.depth_preserving();
         self.rise.depth_preserving_inverse().then(from_front).then(Affine::rotation_y(-self.turn))
     }
 
-    /// The classical projection onto the picture, z = 0. Singular.
+    /// Returns the classical projection onto the picture, z = 0. It is singular.
     #[must_use]
     pub fn onto_plane(self) -> Affine<View, View> {
         self.depth_preserving().then(Affine::scale(1.0, 1.0, 0.0))

@@ -1,19 +1,19 @@
 //! A near plane of any inclination, for mirrors and portals that clip at their own surface (Lengyel
 //! 2005).
 //!
-//! Only the depth row changes, so the picture stays the same. Ordinary near clipping removes
-//! everything between the eye and the plane. The far plane tilts with it, as far out as the
-//! opposite corner of the volume allows.
+//! Only the depth row changes, so the picture stays the same. Ordinary near clipping then removes
+//! everything between the eye and the plane. The far plane tilts with the near plane and passes
+//! through the opposite corner of the volume.
 
 use crate::{Convention, ProjectionError, ViewVolume};
 use glam::DVec4;
 use homog::{Clip, HPoint, Plane, Projective, View};
 
-/// Oblique near-plane clipping: replaces the near plane of any projection matrix by `plane`.
+/// Replaces the near plane of any projection matrix by `plane`: oblique near-plane clipping.
 ///
-/// The normal of the plane points to the visible side; the eye must be on the other side. The plane
-/// gets the near depth of the convention. The corner of the old volume farthest behind the plane
-/// gets the far depth.
+/// The normal of the plane points to the visible side, and the eye must be on the other side. The
+/// plane gets the near depth of the convention. The corner of the old volume that is farthest in
+/// front of the plane gets the far depth.
 ///
 /// Source: Lengyel, "Oblique View Frustum Depth Projection and Clipping", Journal of Game
 /// Development 1(2), 2005.
@@ -47,15 +47,15 @@ pub fn oblique_near_plane(
         return Err(out_of_range(
             "plane at the eye",
             side,
-            "below 0, with the eye behind the plane",
+            "below 0, so that the eye is behind the plane",
         ));
     }
-    // The corner farthest behind the plane keeps the far depth.
+    // The corner farthest in front of the plane keeps the far depth.
     let seen = clip_to_view.raw().transpose() * plane.raw();
     let corner = DVec4::new(seen.x.signum(), seen.y.signum(), convention.far_depth(), 1.0);
     let farthest = plane.evaluate(clip_to_view.transform_hpoint(HPoint::from_raw(corner)));
     if farthest.is_nan() || farthest <= 0.0 {
-        let allowed = "above 0, with something visible in front of the plane";
+        let allowed = "above 0, so that part of the volume is in front of the plane";
         return Err(out_of_range("plane at the far corner", farthest, allowed));
     }
     let depths = convention.far_depth() - convention.near_depth();
@@ -69,7 +69,7 @@ fn out_of_range(parameter: &'static str, value: f64, allowed: &'static str) -> P
     ProjectionError::OutOfRange { parameter, value, allowed }
 }
 
-/// The plane, with its normal scaled to length 1.
+/// Returns the plane, with its normal scaled to length 1.
 fn normalized_plane(plane: Plane<View>) -> Result<Plane<View>, ProjectionError> {
     for value in plane.raw().to_array() {
         crate::error::check_finite("plane", value)?;

@@ -8,7 +8,7 @@ use homog::{Clip, Projective, View};
 /// The orthographic projection of a box (OR-1, GL-3; C7, C34, C90).
 ///
 /// `near` and `far` are distances in front of the eye. They may be any two different numbers;
-/// negative ones are behind the eye.
+/// negative distances are behind the eye.
 ///
 /// # Guarantees
 /// The box is finite and not empty; the matrix and its inverse are finite in every [`Convention`].
@@ -29,7 +29,7 @@ pub struct Orthographic {
 }
 
 impl Orthographic {
-    /// The projection of the box [left, right] × [bottom, top] × [near, far].
+    /// Creates the projection of the box [left, right] × [bottom, top] × [near, far].
     ///
     /// # Errors
     /// Returns an error if a number is not finite or two opposite sides coincide.
@@ -44,7 +44,7 @@ impl Orthographic {
         Self::from_window(Window::new(left, right, bottom, top)?, near, far)
     }
 
-    /// The projection of the box behind `window`, from `near` to `far`.
+    /// Returns the projection of the box behind `window`, from `near` to `far`.
     ///
     /// # Errors
     /// See [`new`](Self::new).
@@ -59,31 +59,31 @@ impl Orthographic {
         Ok(Self { window, near, far })
     }
 
-    /// The window, the same at every depth.
+    /// Returns the window, which is the same at every depth.
     #[must_use]
     pub const fn window(self) -> Window {
         self.window
     }
 
-    /// The distance of the near plane.
+    /// Returns the distance of the near plane.
     #[must_use]
     pub const fn near(self) -> f64 {
         self.near
     }
 
-    /// The distance of the far plane.
+    /// Returns the distance of the far plane.
     #[must_use]
     pub const fn far(self) -> f64 {
         self.far
     }
 
-    /// The projection matrix. It is affine: w stays 1.
+    /// Returns the projection matrix. It is affine: w stays 1.
     #[must_use]
     pub fn view_to_clip(self, convention: Convention) -> Projective<View, Clip> {
         matrix::parallel_matrix(self.window_fit(), self.depth_row(convention), convention)
     }
 
-    /// Its inverse in closed form.
+    /// Returns the inverse of [`view_to_clip`](Self::view_to_clip) in closed form.
     #[must_use]
     pub fn clip_to_view(self, convention: Convention) -> Projective<Clip, View> {
         matrix::parallel_inverse(self.window_fit(), self.depth_row(convention), convention)

@@ -1,11 +1,11 @@
-//! Perspective by field of view: the window is centered on the line of sight.
+//! Perspective defined by a field of view: the window is centered on the line of sight.
 
 use crate::frustum::check_planes;
 use crate::matrix::{self, DepthRow, WindowFit};
 use crate::{Convention, Fov, Frustum, HalfSlopes, ProjectionError, Window};
 use homog::{Clip, Projective, View};
 
-/// The symmetric perspective (GL-2, FOV-1; C61, C92).
+/// The symmetric perspective projection (GL-2, FOV-1; C61, C92).
 ///
 /// # Guarantees
 /// 0 < near < far, where far may be infinite; both opening angles are between 0 and π; the matrix
@@ -27,8 +27,8 @@ pub struct Perspective {
 }
 
 impl Perspective {
-    /// The perspective with the given field of view, aspect (width / height of the picture) and
-    /// distances of the near and far planes; `far` may be infinite.
+    /// Creates the perspective projection with the given field of view, aspect (width / height of
+    /// the picture) and distances of the near and far planes. `far` may be infinite.
     ///
     /// # Errors
     /// Returns an error if a number other than `far` is not finite, the angle is not between 0 and
@@ -43,68 +43,70 @@ impl Perspective {
         Ok(lens)
     }
 
-    /// Half the window at distance 1 in front of the eye: the tangents of half the opening angles.
+    /// Returns half the size of the window at distance 1 in front of the eye: the tangents of half
+    /// the opening angles.
     #[must_use]
     pub const fn half_slopes(self) -> HalfSlopes {
         self.half
     }
 
-    /// The window at distance 1 in front of the eye: left/near, right/near, bottom/near, top/near.
+    /// Returns the window at distance 1 in front of the eye: left/near, right/near, bottom/near,
+    /// top/near.
     #[must_use]
     pub fn slopes(self) -> Window {
         Window::symmetric(self.half.x, self.half.y)
     }
 
-    /// Width / height of the picture.
+    /// Returns the aspect of the picture, width / height.
     #[must_use]
     pub fn aspect(self) -> f64 {
         self.half.x / self.half.y
     }
 
-    /// The vertical opening angle in radians.
+    /// Returns the vertical opening angle in radians.
     #[must_use]
     pub fn fov_y(self) -> f64 {
         2.0 * libm::atan(self.half.y)
     }
 
-    /// The horizontal opening angle in radians.
+    /// Returns the horizontal opening angle in radians.
     #[must_use]
     pub fn fov_x(self) -> f64 {
         2.0 * libm::atan(self.half.x)
     }
 
-    /// The opening angle between opposite corners in radians.
+    /// Returns the opening angle between opposite corners in radians.
     #[must_use]
     pub fn fov_diagonal(self) -> f64 {
         2.0 * libm::atan(libm::hypot(self.half.x, self.half.y))
     }
 
-    /// The distance of the near plane.
+    /// Returns the distance of the near plane.
     #[must_use]
     pub const fn near(self) -> f64 {
         self.near
     }
 
-    /// The distance of the far plane, possibly infinite.
+    /// Returns the distance of the far plane, possibly infinite.
     #[must_use]
     pub const fn far(self) -> f64 {
         self.far
     }
 
-    /// This projection as a frustum, by its window on the near plane: top = near·tan(θ/2), right =
-    /// aspect·top.
+    /// Returns this projection as a frustum with the window on the near plane: top = near·tan(θ/2),
+    /// right = aspect·top.
     #[must_use]
     pub fn to_frustum(self) -> Frustum {
         Frustum::new_unchecked(self.slopes().scaled(self.near), self.near, self.far)
     }
 
-    /// The projection matrix.
+    /// Returns the projection matrix.
     #[must_use]
     pub fn view_to_clip(self, convention: Convention) -> Projective<View, Clip> {
         matrix::central_matrix(self.window_fit(), self.depth_row(convention), convention)
     }
 
-    /// Its inverse in closed form (IV-1).
+    /// Returns the inverse of [`view_to_clip`](Self::view_to_clip) in closed form (IV-1).
     #[must_use]
     pub fn clip_to_view(self, convention: Convention) -> Projective<Clip, View> {
         matrix::central_inverse(self.window_fit(), self.depth_row(convention), convention)
@@ -129,11 +131,11 @@ impl From<Perspective> for Frustum {
 impl TryFrom<Frustum> for Perspective {
     type Error = ProjectionError;
 
-    /// The inverse conversion, for windows that are centered on the line of sight and not mirrored
+    /// Converts a frustum whose window is centered on the line of sight and not mirrored
     /// (C69, M31).
     ///
     /// # Errors
-    /// Returns [`ProjectionError::OffCenter`] for all others.
+    /// Returns [`ProjectionError::OffCenter`] for any other window.
     fn try_from(frustum: Frustum) -> Result<Self, ProjectionError> {
         let slopes = frustum.slopes();
         let centered = slopes.left() == -slopes.right() && slopes.bottom() == -slopes.top();

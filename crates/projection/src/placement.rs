@@ -1,4 +1,4 @@
-//! Decomposes a central matrix into eye, orientation and lens: the linear algebra of `decompose`.
+//! Decomposes a central matrix into eye, orientation and lens: the linear algebra for `decompose`.
 //!
 //! Take the rows x, y, w of a matrix whose w row has a linear part of length 1. That linear part is
 //! the line of sight. The part of x perpendicular to it points right, and the part of y points up.
@@ -7,10 +7,10 @@
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use homog::{Affine, Vector, View};
 
-/// Entries below this fraction of their neighbors count as rounding.
+/// Entries below this fraction of their neighbors count as rounding errors.
 const RELATIVE_ROUNDING: f64 = 1e-12;
 
-/// Returns whether `small` is only rounding compared with `large`.
+/// Returns whether `small` is only a rounding error compared with `large`.
 pub(crate) fn is_negligible(small: DVec3, large: DVec4) -> bool {
     small.abs().max_element() <= RELATIVE_ROUNDING * large.abs().max_element()
 }
@@ -28,9 +28,10 @@ pub(crate) fn maps_axes_separately(x: DVec4, y: DVec4, z: DVec4) -> bool {
     none(x.y, x) && none(y.x, y) && none(z.x, z) && none(z.y, z)
 }
 
-/// The rank of a matrix that has lost at least one dimension; `None` if it has an inverse.
+/// Returns the rank of a matrix that has lost at least one dimension, or `None` if it has an
+/// inverse.
 ///
-/// Rows and columns are scaled first, so large and small ones count equally.
+/// Rows and columns are scaled first, so that large and small entries count equally.
 pub(crate) fn lost_rank(matrix: DMat4) -> Option<usize> {
     let by_rows = scale_rows(matrix_rows(matrix));
     let by_columns = scale_rows(transpose_rows(by_rows));
@@ -43,17 +44,18 @@ fn matrix_rows(matrix: DMat4) -> [DVec4; 4] {
     [0, 1, 2, 3].map(|i| matrix.row(i))
 }
 
-/// The columns of the matrix with these rows.
+/// Returns the columns of the matrix with these rows.
 fn transpose_rows(rows: [DVec4; 4]) -> [DVec4; 4] {
     [0, 1, 2, 3].map(|i| DVec4::from_array(rows.map(|row| row[i])))
 }
 
-/// Each row divided by its largest entry.
+/// Returns each row divided by its largest entry.
 fn scale_rows(rows: [DVec4; 4]) -> [DVec4; 4] {
     rows.map(|row| if max_coordinate(row) == 0.0 { row } else { row / max_coordinate(row) })
 }
 
-/// Gaussian elimination with full pivoting; returns the number of pivots above rounding.
+/// Runs Gaussian elimination with full pivoting and returns the number of pivots above the rounding
+/// noise.
 fn eliminate_rows(rows: &mut [DVec4; 4]) -> usize {
     let mut used = [false; 4];
     for done in 0..4 {
@@ -72,9 +74,9 @@ fn eliminate_rows(rows: &mut [DVec4; 4]) -> usize {
     4
 }
 
-/// The null vector of a matrix of rank 3, with its largest coordinate or its w scaled to 1.
+/// Returns the null vector of a matrix of rank 3, with its largest coordinate or its w scaled to 1.
 pub(crate) fn null_vector(matrix: DMat4) -> Option<DVec4> {
-    // The columns of the adjugate are multiples of it; the largest one is the most accurate.
+    // The columns of the adjugate are multiples of it, and the largest column is the most accurate.
     let columns = [0, 1, 2, 3].map(|column| cofactors(matrix, column));
     let best =
         columns.into_iter().max_by(|a, b| max_coordinate(*a).total_cmp(&max_coordinate(*b)))?;
@@ -90,7 +92,7 @@ fn max_coordinate(vector: DVec4) -> f64 {
     vector.abs().max_element()
 }
 
-/// The cofactors of one row of the matrix.
+/// Returns the cofactors of one row of the matrix.
 fn cofactors(matrix: DMat4, row: usize) -> DVec4 {
     let minor = |column: usize| {
         let sign = if (row + column) % 2 == 0 { 1.0 } else { -1.0 };
@@ -102,7 +104,7 @@ fn cofactors(matrix: DMat4, row: usize) -> DVec4 {
 /// The eye, orientation and lens of a central matrix.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Placement {
-    /// Right, up and back of the camera, in the input coordinates of the matrix.
+    /// The right, up and backward axes of the camera, in the input coordinates of the matrix.
     axes: [DVec3; 3],
     pub(crate) eye: DVec3,
     /// x' = scale.x x − center.x D in camera coordinates; y' likewise.
@@ -113,8 +115,8 @@ pub(crate) struct Placement {
 }
 
 impl Placement {
-    /// Decomposes a matrix whose last row has a linear part of length 1; `None` if x and y are not
-    /// perpendicular.
+    /// Decomposes a matrix whose last row has a linear part of length 1. Returns `None` if x and y
+    /// are not perpendicular.
     pub(crate) fn from_matrix(matrix: DMat4) -> Option<Self> {
         let [x, y, z, w] = matrix_rows(matrix);
         let sight = w.truncate();
@@ -153,7 +155,8 @@ impl Placement {
             && back.distance(DVec3::Z) < 1e-12
     }
 
-    /// The camera's map: the eye to the origin, and its axes to x, y and z.
+    /// Returns the camera's map, which takes the eye to the origin and the camera's axes to x, y
+    /// and z.
     pub(crate) fn as_affine(&self) -> Affine<View, View> {
         let rows = self.axes.map(|axis| axis.extend(-axis.dot(self.eye)));
         let matrix = DMat4::from_cols(rows[0], rows[1], rows[2], DVec4::W).transpose();
@@ -161,8 +164,9 @@ impl Placement {
     }
 }
 
-/// Returns whether the camera's x axis should oppose the picture's: if the picture is mirrored
-/// anyway, and if the matrix of an unrotated camera is mirrored in x.
+/// Returns whether the camera's x axis should be opposite to the picture's. For an unrotated
+/// camera, this is so if the matrix is mirrored in x; for a rotated camera, if the picture is
+/// mirrored and the camera would otherwise be upside down.
 fn is_rolled(x: DVec4, y: DVec4, sight: DVec3, along_up: f64) -> bool {
     let unturned = is_negligible(sight.with_z(0.0), DVec4::ONE)
         && is_negligible(DVec3::X * x.y, x.truncate().extend(0.0))
@@ -171,7 +175,7 @@ fn is_rolled(x: DVec4, y: DVec4, sight: DVec3, along_up: f64) -> bool {
     if unturned { x.x < 0.0 } else { along_up < 0.0 && up_y < 0.0 }
 }
 
-/// The vector of length 1 in this direction.
+/// Returns the vector of length 1 in this direction.
 pub(crate) fn unit_vector(vector: DVec3) -> Option<DVec3> {
     Vector::<View>::from_raw(vector).normalized().map(Vector::raw)
 }

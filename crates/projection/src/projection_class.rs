@@ -28,15 +28,15 @@ use crate::{
 /// A node of the tree.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum ProjectionClass {
-    /// The root: straight projectors onto a plane.
+    /// The root: projection onto a plane along straight projectors.
     Planar,
     /// The center of projection is at infinity.
     Parallel,
-    /// Parallel projectors perpendicular to the plane.
+    /// The projectors are perpendicular to the plane.
     Orthographic,
     /// The plane is parallel to a principal face.
     Multiview,
-    /// The plane is parallel to no principal face.
+    /// The plane is not parallel to any principal face.
     Axonometric,
     /// All three axes are foreshortened equally.
     Isometric,
@@ -44,15 +44,15 @@ pub enum ProjectionClass {
     Dimetric,
     /// All three axes are foreshortened differently.
     Trimetric,
-    /// Parallel projectors oblique to the plane.
+    /// The projectors are oblique to the plane.
     Oblique,
-    /// Depth drawn at full length.
+    /// Depth is drawn at full length.
     Cavalier,
-    /// Depth drawn at half length.
+    /// Depth is drawn at half length.
     Cabinet,
-    /// The ground plan in true shape, with heights drawn at full length.
+    /// The ground plan has its true shape, and heights are drawn at full length.
     Military,
-    /// Depth drawn at any other length.
+    /// Depth is drawn at any other length.
     GeneralOblique,
     /// The center of projection is a finite point.
     Perspective,
@@ -86,7 +86,7 @@ impl ProjectionClass {
         Self::ThreePoint,
     ];
 
-    /// The usual name.
+    /// Returns the common name.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -110,7 +110,7 @@ impl ProjectionClass {
         }
     }
 
-    /// The parent class; `None` for the root.
+    /// Returns the parent class, or `None` for the root.
     #[must_use]
     pub const fn parent(self) -> Option<Self> {
         match self {
@@ -126,12 +126,12 @@ impl ProjectionClass {
         }
     }
 
-    /// The classes directly below this one, in order.
+    /// Returns the classes directly below this one, in order.
     pub fn children(self) -> impl Iterator<Item = Self> {
         Self::ALL.into_iter().filter(move |class| class.parent() == Some(self))
     }
 
-    /// This class, its parent, and so on up to the root.
+    /// Returns this class, its parent, and so on up to the root.
     pub fn ancestors(self) -> impl Iterator<Item = Self> {
         core::iter::successors(Some(self), |class| class.parent())
     }
@@ -142,7 +142,7 @@ impl ProjectionClass {
         self.children().next().is_none()
     }
 
-    /// The builder for projections of this class, for leaves.
+    /// Returns the builder for projections of this class, or `None` if the class is not a leaf.
     #[must_use]
     pub const fn builder(self) -> Option<&'static str> {
         Some(match self {
@@ -170,7 +170,8 @@ impl ProjectionClass {
         })
     }
 
-    /// A typical projection of this class, for leaves, as shown in a gallery.
+    /// Returns a typical projection of this class, as shown in a gallery, or `None` if the class is
+    /// not a leaf.
     #[must_use]
     pub fn example(self) -> Option<Classical> {
         let typical: Result<Classical, ProjectionError> = match self {
@@ -201,7 +202,7 @@ const DEGREES_45: f64 = core::f64::consts::FRAC_PI_4;
 const FROM_LOWER_LEFT: f64 = 5.0 * DEGREES_45;
 
 impl Classical {
-    /// The leaf of the tree to which this projection belongs.
+    /// Returns the leaf of the tree for this projection.
     #[must_use]
     pub fn class(self) -> ProjectionClass {
         match self {

@@ -38,12 +38,12 @@ use homog::{HPoint, Plane, Point, Projective, Space, Vector};
 pub struct Projector<S: Space> {
     center: HPoint<S>,
     plane: Plane<S>,
-    /// π·c, not 0.
+    /// π·c, which is never 0.
     reach: f64,
 }
 
 impl<S: Space> Projector<S> {
-    /// Central projection from `eye` onto `plane`.
+    /// Creates the central projection from `eye` onto `plane`.
     ///
     /// # Errors
     /// Returns an error if a number is not finite, the plane has no normal, or the eye is in the
@@ -55,7 +55,7 @@ impl<S: Space> Projector<S> {
         Self::new_checked(HPoint::from(eye), plane, ProjectionError::CenterOnPlane)
     }
 
-    /// Parallel projection along `direction` onto `plane`.
+    /// Creates the parallel projection along `direction` onto `plane`.
     ///
     /// # Errors
     /// Returns an error if a number is not finite, the direction or the plane's normal is zero, or
@@ -94,28 +94,28 @@ impl<S: Space> Projector<S> {
         Ok(projector)
     }
 
-    /// The center of projection; w = 0 if the projectors are parallel.
+    /// Returns the center of projection, with w = 0 if the projectors are parallel.
     #[must_use]
     pub const fn center(self) -> HPoint<S> {
         self.center
     }
 
-    /// The plane of projection, with a normal of length 1.
+    /// Returns the plane of projection, with a normal of length 1.
     #[must_use]
     pub const fn plane(self) -> Plane<S> {
         self.plane
     }
 
-    /// The classical projection: every point maps to the plane. Singular; points of the plane do
-    /// not move (with w = 1).
+    /// Returns the classical projection, which maps every point to the plane. It is singular and
+    /// does not move points of the plane with w = 1.
     #[must_use]
     pub fn onto_plane(self) -> Projective<S, S> {
         let toward = self.center.raw() / self.reach;
         Projective::from_raw(DMat4::IDENTITY - outer_product(toward, self.plane.raw()))
     }
 
-    /// The depth-preserving variant: the image keeps its distance from the plane before the divide.
-    /// The map is therefore invertible, and hidden surfaces can be removed (PR-1, C102).
+    /// Returns the depth-preserving variant: the image keeps its distance from the plane before the
+    /// divide. The map is therefore invertible, and hidden surfaces can be removed (PR-1, C102).
     #[must_use]
     pub fn depth_preserving(self) -> Projective<S, S> {
         let normal = self.plane.normal().raw().extend(0.0);
@@ -124,7 +124,7 @@ impl<S: Space> Projector<S> {
     }
 }
 
-/// a bᵀ.
+/// Returns a bᵀ.
 fn outer_product(a: DVec4, b: DVec4) -> DMat4 {
     DMat4::from_cols(a * b.x, a * b.y, a * b.z, a * b.w)
 }

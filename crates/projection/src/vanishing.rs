@@ -1,8 +1,9 @@
 //! Vanishing points: the points where images of parallel lines meet (VN-1; C80, C81).
 //!
-//! Parallel lines share one point at infinity, (d, 0). Its image is their vanishing point; if that
-//! is at infinity too, the images stay parallel. The number of axes with a finite vanishing point
-//! makes the picture a one-, two- or three-point perspective.
+//! Parallel lines share one point at infinity, (d, 0). Its image is their vanishing point. If the
+//! image is also at infinity, the images of the lines stay parallel. The number of axes with a
+//! finite vanishing point determines whether the picture is a one-, two- or three-point
+//! perspective.
 
 use crate::ProjectionError;
 use crate::error::check_finite;
@@ -12,17 +13,17 @@ use homog::{Point, Projective, Space, Vector};
 /// The point that the images of all lines in one direction approach.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum VanishingPoint<S: Space> {
-    /// They meet here.
+    /// The images meet at a point.
     At {
         /// The common point, after the divide.
         point: Point<S>,
-        /// True if following the lines along the given direction leads to it, false if following
-        /// them against it does (w < 0).
+        /// Whether the lines approach it in the given direction. If not, they approach it in the
+        /// opposite direction (w < 0).
         ahead: bool,
     },
-    /// They stay parallel.
+    /// The images stay parallel.
     AtInfinity {
-        /// The direction of the images; its length has no meaning.
+        /// The direction of the images. Its length is not significant.
         direction: Vector<S>,
     },
     /// The lines run along the projectors, so each appears as a single point.
@@ -30,7 +31,7 @@ pub enum VanishingPoint<S: Space> {
 }
 
 impl<S: Space> VanishingPoint<S> {
-    /// The common point of the images, if they meet.
+    /// Returns the common point of the images, if they meet.
     #[must_use]
     pub const fn point(self) -> Option<Point<S>> {
         match self {
@@ -40,8 +41,8 @@ impl<S: Space> VanishingPoint<S> {
     }
 }
 
-/// The vanishing point of lines along `direction` under `map`. `direction` and its opposite share
-/// it.
+/// Returns the vanishing point of lines along `direction` under `map`. `direction` and its opposite
+/// have the same vanishing point.
 ///
 /// ```
 /// use homog::{Point, Vector, View};
@@ -73,7 +74,7 @@ pub fn vanishing_point<A: Space, B: Space>(
     classify_point(image, direction_rounding(map, unit))
 }
 
-/// The largest part of each image coordinate that can be pure rounding.
+/// Returns the magnitude up to which each image coordinate may be only a rounding error.
 fn direction_rounding<A: Space, B: Space>(map: Projective<A, B>, direction: Vector<A>) -> DVec4 {
     let m = map.raw();
     let d = direction.raw().abs();
@@ -118,13 +119,13 @@ pub struct PrincipalVanishingPoints<S: Space> {
 }
 
 impl<S: Space> PrincipalVanishingPoints<S> {
-    /// The number of axes with a finite vanishing point.
+    /// Returns the number of axes with a finite vanishing point.
     #[must_use]
     pub fn count(&self) -> usize {
         self.axes.iter().filter(|axis| axis.point().is_some()).count()
     }
 
-    /// The kind of perspective with that number.
+    /// Returns the kind of perspective with that number of vanishing points.
     #[must_use]
     pub fn class(&self) -> PointPerspective {
         match self.count() {
@@ -136,7 +137,7 @@ impl<S: Space> PrincipalVanishingPoints<S> {
     }
 }
 
-/// The vanishing points of the three axes of space `A` under `map`.
+/// Returns the vanishing points of the three axes of space `A` under `map`.
 ///
 /// For a map without rotation (bottom row p, q, r, s) this counts the nonzero values among p, q and
 /// r.

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!        7────────6     corners 0..3 on the near plane, 4..7 on the far plane,
-//!       /│  far  /│     each counterclockwise from left-bottom as the viewer sees it:
+//!       /│  far  /│     each counterclockwise from the lower left, as seen by the viewer:
 //!      4────────5 │         3 2      7 6
 //!      │ 3──────│-2         0 1      4 5
 //!      │/ near  │/
@@ -50,16 +50,16 @@ impl ViewVolume {
         [3, 7],
     ];
 
-    /// The volume that `view_to_clip` maps to the canonical volume of `convention`.
+    /// Creates the volume that `view_to_clip` maps to the canonical volume of `convention`.
     #[must_use]
     pub const fn new(view_to_clip: Projective<View, Clip>, convention: Convention) -> Self {
         Self { view_to_clip, convention }
     }
 
-    /// The six half-spaces whose intersection is the volume: left, right, bottom, top, near, far
-    /// (CL-1).
+    /// Returns the six half-spaces whose intersection is the volume: left, right, bottom, top,
+    /// near, far (CL-1).
     ///
-    /// The value of a plane is nonnegative inside. Its normal does not have length 1.
+    /// The value of each plane is nonnegative inside. The normals do not have length 1.
     #[must_use]
     pub fn planes(self) -> [Plane<View>; 6] {
         let rows = self.view_to_clip.raw().transpose();
@@ -71,8 +71,8 @@ impl ViewVolume {
             .map(Plane::from_raw)
     }
 
-    /// The eight corners, with w = 0 for those at infinity; `None` if the projection is singular or
-    /// a coordinate is not finite.
+    /// Returns the eight corners, with w = 0 for corners at infinity, or `None` if the projection
+    /// is singular or a coordinate is not finite.
     #[must_use]
     pub fn corners(self) -> Option<[HPoint<View>; 8]> {
         let clip_to_view = self.view_to_clip.inverse()?;
@@ -87,15 +87,15 @@ impl ViewVolume {
         corners.iter().all(|corner| corner.is_finite()).then_some(corners)
     }
 
-    /// Returns whether the point is visible; the boundary belongs to the volume (CL-1).
+    /// Returns whether the point is visible. The boundary is part of the volume (CL-1).
     #[must_use]
     pub fn contains(self, point: Point<View>) -> bool {
         let inside = |plane: Plane<View>| plane.evaluate(point) >= 0.0;
         self.planes().into_iter().all(inside) && self.view_to_clip.transform_point(point).w() > 0.0
     }
 
-    /// The position from which the volume is seen: a point, or with w = 0 the direction toward an
-    /// eye at infinity.
+    /// Returns the position from which the volume is seen: a point, or with w = 0 the direction
+    /// toward an eye at infinity.
     ///
     /// `None` if the projection is singular or a coordinate is not finite.
     #[must_use]
@@ -105,7 +105,7 @@ impl ViewVolume {
         let eye =
             clip_to_view.transform_hpoint(HPoint::from_raw(DVec4::new(0.0, 0.0, towards, 0.0)));
         let direction = eye.raw().truncate();
-        // The inverse of a parallel projection may have a w that is pure rounding.
+        // The inverse of a parallel projection may have a w that is only a rounding error.
         let is_infinite = eye.w().abs() <= ROUNDING * direction.abs().max_element();
         let eye = if is_infinite { HPoint::from_raw(direction.extend(0.0)) } else { eye };
         eye.is_finite().then_some(eye)

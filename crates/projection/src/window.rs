@@ -9,7 +9,7 @@ use crate::matrix::WindowFit;
 ///
 /// # Guarantees
 /// All edges are finite, opposite edges differ, and the width and height are finite. Mirrored
-/// windows, with left > right or bottom > top, are allowed: they give a mirrored picture.
+/// windows, with left > right or bottom > top, are allowed and give a mirrored picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Window {
     left: f64,
@@ -19,10 +19,10 @@ pub struct Window {
 }
 
 impl Window {
-    /// The window with the given edges.
+    /// Creates a window from its edges.
     ///
     /// # Errors
-    /// Returns an error if an edge is not finite, opposite edges coincide, or they are too far
+    /// Returns an error if an edge is not finite, or if opposite edges coincide or are too far
     /// apart.
     pub fn new(left: f64, right: f64, bottom: f64, top: f64) -> Result<Self, ProjectionError> {
         check_finite("left", left)?;
@@ -44,7 +44,7 @@ impl Window {
         usable.then_some(self).ok_or(ProjectionError::Unrepresentable { what: "window" })
     }
 
-    /// The window with the given size, centered on the line of sight.
+    /// Creates a window with the given size, centered on the line of sight.
     ///
     /// # Errors
     /// Returns an error if a size is 0 or not finite.
@@ -53,61 +53,61 @@ impl Window {
         Self::new(-x, x, -y, y)
     }
 
-    /// A window whose opposite edges are known to differ.
+    /// Creates a window whose opposite edges are known to differ.
     pub(crate) const fn symmetric(half_width: f64, half_height: f64) -> Self {
         Self { left: -half_width, right: half_width, bottom: -half_height, top: half_height }
     }
 
-    /// The left edge of the picture.
+    /// Returns the left edge of the picture.
     #[must_use]
     pub const fn left(self) -> f64 {
         self.left
     }
 
-    /// The right edge of the picture.
+    /// Returns the right edge of the picture.
     #[must_use]
     pub const fn right(self) -> f64 {
         self.right
     }
 
-    /// The bottom edge of the picture.
+    /// Returns the bottom edge of the picture.
     #[must_use]
     pub const fn bottom(self) -> f64 {
         self.bottom
     }
 
-    /// The top edge of the picture.
+    /// Returns the top edge of the picture.
     #[must_use]
     pub const fn top(self) -> f64 {
         self.top
     }
 
-    /// right − left: negative if mirrored.
+    /// Returns right − left, which is negative if the window is mirrored.
     #[must_use]
     pub fn width(self) -> f64 {
         self.right - self.left
     }
 
-    /// top − bottom: negative if mirrored.
+    /// Returns top − bottom, which is negative if the window is mirrored.
     #[must_use]
     pub fn height(self) -> f64 {
         self.top - self.bottom
     }
 
-    /// |width / height|: the aspect at which an image shows the window undistorted (PL-3).
+    /// Returns |width / height|, the aspect at which an image shows the window undistorted (PL-3).
     #[must_use]
     pub fn aspect(self) -> f64 {
         (self.width() / self.height()).abs()
     }
 
-    /// The center of the window, (x, y).
+    /// Returns the center of the window, (x, y).
     #[must_use]
     pub fn center(self) -> (f64, f64) {
         (0.5 * self.left + 0.5 * self.right, 0.5 * self.bottom + 0.5 * self.top)
     }
 
-    /// The window with all edges multiplied by `factor`: the same rays, on a plane `factor` times
-    /// as far away.
+    /// Returns the window with all edges multiplied by `factor`, which has the same rays on a plane
+    /// `factor` times as far away.
     #[must_use]
     pub(crate) fn scaled(self, factor: f64) -> Self {
         Self {
@@ -118,7 +118,7 @@ impl Window {
         }
     }
 
-    /// The map of x and y for a view plane at `distance` (1 for parallel projections).
+    /// Returns the map of x and y for a view plane at `distance` (1 for parallel projections).
     pub(crate) fn window_fit(self, distance: f64) -> Result<WindowFit, ProjectionError> {
         self.window_fit_unchecked(distance).check_fit()
     }

@@ -1,7 +1,8 @@
-//! Changes of the window: lens shift, sub-images, jitter, and the four angles of a headset eye.
+//! Changes to the window: lens shift, sub-images, jitter, and the four angles of one eye of a
+//! headset.
 //!
-//! They change only the window, so they work alike for perspective and parallel projections and
-//! leave lines, depth and vanishing points unchanged.
+//! They change only the window, so they work the same way for perspective and parallel projections
+//! and leave lines, depth and vanishing points unchanged.
 //!
 //! ```
 //! use projection::{Convention, Fov, Perspective, ViewOffset};
@@ -19,7 +20,7 @@ use crate::{Frustum, Orthographic, Perspective, ProjectionError, Window};
 use core::f64::consts::FRAC_PI_2;
 
 /// A sub-image of a larger picture, like the view offset of three.js: a rectangle in pixels from
-/// the top left corner, y down. It may extend beyond the picture.
+/// the top left corner, with y down. It may extend beyond the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ViewOffset {
     /// The width and height of the whole picture.
@@ -30,8 +31,8 @@ pub struct ViewOffset {
     pub size: (f64, f64),
 }
 
-/// A sample position relative to the pixel center, in pixels, x right and y down, for accumulated
-/// antialiasing.
+/// A sample position relative to the pixel center, in pixels, with x to the right and y down, for
+/// accumulated antialiasing.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Jitter {
     /// The width and height of the picture in pixels.
@@ -40,8 +41,8 @@ pub struct Jitter {
     pub offset: (f64, f64),
 }
 
-/// The angles from the line of sight to the four edges, in radians, right and up positive (as in
-/// OpenXR).
+/// The angles from the line of sight to the four edges, in radians, positive to the right and up
+/// (as in OpenXR).
 ///
 /// A centered lens of 90° has left = down = −π/4 and right = up = π/4.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -57,7 +58,7 @@ pub struct FourAngles {
 }
 
 impl FourAngles {
-    /// The frustum between the four edges.
+    /// Returns the frustum between the four edges.
     ///
     /// # Errors
     /// Returns an error if an angle is not between −π/2 and π/2, opposite angles are equal, or 0 <
@@ -80,7 +81,8 @@ fn angle_slope(parameter: &'static str, angle: f64) -> Result<f64, ProjectionErr
 }
 
 impl Window {
-    /// The part of the window that `offset` shows. Neighboring tiles share their edges exactly.
+    /// Returns the part of the window that `offset` shows. Neighboring tiles share their edges
+    /// exactly.
     ///
     /// # Errors
     /// Returns an error if a size is not above 0 or a number is not finite.
@@ -99,8 +101,8 @@ impl Window {
         Self::new(left, right, down((y + h) / height), down(y / height))
     }
 
-    /// The window shifted by `x` times its width to the right and `y` times its height up: a lens
-    /// shift.
+    /// Returns the window shifted by `x` times its width to the right and `y` times its height up:
+    /// a lens shift.
     ///
     /// # Errors
     /// Returns an error if a number is not finite.
@@ -110,7 +112,7 @@ impl Window {
         Self::new(self.left() + dx, self.right() + dx, self.bottom() + dy, self.top() + dy)
     }
 
-    /// The window shifted to make pixel centers sample the given offset.
+    /// Returns the window shifted so that pixel centers sample the given offset.
     ///
     /// # Errors
     /// Returns an error if a size is not above 0 or a number is not finite.
@@ -124,7 +126,7 @@ impl Window {
 macro_rules! window_methods {
     ($projection:ty, $result:ty, $with:expr) => {
         impl $projection {
-            /// The projection that shows only the given tile of this one's picture.
+            /// Returns the projection that shows only the given tile of this projection's picture.
             ///
             /// # Errors
             /// Returns an error if a size is not above 0 or a number is not finite.
@@ -132,8 +134,8 @@ macro_rules! window_methods {
                 $with(self, &|window: Window| window.view_offset(offset))
             }
 
-            /// The projection through the window shifted by `x` times its width and `y` times its
-            /// height.
+            /// Returns the projection through the window shifted by `x` times its width and `y`
+            /// times its height.
             ///
             /// # Errors
             /// Returns an error if a number is not finite.
@@ -141,7 +143,7 @@ macro_rules! window_methods {
                 $with(self, &|window: Window| window.shifted(x, y))
             }
 
-            /// The projection whose pixel centers sample the given offset.
+            /// Returns the projection whose pixel centers sample the given offset.
             ///
             /// # Errors
             /// Returns an error if a size is not above 0 or a number is not finite.

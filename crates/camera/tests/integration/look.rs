@@ -155,7 +155,8 @@ fn messages_contain_values_and_a_remedy() {
         Camera::look_to(Point::ORIGIN, v(0.0, -1.0, 0.0), Vector::Y).expect_err("up is parallel");
     assert_eq!(
         top.to_string(),
-        "the view-up (0, 1, 0) is parallel to the gaze (0, -1, 0): choose another view-up, such as (0, 0, -1)"
+        "the view-up (0, 1, 0) is parallel to the gaze (0, -1, 0): choose another view-up, such \
+         as (0, 0, -1)"
     );
 }
 

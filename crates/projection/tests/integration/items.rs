@@ -1,4 +1,5 @@
-//! Items of the sources and misprints that the laws leave out, each against its formula.
+//! Topics and misprints of the sources that the laws do not cover, each checked against its
+//! formula.
 
 use glam::{DMat4, DVec4};
 use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, Screen, Vector, View, World};
@@ -17,22 +18,23 @@ fn close(ours: [f64; 3], due: [f64; 3]) -> bool {
     ours.iter().zip(due).all(|(a, b)| (a - b).abs() < 1e-12 * (1.0 + b.abs()))
 }
 
-/// PE-1: (x, y, z) maps to (nx/z, ny/z, n + f − fn/z). As n and z are both negative nothing is
-/// turned over, and what is nearer stays nearer.
+/// PE-1: (x, y, z) maps to (nx/z, ny/z, n + f − fn/z). Because n and z are both negative, nothing
+/// is flipped, and nearer points stay nearer.
 #[test]
-fn c24_p_neither_turns_over_nor_reorders() {
+fn c24_p_neither_flips_nor_reorders() {
     let p = chapter::p(N, F).expect("valid");
     let mut last = f64::INFINITY;
     for z in [-1.0, -1.5, -2.0, -3.5, -5.0] {
         let image = divided(p.transform_point(Point::new(0.6, -0.8, z)));
         assert!(close(image, [N * 0.6 / z, N * -0.8 / z, N + F - F * N / z]), "{image:?}");
-        assert!(image[0] > 0.0 && image[1] < 0.0, "left stays left and up stays up");
-        assert!(image[2] < last, "farther is less");
+        assert!(image[0] > 0.0 && image[1] < 0.0, "left stays left, and up stays up");
+        assert!(image[2] < last, "farther points have less depth");
         last = image[2];
     }
 }
 
-/// The subscript f_n would have to be a third number; only the product f·n keeps both planes.
+/// With the subscript, f_n would have to be a third number. Only the product f·n preserves both
+/// planes.
 #[test]
 fn misprint_m5_the_numerator_is_the_product_of_f_and_n() {
     let image = |numerator: f64, z: f64| N + F - numerator / z;
@@ -44,9 +46,9 @@ fn misprint_m5_the_numerator_is_the_product_of_f_and_n() {
     assert_eq!(divided(p.transform_point(Point::new(0.0, 0.0, -2.0)))[2], image(F * N, -2.0));
 }
 
-/// P gives (nx, ny, (n + f)z − fn, z), which is equivalent to (nx/z, …) but not equal to it.
+/// P gives (nx, ny, (n + f)z − fn, z), which is equivalent but not equal to (nx/z, …).
 #[test]
-fn misprint_m11b_before_the_divide_there_is_equivalence_not_equality() {
+fn misprint_m11b_before_the_divide_points_are_equivalent_not_equal() {
     let image = chapter::p(N, F).expect("valid").transform_point(Point::new(0.5, 1.5, -2.0));
     assert_eq!(image.raw(), DVec4::new(N * 0.5, N * 1.5, (N + F) * -2.0 - F * N, -2.0));
     let printed = HPoint::<View>::new(N * 0.5 / -2.0, N * 1.5 / -2.0, N + F - F * N / -2.0, 1.0);
@@ -54,8 +56,8 @@ fn misprint_m11b_before_the_divide_there_is_equivalence_not_equality() {
     assert_eq!(image.equivalent(printed, 1e-12), Some(true));
 }
 
-/// The camera's matrix, P, M_orth and the viewport's matrix: divided at the end it is the same
-/// place as divided as soon as possible.
+/// The chain is the camera matrix, P, M_orth and the viewport matrix. A single divide at the end
+/// gives the same position as dividing as early as possible.
 #[test]
 fn c28_the_divide_comes_once_at_the_end_of_the_chain() {
     let world_to_view = Affine::<World, View>::translation(Vector::new(-2.0, 1.0, -4.0));
@@ -76,7 +78,7 @@ fn c28_the_divide_comes_once_at_the_end_of_the_chain() {
     assert!(close(divided(chain.transform_point(place)), step_by_step), "{step_by_step:?}");
 }
 
-/// Distances in a plane parallel to the picture come out at one scale at any depth.
+/// Distances in a plane parallel to the picture are drawn at the same scale at any depth.
 #[test]
 fn c34_orthographic_pictures_can_be_measured() {
     let map = Orthographic::new(-4.0, 4.0, -3.0, 3.0, 0.0, 20.0)
@@ -90,9 +92,9 @@ fn c34_orthographic_pictures_can_be_measured() {
     }
 }
 
-/// θ is measured between the middles of the edges; towards the corners the angle is larger.
+/// θ is measured between the midpoints of the edges. Toward the corners, the angle is larger.
 #[test]
-fn c49_the_angle_of_view_is_that_between_the_middles_of_the_edges() {
+fn c49_the_angle_of_view_is_measured_between_edge_midpoints() {
     let theta = 1.1;
     let window = chapter::window_from_fov(theta, 640.0, 480.0, N).expect("valid");
     let angle = |a: Vector<View>, b: Vector<View>| libm::acos(a.dot(b) / (a.length() * b.length()));
@@ -104,8 +106,8 @@ fn c49_the_angle_of_view_is_that_between_the_middles_of_the_edges() {
     assert!((window.right() / window.top() - 640.0 / 480.0).abs() < 1e-15);
 }
 
-/// Two eyes at ±e look through one window at distance d: each sees it off center by e, and a point
-/// of the window's plane has the same image for both.
+/// Two eyes at ±e look through one window at distance d. For each eye, the window is off-center by
+/// e, and a point on the plane of the window has the same image for both eyes.
 #[test]
 fn c65_two_eyes_share_a_window_and_shift_it_to_opposite_sides() {
     let (e, d, near, far) = (0.03, 2.0, 0.5, 50.0);
@@ -118,15 +120,15 @@ fn c65_two_eyes_share_a_window_and_shift_it_to_opposite_sides() {
     let [on_window, nearer, farther] = [-2.0, -1.0, -9.0].map(|z| Point::new(0.4, 0.1, z));
     let parallax = |p| seen(e, p)[0] - seen(-e, p)[0];
     assert!(parallax(on_window).abs() < 1e-15);
-    assert!(parallax(nearer) < 0.0, "before the window the images cross");
+    assert!(parallax(nearer) < 0.0, "in front of the window, the images cross");
     assert!(parallax(farther) > 0.0);
     assert!((parallax(farther) - 2.0 * e * (1.0 - d / 9.0)).abs() < 1e-15);
 }
 
-/// VV-1: the shear x − (a/c)(z − z0), y − (b/c)(z − z0) makes the projectors run along z, a box
-/// does the rest; slanted edges of the prism become edges of the cube.
+/// VV-1: the shear x − (a/c)(z − z0), y − (b/c)(z − z0) makes the projectors parallel to z. Then a
+/// box is enough, and slanted edges of the prism become edges of the cube.
 #[test]
-fn c86_a_slanted_prism_is_sheared_upright_and_fitted() {
+fn c86_a_slanted_prism_is_sheared_straight_and_fitted() {
     let (a, b, c) = (0.6, -0.4, -1.5);
     let slant = Oblique::by_direction(Vector::new(a, b, c), 0.0).expect("slanted");
     let volume = Orthographic::new(-1.0, 3.0, -2.0, 1.0, 1.0, 9.0).expect("valid");
@@ -142,7 +144,8 @@ fn c86_a_slanted_prism_is_sheared_upright_and_fitted() {
     }
 }
 
-/// With every projection the visible part fills the same cube: a clipper need not know which.
+/// For every projection, the visible part fills the same cube, so a clipper does not depend on the
+/// projection.
 #[test]
 fn c89_parallel_and_perspective_end_in_the_same_volume() {
     let c = Convention::CHAPTER;
@@ -168,8 +171,8 @@ fn c89_parallel_and_perspective_end_in_the_same_volume() {
     }
 }
 
-/// A volume has three sides: [0, 1]³ is the canonical cube shrunk to half and moved, in x and y
-/// too.
+/// A volume has three sides. The cube [0, 1]³ is the canonical cube scaled by one half and moved,
+/// also in x and y.
 #[test]
 fn misprint_m7_a_volume_of_zero_to_one_has_three_sides() {
     let frustum = Frustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0).expect("valid");
@@ -182,13 +185,13 @@ fn misprint_m7_a_volume_of_zero_to_one_has_three_sides() {
         to_unit.transform_point(ndc.expect("ahead")).into()
     };
     assert!(close(image(-1.0, -2.0, -2.0), [0.0; 3]) && close(image(9.0, 3.0, -6.0), [1.0; 3]));
-    // Zero to one only in depth, as the interfaces have it, is another volume.
+    // A volume that is zero to one only in depth, as in graphics APIs, is different.
     let depth_only =
         frustum.view_to_clip(Convention::WEBGPU).transform_point(Point::new(-1.0, -2.0, -2.0));
     assert!(close(divided(depth_only), [-1.0, -1.0, 0.0]));
 }
 
-/// Eq1 of the lesson moves the apex to the origin: by minus mid_x and by minus mid_y.
+/// Eq1 of the lesson moves the apex to the origin, by minus mid_x and minus mid_y.
 #[test]
 fn misprint_m13_both_midpoints_are_subtracted() {
     let lesson = ApexMovedFrustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0).expect("valid");
@@ -201,10 +204,10 @@ fn misprint_m13_both_midpoints_are_subtracted() {
         divided(first.then_project(rest).transform_point(Point::new(0.0, 1.0, -2.0)))[1]
     };
     assert!((top_edge(by(-mid_y)) - 1.0).abs() < 1e-15);
-    assert!((top_edge(by(mid_y)) - 1.0).abs() > 0.5, "with +mid_y the top edge misses the top");
+    assert!((top_edge(by(mid_y)) - 1.0).abs() > 0.5, "with +mid_y, the top edge is not at the top");
 }
 
-/// A window from (−1, 1) to (1, 1) has no height; the lesson's runs from (−1, −1).
+/// A window from (−1, 1) to (1, 1) has no height; the lesson's window starts at (−1, −1).
 #[test]
 fn misprint_m14b_a_window_has_two_different_corners() {
     assert!(Window::new(-1.0, 1.0, 1.0, 1.0).is_err());
@@ -215,8 +218,8 @@ fn misprint_m14b_a_window_has_two_different_corners() {
     assert!(close(divided(map.transform_point(Point::new(1.0, 1.0, -1.0))), [1.0, 1.0, -1.0]));
 }
 
-/// Ortho is a scale after a translation, whose z entry is −((−near) + (−far))/2. Read with the
-/// parenthesis closed early, −(−near) + (−far)/2, the box is not centered.
+/// Ortho is a scale after a translation, whose z entry is −((−near) + (−far))/2. If the parenthesis
+/// is closed too early, −(−near) + (−far)/2, the box is not centered.
 #[test]
 fn misprint_m15b_the_box_is_moved_by_the_mean_of_near_and_far() {
     let (near, far) = (2.0, 6.0);
@@ -232,9 +235,10 @@ fn misprint_m15b_the_box_is_moved_by_the_mean_of_near_and_far() {
     assert!(!ours.abs_diff_eq(product(-(-near) + (-far) / 2.0), 0.1));
 }
 
-/// GL-2 and D3D-1, entry by entry: the same lens for two interfaces, by height or by width.
+/// GL-2 and D3D-1, entry by entry: the same lens for two graphics APIs, defined by height or by
+/// width.
 #[test]
-fn c60_c92_the_entries_of_a_lens_in_two_interfaces() {
+fn c60_c92_matrix_entries_of_a_lens_in_two_interfaces() {
     let (fov, aspect, near, far) = (0.9, 1.6, 0.5, 8.0);
     let lens = Perspective::new(Fov::Vertical(fov), aspect, near, far).expect("valid");
     let cot = 1.0 / libm::tan(fov / 2.0);

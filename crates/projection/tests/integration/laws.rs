@@ -1,5 +1,5 @@
-//! The laws of projections, checked on random parameters, and parity with other builders.
-// Test names say what they check.
+//! The laws of projections, tested with random parameters, and parity with other builders.
+// Test names state what they check.
 #![allow(missing_docs)]
 
 mod builders;

@@ -1,5 +1,5 @@
-//! Corners go to corners, inverses undo, conventions convert: for each builder and every
-//! convention.
+//! For each builder and every convention: corners map to corners, inverses undo the map, and
+//! conventions can be converted.
 
 use super::samples::{self, convention, conventions, distance, frustum, orthographic, perspective};
 use glam::DMat4;
@@ -9,7 +9,7 @@ use projection::{
 };
 use proptest::prelude::*;
 
-/// The view-space point `distance` ahead of the eye at (x, y).
+/// Returns the view-space point at (x, y), `distance` in front of the eye.
 fn ahead(convention: Convention, x: f64, y: f64, distance: f64) -> Point<View> {
     Point::new(x, y, convention.ahead() * distance)
 }
@@ -26,9 +26,9 @@ fn assert_maps(map: Projective<View, Clip>, from: Point<View>, to: [f64; 3]) {
 proptest! {
     #![proptest_config(samples::cases(128))]
 
-    /// C4, C91: near and far corners, in every convention.
+    /// C4, C91: tests the near and far corners in every convention.
     #[test]
-    fn a_frustum_takes_its_corners_to_those_of_the_canonical_volume(
+    fn frustum_corners_map_to_corners_of_the_canonical_volume(
         f in frustum(),
         c in convention(),
     ) {
@@ -43,9 +43,9 @@ proptest! {
         }
     }
 
-    /// C4, C7: the box between any two planes.
+    /// C4, C7: tests the box between any two planes.
     #[test]
-    fn a_box_takes_its_corners_to_those_of_the_canonical_volume(
+    fn box_corners_map_to_corners_of_the_canonical_volume(
         o in orthographic(),
         c in convention(),
     ) {
@@ -56,7 +56,7 @@ proptest! {
         assert_maps(map, high, [1.0, c.top(), c.far_depth()]);
     }
 
-    /// IV-1, C8, C26: from clip space back into view space.
+    /// IV-1, C8, C26: tests the maps from clip space back to view space.
     #[test]
     fn closed_form_inverses_undo(
         f in frustum(),
@@ -74,7 +74,7 @@ proptest! {
         }
     }
 
-    /// C30, C100: and handedness and the flips of y and z with them.
+    /// C30, C100: also tests handedness and the flips of y and z.
     #[test]
     fn any_convention_converts_to_any_other(
         f in frustum(),
@@ -95,7 +95,7 @@ proptest! {
         }
     }
 
-    /// C69, C92, M14c: a window off center is an error, not nothing.
+    /// C69, C92, M14c: an off-center window is an error, not an empty result.
     #[test]
     fn a_perspective_is_the_frustum_through_its_window(p in perspective(), c in convention()) {
         let through = p.to_frustum();
@@ -106,9 +106,9 @@ proptest! {
         prop_assert!(Perspective::try_from(moved).is_err());
     }
 
-    /// C33, C60: by height, width, diagonal and focal length.
+    /// C33, C60: tests height, width, diagonal and focal length.
     #[test]
-    fn every_way_to_say_the_field_of_view_gives_the_same_lens(
+    fn every_form_of_the_field_of_view_gives_the_same_lens(
         fov in 0.05..3.0,
         aspect in 0.2..5.0,
     ) {
@@ -134,9 +134,9 @@ proptest! {
     }
 }
 
-/// C61, C90: equal borders, wrong signs, and numbers that are not finite.
+/// C61, C90: tests equal borders, wrong signs, and numbers that are not finite.
 #[test]
-fn bad_parameters_are_refused_by_name() {
+fn invalid_parameters_are_rejected_by_name() {
     let nan = f64::NAN;
     let message = |e: Result<Frustum, ProjectionError>| e.expect_err("bad").to_string();
     assert!(message(Frustum::new(nan, 1.0, 0.0, 1.0, 1.0, 2.0)).contains("`left` is NaN"));

@@ -1,5 +1,5 @@
-//! The classical projections: what each keeps, that each has two forms, and that parallel is the
-//! limit of central.
+//! The classical projections: what each preserves, that each has two forms, and that parallel
+//! projection is the limit of central projection.
 
 use super::samples::{
     self, axonometric, convention, direction, distance, npoint, oblique, orthographic, point,
@@ -14,7 +14,7 @@ use projection::{
 };
 use proptest::prelude::*;
 
-/// One of each leaf of the tree, or a random one of the adjustable kinds.
+/// An example of a leaf of the tree, or a random projection of an adjustable kind.
 fn classical() -> impl Strategy<Value = Classical> {
     let leaves: Vec<_> =
         ProjectionClass::ALL.into_iter().filter_map(ProjectionClass::example).collect();
@@ -57,9 +57,9 @@ proptest! {
         }
     }
 
-    /// C76: by foreshortening ratios.
+    /// C76: tests the construction from foreshortening ratios.
     #[test]
-    fn any_possible_ratios_come_out(x in 0.1..1.0, y in 0.1..1.0, z in 0.1..1.0) {
+    fn any_possible_ratios_are_achieved(x in 0.1..1.0, y in 0.1..1.0, z in 0.1..1.0) {
         let (a, b, c) = (x * x, y * y, z * z);
         match Axonometric::by_foreshortening(x, y, z) {
             Ok(made) => {
@@ -70,9 +70,9 @@ proptest! {
         }
     }
 
-    /// C76: by the normal of the plane.
+    /// C76: tests the construction from the normal of the plane.
     #[test]
-    fn the_normal_turns_to_the_viewer(normal in direction()) {
+    fn the_normal_is_rotated_to_the_viewer(normal in direction()) {
         let made = Axonometric::by_normal(Normal::from_raw(normal.raw())).expect("a direction");
         let turned = made.depth_preserving().transform_vector(normal);
         prop_assert!((turned - Vector::Z * normal.length()).length() < 1e-12);
@@ -91,7 +91,7 @@ proptest! {
     }
 
     #[test]
-    fn keeping_depth_does_not_change_the_picture(c in classical(), p in point()) {
+    fn preserving_depth_does_not_change_the_picture(c in classical(), p in point()) {
         let (flat, kept) = (c.onto_plane().transform_point(p), c.depth_preserving().transform_point(p));
         prop_assert_eq!(flat.w(), kept.w());
         if flat.w().abs() > 1e-9 {
@@ -107,10 +107,10 @@ proptest! {
         p in point(),
     ) {
         let Ok(view_to_clip) = c.view_to_clip(volume, k) else {
-            prop_assert!(matches!(c, Classical::NPoint(_)), "only an eye can be in the way");
+            prop_assert!(matches!(c, Classical::NPoint(_)), "only a volume behind an eye can fail");
             return Ok(());
         };
-        let inverse = c.clip_to_view(volume, k).expect("as the map");
+        let inverse = c.clip_to_view(volume, k).expect("invertible like the map");
         prop_assert!(distance(view_to_clip.then(inverse).raw(), DMat4::IDENTITY) < 1e-9);
         let seen = Point::new(p.x(), p.y(), -k.ahead() * p.z());
         let (ndc, picture) = (view_to_clip.transform_point(seen), c.onto_plane().transform_point(p));
@@ -124,7 +124,7 @@ proptest! {
     }
 
     #[test]
-    fn near_and_far_of_a_rendered_picture_lie_where_they_were_asked_for(
+    fn near_and_far_of_a_rendered_picture_are_at_the_requested_distances(
         c in classical(),
         k in convention(),
         near in -3.0..3.0,
@@ -148,9 +148,9 @@ proptest! {
         }
     }
 
-    /// C77, C78, C79: by length, by angle, by direction.
+    /// C77, C78, C79: tests length, angle and direction.
     #[test]
-    fn slants_can_be_told_in_three_ways(length in 0.0..3.0, phi in -3.0..3.0, z in -2.0..2.0) {
+    fn slants_can_be_specified_in_three_ways(length in 0.0..3.0, phi in -3.0..3.0, z in -2.0..2.0) {
         let by_length = Oblique::new(length, phi).expect("valid");
         let by_angle = Oblique::by_angle(by_length.alpha(), phi).expect("valid");
         let by_direction = Oblique::by_direction(by_length.direction() * -2.5, 0.0).expect("valid");
@@ -162,7 +162,7 @@ proptest! {
         prop_assert!((moved.onto_plane().transform_point(on_plane) - on_plane).length() < 1e-14);
     }
 
-    /// C72, C75, C78, C82: center or direction and a plane are enough.
+    /// C72, C75, C78, C82: a plane and a center or direction are enough.
     #[test]
     fn first_principles_give_the_textbook_matrices(d in 0.5..9.0, o in oblique()) {
         let picture = Plane::through(Point::ORIGIN, Normal::new(0.0, 0.0, 1.0));
@@ -182,7 +182,7 @@ proptest! {
     }
 
     #[test]
-    fn images_lie_in_the_plane_on_the_projector(
+    fn images_are_in_the_plane_and_on_the_projector(
         eye in point(),
         p in point(),
         normal in direction(),
@@ -244,9 +244,9 @@ proptest! {
         prop_assert!((along(p) - along(q)).length() < 1e-12);
     }
 
-    /// C82: the picture plane stays, and z = d has no image.
+    /// C82: the picture plane is fixed, and z = d has no image.
     #[test]
-    fn only_the_eyes_own_plane_has_no_image(d in 0.5..9.0, p in point()) {
+    fn only_the_plane_of_the_eye_has_no_image(d in 0.5..9.0, p in point()) {
         let eye = NPoint::from_eye(d).expect("valid");
         let beside = Point::new(p.x(), p.y(), d);
         prop_assert!(eye.onto_plane().transform_point(beside).w().abs() < 1e-15);
@@ -256,7 +256,7 @@ proptest! {
     }
 }
 
-/// C76, C77: isometric, dimetric, cavalier, cabinet.
+/// C76, C77: tests isometric, dimetric, cavalier and cabinet projections.
 #[test]
 fn named_projections_have_their_textbook_angles() {
     let degrees = |radians: Option<f64>| radians.expect("seen").to_degrees();
@@ -287,7 +287,7 @@ fn named_projections_have_their_textbook_angles() {
     assert!((cabinet.alpha().to_degrees() - 63.43).abs() < 5e-3);
 }
 
-/// C76: the circle in the top face is drawn with axes 1 and 1/√3.
+/// C76: the circle in the top face is drawn as an ellipse with axes 1 and 1/√3.
 #[test]
 fn circles_become_ellipses_under_isometric_projection() {
     let iso = Axonometric::isometric().onto_plane();
@@ -301,7 +301,7 @@ fn circles_become_ellipses_under_isometric_projection() {
 
 /// C75, MV-1 to MV-3.
 #[test]
-fn principal_views_look_along_their_axis_and_keep_right_and_up() {
+fn principal_views_look_along_their_axis_and_preserve_right_and_up() {
     let part = Point::<View>::new(1.0, 2.0, 3.0);
     let drawn = |view: PrincipalView| {
         let p = view.depth_preserving().transform_point(part);
@@ -314,8 +314,8 @@ fn principal_views_look_along_their_axis_and_keep_right_and_up() {
     assert_eq!(drawn(PrincipalView::Top), (1.0, -3.0));
     assert_eq!(drawn(PrincipalView::Bottom), (1.0, 3.0));
     for view in PrincipalView::ALL {
-        assert_eq!(view.depth_preserving().determinant(), 1.0, "{view:?} is a turn");
-        // The plane drops the axis the viewer looks along.
+        assert_eq!(view.depth_preserving().determinant(), 1.0, "{view:?} is a rotation");
+        // The plane drops the axis along which the viewer looks.
         let towards =
             view.depth_preserving().inverse().expect("a turn").transform_vector(Vector::Z);
         assert_eq!(view.plane().onto_plane::<View>().transform_vector(towards), Vector::ZERO);
@@ -333,7 +333,7 @@ fn sheets_are_laid_out_in_first_and_third_angle() {
 
 /// C73.
 #[test]
-fn the_tree_has_one_root_and_every_leaf_is_built() {
+fn the_tree_has_one_root_and_every_leaf_has_a_builder() {
     let roots = ProjectionClass::ALL.into_iter().filter(|class| class.parent().is_none()).count();
     assert_eq!(roots, 1);
     for class in ProjectionClass::ALL {
@@ -352,7 +352,7 @@ fn the_tree_has_one_root_and_every_leaf_is_built() {
 }
 
 #[test]
-fn impossible_parameters_are_refused() {
+fn impossible_parameters_are_rejected() {
     let nan = f64::NAN;
     assert!(matches!(
         Axonometric::by_foreshortening(1.0, 0.1, 0.1),

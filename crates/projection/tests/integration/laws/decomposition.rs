@@ -1,4 +1,4 @@
-//! decompose(build(p)) = p, for every builder and convention.
+//! Tests that decompose(build(p)) = p for every builder and convention.
 
 use super::samples::{
     self, axonometric, convention, distance, frustum, npoint, oblique, orthographic, perspective,
@@ -31,8 +31,8 @@ fn kind(matrix: DMat4, c: Convention) -> Decomposed {
     decompose(reread(matrix), c).expect("a projection").kind
 }
 
-/// The world turned and moved before a right-handed view space, for any handedness of the
-/// projection.
+/// Returns the projection matrix with a placement in right-handed view space applied before it, for
+/// either handedness of the projection.
 fn placed(placement: Affine<View, View>, c: Convention, matrix: DMat4) -> DMat4 {
     let turn = DMat4::from_diagonal(DVec4::new(1.0, 1.0, -c.ahead(), 1.0));
     matrix * turn * placement.raw() * turn
@@ -42,7 +42,7 @@ proptest! {
     #![proptest_config(samples::cases(96))]
 
     #[test]
-    fn frusta_come_back_whatever_the_factor(
+    fn frusta_are_recovered_for_any_common_factor(
         f in frustum(),
         c in convention(),
         factor in -3.0..3.0,
@@ -55,7 +55,7 @@ proptest! {
     }
 
     #[test]
-    fn perspectives_come_back_with_their_angles(p in perspective(), c in convention()) {
+    fn perspectives_are_recovered_with_their_angles(p in perspective(), c in convention()) {
         let Decomposed::Frustum(back) = kind(p.view_to_clip(c).raw(), c) else {
             panic!("a frustum")
         };
@@ -67,7 +67,7 @@ proptest! {
     }
 
     #[test]
-    fn boxes_come_back(o in orthographic(), c in convention()) {
+    fn boxes_are_recovered(o in orthographic(), c in convention()) {
         let Decomposed::Orthographic(back) = kind(o.view_to_clip(c).raw(), c) else {
             panic!("a box")
         };
@@ -75,7 +75,7 @@ proptest! {
     }
 
     #[test]
-    fn apex_moved_frusta_come_back_under_their_own_name(f in frustum(), c in convention()) {
+    fn apex_moved_frusta_are_recovered_as_such(f in frustum(), c in convention()) {
         let (w, far) = (f.window(), f.far().min(1e4 * f.near()));
         prop_assume!(f64::abs(w.center().0) > 1e-6 * f.near());
         let made = ApexMovedFrustum::new(w.left(), w.right(), w.bottom(), w.top(), f.near(), far)
@@ -91,7 +91,7 @@ proptest! {
     }
 
     #[test]
-    fn camera_and_lens_come_apart(
+    fn camera_and_lens_are_separated(
         f in frustum(),
         c in convention(),
         turn in rotation(),
@@ -109,7 +109,7 @@ proptest! {
     }
 
     #[test]
-    fn oblique_prisms_come_back(o in oblique(), volume in orthographic(), c in convention()) {
+    fn oblique_prisms_are_recovered(o in oblique(), volume in orthographic(), c in convention()) {
         let Decomposed::Classical { projection: Classical::Oblique(back), volume: box_back } =
             kind(o.view_to_clip(volume, c).raw(), c)
         else {
@@ -121,7 +121,7 @@ proptest! {
     }
 
     #[test]
-    fn axonometric_projections_come_back(
+    fn axonometric_projections_are_recovered(
         a in axonometric(),
         volume in orthographic(),
         c in convention(),
@@ -132,7 +132,7 @@ proptest! {
                 let again = projection.view_to_clip(volume, c).expect("parallel").raw();
                 prop_assert!(distance(again, made) < 1e-9);
             }
-            // A mirrored window makes another turn of it.
+            // A mirrored window corresponds to a different rotation.
             Decomposed::PlacedOrthographic { placement, volume } => {
                 let again = placed(placement, c, volume.view_to_clip(c).raw());
                 prop_assert!(distance(again, made) < 1e-9);
@@ -142,7 +142,7 @@ proptest! {
     }
 
     #[test]
-    fn bare_and_flat_classical_matrices_come_back(
+    fn bare_and_flat_classical_matrices_are_recovered(
         n in npoint(),
         o in oblique(),
         a in axonometric(),
@@ -170,7 +170,7 @@ proptest! {
     }
 
     #[test]
-    fn inclined_near_planes_come_back(
+    fn inclined_near_planes_are_recovered(
         p in perspective(),
         c in convention(),
         x in -0.5..0.5,
@@ -183,14 +183,14 @@ proptest! {
         let Decomposed::ObliqueNear { near_plane, slopes, .. } = kind(cut.raw(), c) else {
             panic!("inclined")
         };
-        // The plane is given in right-handed camera coordinates.
+        // The plane is in right-handed camera coordinates.
         let turned = mirror.raw() * DVec4::new(1.0, 1.0, -c.ahead(), 1.0) / normal.raw().length();
         prop_assert!((near_plane.raw() - turned).length() < 1e-9 * (1.0 + turned.length()));
         prop_assert!((slopes.right() / p.half_slopes().x - 1.0).abs() < 1e-9);
     }
 
     #[test]
-    fn nonsense_is_refused_or_read_but_never_panics(
+    fn arbitrary_matrices_are_decomposed_or_rejected_without_panic(
         entries in prop::array::uniform16(-2.0_f64..2.0),
         hole in 0..16_usize,
     ) {
@@ -220,7 +220,7 @@ fn an_opengl_matrix_is_also_a_zero_to_one_matrix_with_a_farther_near_plane() {
 }
 
 #[test]
-fn lost_dimensions_are_counted() {
+fn lost_dimensions_are_reported() {
     let rank = |matrix: DMat4| match decompose(reread(matrix), Convention::OPENGL) {
         Err(DecomposeError::RankTooLow { rank }) => rank,
         other => panic!("{other:?}"),

@@ -1,4 +1,5 @@
-//! Distance and depth: there and back, monotone, and as fine as the formulas promise (ZP-1, LW-3).
+//! Distance and depth: the conversions are inverse and monotone, and resolution matches the
+//! formulas (ZP-1, LW-3).
 
 use super::samples::{self, convention, frustum, orthographic, planes};
 use homog::Point;
@@ -9,7 +10,7 @@ proptest! {
     #![proptest_config(samples::cases(128))]
 
     #[test]
-    fn the_curve_is_what_the_matrix_does(
+    fn the_curve_matches_the_matrix(
         f in frustum(),
         o in orthographic(),
         c in convention(),
@@ -34,11 +35,11 @@ proptest! {
     }
 
     #[test]
-    fn linearising_undoes((near, far) in planes(), c in convention(), t in 0.0..1.0) {
+    fn linearizing_inverts_the_curve((near, far) in planes(), c in convention(), t in 0.0..1.0) {
         let curve = DepthCurve::perspective(near, far, c).expect("valid");
         let distance = near + t * (far.min(1e4 * near) - near);
         let back = curve.distance(curve.depth(distance).expect("in front")).expect("finite");
-        // A rounding of the depth moves the distance by this much.
+        // A rounding error in the depth changes the distance by this much.
         let blur = 4.0 * f64::EPSILON / curve.slope(distance).expect("in front").abs();
         prop_assert!(
             (back - distance).abs() <= 1e-12 * distance + blur,
@@ -46,9 +47,9 @@ proptest! {
         );
     }
 
-    /// C41, exercise 4: the order along the line of sight is kept.
+    /// C41, exercise 4: the order along the line of sight is preserved.
     #[test]
-    fn depth_keeps_the_order_of_distances(
+    fn depth_preserves_the_order_of_distances(
         (near, far) in planes(),
         c in convention(),
         a in 0.0..1.0,
@@ -62,7 +63,7 @@ proptest! {
         prop_assert!((db - da) * towards * (b - a) >= -1e-12);
     }
 
-    /// C68: depth is in the middle of its range at 2FN/(F + N).
+    /// C68: depth reaches the middle of its range at 2FN/(F + N).
     #[test]
     fn half_of_the_range_is_used_at_the_half_range_distance(
         (near, far) in planes(),
@@ -86,8 +87,9 @@ proptest! {
     }
 
     #[test]
-    fn reversed_float_depth_is_as_fine_as_the_formula_says(near in 0.001..1.0, t in 0.0..1.0) {
-        // ΔD ≤ 2⁻²³ D without a far plane, everywhere; forward depth coarsens with D².
+    fn reversed_float_depth_has_the_resolution_of_the_formula(near in 0.001..1.0, t in 0.0..1.0) {
+        // Without a far plane, ΔD ≤ 2⁻²³ D everywhere. The resolution of forward depth degrades
+        // with D².
         let reversed = DepthCurve::perspective(near, f64::INFINITY, Convention::WEBGPU.reversed())
             .expect("valid");
         let distance = near * libm::exp10(5.0 * t);
@@ -125,7 +127,7 @@ proptest! {
     }
 }
 
-/// C56: a = −(F+N)/(F−N), b = −2FN/(F−N) of (a z + b)/(−z), that is A = −a, B = −b.
+/// C56: in (a z + b)/(−z), a = −(F+N)/(F−N) and b = −2FN/(F−N), so A = −a and B = −b.
 #[test]
 fn the_opengl_row_is_solved_from_its_two_conditions() {
     let (a, b) = third_row((-2.0, -1.0), (-40.0, 1.0)).expect("two planes");
@@ -136,9 +138,9 @@ fn the_opengl_row_is_solved_from_its_two_conditions() {
     assert!((row.raw().z_axis.z + a).abs() < 1e-15 && (row.raw().w_axis.z + b).abs() < 1e-14);
 }
 
-/// LW-3, C67, C68: three rows of the table from 2 to 40, and the constants c1 and c2.
+/// LW-3, C67, C68: tests three rows of the table from 2 to 40, and the constants c1 and c2.
 #[test]
-fn the_lessons_table_comes_out() {
+fn the_curve_reproduces_the_lessons_table() {
     let curve = DepthCurve::perspective(2.0, 40.0, Convention::OPENGL).expect("valid");
     let table: Vec<_> =
         curve.table([2.0, 3.8, 40.0]).map(|(_, depth)| depth.expect("in front")).collect();
@@ -149,11 +151,11 @@ fn the_lessons_table_comes_out() {
 }
 
 #[test]
-fn depth_that_does_not_exist_is_none() {
+fn missing_depth_is_none() {
     let curve = DepthCurve::perspective(1.0, f64::INFINITY, Convention::WEBGPU).expect("valid");
     assert_eq!(curve.depth(0.0), None);
     assert_eq!(curve.depth(f64::NAN), None);
-    assert_eq!(curve.distance(1.0), None, "infinitely far");
+    assert_eq!(curve.distance(1.0), None, "infinitely far away");
     assert_eq!(curve.distance(f64::NAN), None);
     assert_eq!(curve.slope(0.0), None);
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {

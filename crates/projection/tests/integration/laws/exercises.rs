@@ -1,5 +1,5 @@
-//! The textbook's exercises and remarks that are about projections (exercises 2 to 9; C14, C23,
-//! C39..C45, C48, C55).
+//! The textbook's exercises and remarks about projections (exercises 2 to 9; C14, C23, C39..C45,
+//! C48, C55).
 
 use glam::{DMat4, DVec4};
 use homog::{Affine, Clip, HPoint, Point, Vector, View};
@@ -41,7 +41,7 @@ fn exercise_2_viewport_times_ortho_is_one_windowing_step() {
 }
 
 #[test]
-fn exercise_3_the_third_row_follows_from_two_planes_that_stay() {
+fn exercise_3_the_third_row_follows_from_two_fixed_planes() {
     let (a, b) = third_row((N, N), (F, F)).expect("two planes");
     assert_eq!((a, b), (N + F, -N * F));
     let p = chapter::p(N, F).expect("valid").raw();
@@ -49,7 +49,7 @@ fn exercise_3_the_third_row_follows_from_two_planes_that_stay() {
 }
 
 #[test]
-fn exercise_4_depth_order_is_kept() {
+fn exercise_4_depth_order_is_preserved() {
     let p = chapter::p(N, F).expect("valid");
     let z = |z: f64| p.transform_point(Point::new(0.3, -0.2, z)).divide().expect("in front").z();
     let images = [-1.0, -2.0, -3.0, -4.0, -5.0].map(z);
@@ -70,7 +70,7 @@ fn exercise_5_affine_maps_commute_with_scaling_the_homogeneous_point() {
     assert_eq!(image_of_scaled.w, 4.0);
 }
 
-/// C25: both forms of the inverse.
+/// C25: tests both forms of the inverse.
 #[test]
 fn exercise_6_the_inverse_up_to_the_factor_nf() {
     let (p, scaled) =
@@ -80,12 +80,12 @@ fn exercise_6_the_inverse_up_to_the_factor_nf() {
     assert!(close(p.then(inverse).raw(), DMat4::IDENTITY));
     let place = Point::new(1.0, 2.0, -3.0);
     let back = p.then(scaled).transform_point(place).divide();
-    assert_eq!(back, Some(place), "as a projective map the factor does not matter");
+    assert_eq!(back, Some(place), "for a projective map, the factor does not matter");
 }
 
 /// C27: M_per = M_orth P.
 #[test]
-fn exercise_7_m_per_maps_the_near_corners_to_those_of_the_cube() {
+fn exercise_7_m_per_maps_near_corners_to_corners_of_the_cube() {
     let per = chapter::m_per(L, R, B, T, N, F).expect("valid");
     assert_eq!(per.transform_point(Point::new(R, T, N)), HPoint::new(N, N, N, N));
     assert_eq!(per.transform_point(Point::new(R, T, N)).divide(), Some(Point::new(1.0, 1.0, 1.0)));
@@ -112,9 +112,9 @@ fn exercise_8_and_9_n_1_f_2() {
     }
 }
 
-/// C55: x' = −N x/z, y' = −N y/z; M1: the point's own y belongs there.
+/// C55: x' = −N x/z, y' = −N y/z. M1: the formula must contain the point's y.
 #[test]
-fn c14_size_goes_with_the_reciprocal_of_the_distance() {
+fn c14_size_is_proportional_to_the_reciprocal_of_the_distance() {
     let p = chapter::p(-1.0, -9.0).expect("valid");
     let height =
         |z: f64| p.transform_point(Point::new(0.0, 3.0, z)).divide().expect("in front").y();
@@ -123,14 +123,14 @@ fn c14_size_goes_with_the_reciprocal_of_the_distance() {
 }
 
 #[test]
-fn c22_and_m3_p_keeps_the_near_plane_pointwise_and_the_far_plane_as_a_plane() {
+fn c22_and_m3_p_fixes_every_point_of_the_near_plane_but_only_z_on_the_far_plane() {
     let p = chapter::p(N, F).expect("valid");
     let on_near = Point::new(0.7, -0.3, N);
     assert_eq!(p.transform_point(on_near).divide(), Some(on_near));
     let on_far = p.transform_point(Point::new(1.0, 2.0, F)).divide().expect("in front");
     assert!(
         (on_far - Point::new(N / F, 2.0 * N / F, F)).length() < 1e-15,
-        "moved within its plane"
+        "the point moves within its plane"
     );
 }
 
@@ -146,7 +146,7 @@ fn c23_lines_through_the_eye_become_parallel_to_z() {
 }
 
 #[test]
-fn c36_across_the_eyes_plane_depth_jumps_from_one_infinity_to_the_other() {
+fn c36_across_the_eye_plane_depth_jumps_between_infinities() {
     let p = chapter::p(N, F).expect("valid");
     let z = |z: f64| p.transform_point(Point::new(0.0, 0.0, z)).divide().map(Point::z);
     assert!(z(-1e-9).expect("in front") > 1e8 && z(1e-9).expect("behind") < -1e8);
@@ -161,7 +161,7 @@ fn c48_the_middle_moves_away_from_the_eye() {
 
 #[test]
 fn c57_the_derivation_reaches_m_opengl_step_by_step() {
-    // −N x/z onto the near plane, then [l, r] to [−1, 1].
+    // First −N x/z onto the near plane, then [l, r] to [−1, 1].
     let (l, r, near, far) = (-1.0, 3.0, 2.0, 6.0);
     let frustum = Frustum::new(l, r, -1.0, 1.0, near, far).expect("valid");
     let point = Point::<View>::new(1.3, 0.4, -3.7);
@@ -188,9 +188,9 @@ fn c79_length_and_direction_describe_the_same_slant() {
     assert!(close(by_length.onto_plane().raw(), by_direction.onto_plane().raw()));
 }
 
-/// C87: and it does so by a shear, a scale and a depth row.
+/// C87: a shear, a scale and a depth row are enough.
 #[test]
-fn c88_the_frustum_becomes_a_box_and_order_is_kept() {
+fn c88_the_frustum_becomes_a_box_and_order_is_preserved() {
     let frustum = Frustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0).expect("valid");
     let factors = frustum.factors(Convention::OPENGL);
     let sheared = factors.shear.then(factors.scale);
@@ -205,12 +205,12 @@ fn c88_the_frustum_becomes_a_box_and_order_is_kept() {
 }
 
 #[test]
-fn c102_a_classical_projection_is_singular_and_a_computers_is_not() {
+fn c102_classical_projections_are_singular_but_depth_preserving_ones_are_not() {
     let oblique = Oblique::cabinet(0.5).expect("valid");
     assert_eq!(oblique.onto_plane().inverse(), None);
     let volume = Orthographic::new(-1.0, 1.0, -1.0, 1.0, 0.0, 9.0).expect("valid");
     let computer = oblique.view_to_clip(volume, Convention::OPENGL);
     assert!(computer.inverse().is_some());
-    assert_eq!(computer.raw().row(3), DVec4::W, "and affine");
-    let _: Affine<View, Clip> = chapter::m_orth(L, R, B, T, N, F).expect("affine by its type");
+    assert_eq!(computer.raw().row(3), DVec4::W, "the matrix is affine");
+    let _: Affine<View, Clip> = chapter::m_orth(L, R, B, T, N, F).expect("affine by type");
 }

@@ -1,4 +1,4 @@
-//! Any numbers: a builder refuses them, or all it makes is finite. Nothing panics.
+//! For any numbers, a builder either rejects them or returns only finite results. Nothing panics.
 
 use super::samples::{self, convention, conventions};
 use glam::DMat4;
@@ -15,7 +15,7 @@ use proptest::prelude::*;
 const SPECIAL: [f64; 9] =
     [0.0, -0.0, 1.0, -1.0, f64::MAX, f64::MIN_POSITIVE, 5e-324, f64::INFINITY, f64::NAN];
 
-/// Every sort of number, with the usual ones often enough that builders accept.
+/// Numbers of every kind, with common values often enough that builders accept many of them.
 fn any_number() -> impl Strategy<Value = f64> {
     prop_oneof![
         4 => -10.0..10.0,
@@ -28,7 +28,7 @@ fn any_number() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Like the above, positive.
+/// Like `any_number`, but positive.
 fn any_size() -> impl Strategy<Value = f64> {
     any_number().prop_map(f64::abs)
 }
@@ -41,7 +41,7 @@ proptest! {
     #![proptest_config(samples::cases(512))]
 
     #[test]
-    fn pinholes_and_boxes(
+    fn frusta_and_boxes(
         e in prop::array::uniform4(any_number()),
         near in any_size(),
         far in any_size(),
@@ -222,7 +222,7 @@ proptest! {
                 curve.resolution(at, DepthFormat::FixedPoint(24)).ok(),
             ];
             for (i, number) in numbers.into_iter().enumerate() {
-                prop_assert!(number.is_none_or(f64::is_finite), "answer {i} is {number:?}");
+                prop_assert!(number.is_none_or(f64::is_finite), "result {i} is {number:?}");
             }
         }
         let plane = Plane::from_raw(n.into());
@@ -240,7 +240,7 @@ proptest! {
     }
 
     #[test]
-    fn conventions_only_take_depths_between_minus_one_and_one(
+    fn conventions_accept_only_depths_between_minus_one_and_one(
         near in any_number(),
         far in any_number(),
     ) {
@@ -257,9 +257,9 @@ proptest! {
     }
 }
 
-/// Each by itself is a number, their products are not.
+/// Each number is finite, but their products are not.
 #[test]
-fn what_only_overflows_in_the_end_is_refused_too() {
+fn parameters_whose_products_overflow_are_rejected() {
     let c = Convention::OPENGL;
     assert!(matches!(
         Window::new(-1e308, 1e308, -1.0, 1.0),

@@ -1,11 +1,11 @@
-//! K to matrix to K, and pixels by K against pixels by matrix, divide and viewport.
+//! Tests K to matrix and back, and pixels from K against pixels from matrix, divide and viewport.
 
 use super::samples::{self, convention, distance, frustum};
 use homog::{PixelCenters, Point, View};
 use projection::{Convention, Frustum, Intrinsics, ProjectionError};
 use proptest::prelude::*;
 
-/// Any lens, and planes for it.
+/// Any lens, with near and far planes for it.
 fn lens() -> impl Strategy<Value = (Intrinsics, [f64; 2])> {
     let numbers = (30.0..4000.0, 0.2..5.0, -0.3..1.3, -0.3..1.3, -40.0..40.0);
     let size = ([1u32..4000, 1u32..4000], any::<bool>());
@@ -20,13 +20,13 @@ fn lens() -> impl Strategy<Value = (Intrinsics, [f64; 2])> {
     )
 }
 
-/// A point ahead of the eye.
+/// A point in front of the eye.
 fn point_ahead() -> impl Strategy<Value = Point<View>> {
     (-2.0..2.0, -2.0..2.0, 0.01..1e4)
         .prop_map(|(x, y, depth): (f64, f64, f64)| Point::new(x * depth, y * depth, -depth))
 }
 
-/// The point for a view space of the convention's handedness.
+/// Converts the point to a view space with the convention's handedness.
 fn in_view_of(point: Point<View>, c: Convention) -> Point<View> {
     Point::new(point.x(), point.y(), point.z() * -c.ahead())
 }
@@ -35,7 +35,7 @@ proptest! {
     #![proptest_config(samples::cases(256))]
 
     #[test]
-    fn a_pixel_by_k_is_the_pixel_by_matrix_divide_and_viewport(
+    fn pixels_from_k_match_matrix_divide_and_viewport(
         (lens, planes) in lens(),
         point in point_ahead(),
         c in convention(),
@@ -43,13 +43,13 @@ proptest! {
         let matrix = lens.view_to_clip(planes, c).expect("a matrix");
         let ndc = matrix.transform_point(in_view_of(point, c)).divide().expect("ahead");
         let [width, height] = lens.size().map(|side| 0.5 * f64::from(side));
-        // The viewport maps corners to corners, so that centers are at halves.
+        // The viewport maps corners to corners, so pixel centers are at half-integers.
         let by_viewport = [(1.0 + ndc.x()) * width, (1.0 - c.top() * ndc.y()) * height];
         let by_k = lens.in_pixel_centers(PixelCenters::Half).project(point).expect("ahead");
         for (one, other) in by_viewport.into_iter().zip(by_k) {
             prop_assert!((one - other).abs() <= 1e-12 * (4e4 + one.abs()), "{one} {other}");
         }
-        // The other rule moves all by half a pixel.
+        // The other convention moves all points by half a pixel.
         let by_integer = lens.in_pixel_centers(PixelCenters::Integer).project(point).expect("ahead");
         for (half, integer) in by_k.into_iter().zip(by_integer) {
             prop_assert!((half - integer - 0.5).abs() <= 1e-10);
@@ -57,7 +57,7 @@ proptest! {
     }
 
     #[test]
-    fn k_comes_back_from_the_matrix((lens, planes) in lens(), c in convention()) {
+    fn k_is_recovered_from_the_matrix((lens, planes) in lens(), c in convention()) {
         let matrix = lens.view_to_clip(planes, c).expect("a matrix");
         let back = Intrinsics::from_view_to_clip(matrix, c, lens.size()).expect("a lens");
         let back = back.in_pixel_centers(lens.pixel_centers());
@@ -73,7 +73,7 @@ proptest! {
         let clip = lens.view_to_clip(planes, c).expect("a matrix").transform_point(view);
         let back = lens.clip_to_view(planes, c).expect("an inverse").transform_hpoint(clip);
         let back = back.divide().expect("a point");
-        // Depth of far things is coarse by nature, what is seen at a pixel is not.
+        // The depth of distant points is inherently coarse, but the pixel position is not.
         let slope = |p: Point<View>| [p.x() / p.z(), p.y() / p.z()];
         for (one, other) in slope(view).into_iter().zip(slope(back)) {
             prop_assert!((one - other).abs() <= 1e-12 * (10.0 + one.abs()), "{one} {other}");
@@ -81,7 +81,7 @@ proptest! {
     }
 
     #[test]
-    fn what_is_unprojected_was_projected((lens, _) in lens(), point in point_ahead()) {
+    fn unprojecting_inverts_projecting((lens, _) in lens(), point in point_ahead()) {
         let pixel = lens.project(point).expect("ahead");
         let back = lens.unproject(pixel, -point.z());
         let apart = (back - point).length();
@@ -90,7 +90,7 @@ proptest! {
 
     #[test]
     fn frusta_and_lenses_without_skew_are_the_same(f in frustum(), c in convention()) {
-        // Mirrored windows have no positive focal length.
+        // Mirrored windows do not have positive focal lengths.
         let (window, planes) = (f.window(), [f.near(), f.far()]);
         prop_assume!(window.left() < window.right() && window.bottom() < window.top());
         let lens = Intrinsics::from_frustum(f, [640, 480]).expect("a lens");
@@ -102,8 +102,8 @@ proptest! {
 }
 
 #[test]
-fn opencv_s_example_of_a_calibrated_camera() {
-    // Principal point in the middle: whole numbers put it at (w − 1) / 2.
+fn opencvs_example_of_a_calibrated_camera() {
+    // The principal point is in the middle. With pixel centers at integers, that is (w − 1) / 2.
     let lens = Intrinsics::new([800.0, 800.0], [319.5, 239.5], [640, 480]).expect("a lens");
     let frustum = lens.to_frustum(1.0, 10.0).expect("a frustum");
     let [x, y] = [frustum.window().right(), frustum.window().top()];
@@ -115,10 +115,10 @@ fn opencv_s_example_of_a_calibrated_camera() {
 fn invalid_intrinsics_are_rejected() {
     let size = [640, 480];
     let fault =
-        |result: Result<Intrinsics, ProjectionError>| result.expect_err("no lens").to_string();
+        |result: Result<Intrinsics, ProjectionError>| result.expect_err("invalid").to_string();
     assert_eq!(
         fault(Intrinsics::new([0.0, 1.0], [0.0; 2], size)),
-        "`fx` is 0; allowed: greater than 0"
+        "`fx` is 0; it must be greater than 0"
     );
     assert!(fault(Intrinsics::new([1.0, 1.0], [f64::NAN, 0.0], size)).contains("`cx`"));
     assert!(fault(Intrinsics::new([1.0, 1.0], [0.0; 2], [0, 480])).contains("`width`"));

@@ -1,9 +1,9 @@
-//! Parity with glam's builders, where glam has them (C93).
+//! Parity with glam's builders, where they exist (C93).
 //!
-//! Two of glam 0.34's builders are compared for centered windows only: its left-handed `frustum`
-//! keeps the sign of the right-handed offset and its Vulkan `orthographic` does not turn the y
-//! offset, so that corners of off-center windows miss the corners of the canonical volume. That
-//! ours meet them is checked in `builders`.
+//! Two builders of glam 0.34 are compared only for centered windows. Its left-handed `frustum` uses
+//! the sign of the right-handed offset, and its Vulkan `orthographic` does not flip the y offset,
+//! so corners of off-center windows do not map to corners of the canonical volume. Tests in
+//! `builders` check that ours do.
 
 use super::samples::{self, distance, frustum, orthographic, perspective};
 use glam::DMat4;

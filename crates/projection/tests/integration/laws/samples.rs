@@ -1,4 +1,4 @@
-//! Random valid parameters and the comparisons the laws need.
+//! Random valid parameters and the comparisons that the laws need.
 
 use glam::DMat4;
 use homog::NdcY;
@@ -8,7 +8,8 @@ use projection::{
 };
 use proptest::prelude::*;
 
-/// So many cases, or `PROPTEST_CASES`. Failures are not written into the source tree.
+/// Configures this number of cases, or `PROPTEST_CASES`. Failures are not written to the source
+/// tree.
 pub(crate) fn cases(cases: u32) -> ProptestConfig {
     let asked = ProptestConfig::default();
     let cases = if std::env::var_os("PROPTEST_CASES").is_some() { asked.cases } else { cases };
@@ -16,7 +17,7 @@ pub(crate) fn cases(cases: u32) -> ProptestConfig {
     ProptestConfig { cases, max_global_rejects, failure_persistence: None, ..asked }
 }
 
-/// All conventions that are named, and the variants of each.
+/// All named conventions and their variants.
 pub(crate) fn conventions() -> Vec<Convention> {
     let mut all = Vec::new();
     for depths in [Convention::CHAPTER, Convention::OPENGL, Convention::WEBGPU] {
@@ -35,7 +36,7 @@ pub(crate) fn convention() -> impl Strategy<Value = Convention> {
     prop::sample::select(conventions())
 }
 
-/// Two numbers at least a little apart, in either order: mirrored windows are windows.
+/// Two numbers at least slightly apart, in either order, because windows may be mirrored.
 pub(crate) fn edges() -> impl Strategy<Value = (f64, f64)> {
     (-5.0..5.0, 0.05..8.0, any::<bool>())
         .prop_map(|(a, size, mirrored)| if mirrored { (a + size, a) } else { (a, a + size) })
@@ -66,7 +67,8 @@ pub(crate) fn orthographic() -> impl Strategy<Value = Orthographic> {
     })
 }
 
-/// The largest difference of two matrices, relative to the larger of 1 and the largest entry.
+/// Returns the largest difference between two matrices, relative to the larger of 1 and the largest
+/// entry.
 pub(crate) fn distance(a: DMat4, b: DMat4) -> f64 {
     let (a, b) = (a.to_cols_array(), b.to_cols_array());
     let size = b.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
@@ -95,7 +97,7 @@ pub(crate) fn oblique() -> impl Strategy<Value = Oblique> {
     (0.05..2.0, -3.0..3.0).prop_map(|(length, phi)| Oblique::new(length, phi).expect("valid"))
 }
 
-/// Not upside down.
+/// A projection that is not upside down.
 pub(crate) fn axonometric() -> impl Strategy<Value = Axonometric> {
     (-3.0..3.0, -1.5..1.5)
         .prop_map(|(alpha, beta)| Axonometric::by_angles(alpha, beta).expect("finite"))

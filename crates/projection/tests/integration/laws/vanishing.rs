@@ -1,5 +1,5 @@
-//! Vanishing points: where lines run to, how many axes have one, and pictures constructed from
-//! chosen ones.
+//! Vanishing points: lines approach them, axes with a finite vanishing point are counted, and
+//! pictures are constructed from chosen vanishing points.
 
 use super::samples::{self, convention, direction, frustum, npoint, oblique, point, rotation};
 use homog::{Affine, Point, Projective, Vector, View, World};
@@ -14,7 +14,7 @@ proptest! {
 
     /// C81, VN-1.
     #[test]
-    fn lines_run_to_their_vanishing_point(
+    fn lines_approach_their_vanishing_point(
         f in frustum(),
         c in convention(),
         p in point(),
@@ -36,7 +36,7 @@ proptest! {
     }
 
     #[test]
-    fn both_senses_of_a_direction_share_the_point(
+    fn opposite_directions_have_the_same_vanishing_point(
         f in frustum(),
         c in convention(),
         d in direction(),
@@ -62,7 +62,7 @@ proptest! {
 
     /// C83.
     #[test]
-    fn non_zero_entries_count_the_principal_vanishing_points(n in npoint()) {
+    fn nonzero_entries_count_the_principal_vanishing_points(n in npoint()) {
         let found = principal_vanishing_points(n.depth_preserving()).expect("finite");
         prop_assert_eq!(found.count(), n.count());
         let class =
@@ -89,7 +89,7 @@ proptest! {
     }
 
     #[test]
-    fn turning_the_object_decides_between_one_two_and_three_points(
+    fn rotating_the_object_selects_one_two_or_three_points(
         turn in rotation(),
         yaw in 0.1..1.4,
     ) {
@@ -115,7 +115,7 @@ proptest! {
         py in -2.0_f64..2.0,
         distance in 0.5_f64..4.0,
     ) {
-        // Any attitude gives three points; the construction finds the eye that belongs to them.
+        // Any attitude gives three points, and the construction finds the eye for them.
         let axes = [Vector::<View>::X, Vector::Y, Vector::Z].map(|axis| turn.transform_vector(axis));
         prop_assume!(axes.iter().all(|axis| axis.z().abs() > 0.05));
         let at = |axis: Vector<View>| {
@@ -133,7 +133,7 @@ proptest! {
     }
 
     #[test]
-    fn two_points_fix_a_horizon(
+    fn two_points_determine_a_horizon(
         x in -5.0..-0.5,
         z in 0.5..5.0,
         y in -1.0..1.0,
@@ -146,7 +146,7 @@ proptest! {
     }
 }
 
-/// The axes of the world vanish at these places of the picture.
+/// Checks that the axes of the world vanish at these positions in the picture.
 fn check(
     drawing: ConstructedPerspective,
     places: [Option<(f64, f64)>; 3],
@@ -155,7 +155,7 @@ fn check(
         .frustum(Window::new(-1.0, 1.0, -1.0, 1.0).expect("valid"), 0.1, 9.0)
         .expect("valid");
     let turn = drawing.world_to_view();
-    prop_assert!((turn.determinant() - 1.0).abs() < 1e-9, "a turn, not a mirror");
+    prop_assert!((turn.determinant() - 1.0).abs() < 1e-9, "a rotation, not a reflection");
     let map: Projective<World, _> = turn.then_project(frustum.view_to_clip(Convention::CHAPTER));
     let found = principal_vanishing_points(map).expect("finite").axes;
     for (axis, place) in found.iter().zip(places) {
@@ -175,7 +175,7 @@ fn check(
 }
 
 #[test]
-fn impossible_vanishing_points_are_refused() {
+fn impossible_vanishing_points_are_rejected() {
     let three = ConstructedPerspective::three_point;
     assert!(
         matches!(

@@ -1,4 +1,4 @@
-//! Tiles, shifts, jitter, four angles, the view volume's geometry and inclined near planes.
+//! Tiles, shifts, jitter, four angles, the geometry of the view volume, and inclined near planes.
 
 use super::samples::{
     self, convention, direction, distance, frustum, orthographic, perspective, point,
@@ -11,7 +11,7 @@ use projection::{
 };
 use proptest::prelude::*;
 
-/// Where tile coordinates lie in the whole picture's NDC: x' = a x + b.
+/// Returns the map from tile NDC to the NDC of the whole picture: x' = a x + b.
 fn tile_to_whole(tile: ViewOffset, convention: Convention) -> DMat4 {
     let (w, h) = tile.full;
     let (sx, sy) = (tile.size.0 / w, tile.size.1 / h);
@@ -35,7 +35,7 @@ proptest! {
     #![proptest_config(samples::cases(96))]
 
     #[test]
-    fn a_tile_shows_its_part_of_the_whole(
+    fn a_tile_shows_its_part_of_the_picture(
         f in frustum(),
         p in perspective(),
         o in orthographic(),
@@ -53,7 +53,7 @@ proptest! {
     }
 
     #[test]
-    fn neighbouring_tiles_share_their_edge_exactly(f in frustum(), cut in 1_u32..99) {
+    fn neighboring_tiles_share_their_edge_exactly(f in frustum(), cut in 1_u32..99) {
         let (full, at) = ((100.0, 80.0), f64::from(cut));
         let left =
             f.view_offset(ViewOffset { full, corner: (0.0, 0.0), size: (at, 80.0) }).expect("valid").window();
@@ -67,7 +67,7 @@ proptest! {
     }
 
     #[test]
-    fn jitter_moves_the_picture_against_the_sample(
+    fn jitter_moves_the_picture_opposite_to_the_sample(
         f in frustum(),
         c in convention(),
         dx in -0.5..0.5,
@@ -86,7 +86,7 @@ proptest! {
     }
 
     #[test]
-    fn a_shift_keeps_angles_of_planes_and_the_eye(
+    fn a_shift_preserves_the_window_size_and_the_eye(
         p in perspective(),
         x in -2.0..2.0,
         y in -2.0..2.0,
@@ -106,7 +106,7 @@ proptest! {
     }
 
     #[test]
-    fn four_angles_are_those_to_the_edges(
+    fn four_angles_are_the_angles_to_the_edges(
         l in -1.5_f64..1.4,
         width in 0.05..1.0,
         d in -1.5_f64..1.4,
@@ -121,7 +121,7 @@ proptest! {
         prop_assert!((opening(0.0, s.right()) - r).abs() < 1e-12);
     }
 
-    /// C85, C4: the view volume as corners, as planes and as a question.
+    /// C85, C4: compares the corners, the planes and the containment test of the view volume.
     #[test]
     fn corners_planes_and_containment_agree(
         f in frustum(),
@@ -162,7 +162,7 @@ proptest! {
     }
 
     #[test]
-    fn an_inclined_near_plane_cuts_there_and_nothing_else_changes(
+    fn an_inclined_near_plane_cuts_there_and_changes_nothing_else(
         p in perspective(),
         o in orthographic(),
         c in convention(),
@@ -177,8 +177,8 @@ proptest! {
     }
 }
 
-/// Points on the plane get the near depth, points before it lie on the visible side, no corner
-/// beyond far.
+/// Points on the plane get the near depth, points in front of it are on the visible side, and no
+/// corner is beyond the far plane.
 fn check_cut(
     map: Projective<View, Clip>,
     cut: Projective<View, Clip>,
@@ -189,18 +189,18 @@ fn check_cut(
     prop_assert_eq!((old.x_axis, old.y_axis, old.w_axis), (new.x_axis, new.y_axis, new.w_axis));
     let depth_row = ViewVolume::new(cut, c).planes()[4].raw();
     let (ours, due) = (depth_row / depth_row.length(), plane.raw() / plane.raw().length());
-    prop_assert!((ours - due).length() < 1e-9, "the near plane is the plane");
+    prop_assert!((ours - due).length() < 1e-9, "the near plane is the requested plane");
     let inwards = (c.far_depth() - c.near_depth()).signum();
     let beyond = ViewVolume::new(map, c).corners().expect("regular").into_iter().all(|corner| {
         let clip = cut.transform_hpoint(corner);
         (clip.z() - c.far_depth() * clip.w()) * inwards <= 1e-9 * clip.raw().length().max(1.0)
     });
-    prop_assert!(beyond, "nothing of the old volume is cut at far");
+    prop_assert!(beyond, "the far plane cuts nothing from the old volume");
     Ok(())
 }
 
 #[test]
-fn a_mirror_behind_the_eye_or_beyond_the_volume_is_refused() {
+fn mirrors_behind_the_eye_or_beyond_the_volume_are_rejected() {
     let c = Convention::OPENGL;
     let map = Perspective::new(Fov::Vertical(1.0), 1.0, 1.0, 10.0).expect("valid").view_to_clip(c);
     let at = |z: f64, n: f64| Plane::through(Point::new(0.0, 0.0, z), Normal::new(0.0, 0.0, n));
@@ -210,14 +210,14 @@ fn a_mirror_behind_the_eye_or_beyond_the_volume_is_refused() {
             oblique_near_plane(map, c, at(-3.0, 1.0)),
             Err(ProjectionError::OutOfRange { .. })
         ),
-        "the eye must be behind it"
+        "the eye must be behind the plane"
     );
     assert!(
         matches!(
             oblique_near_plane(map, c, at(-11.0, -1.0)),
             Err(ProjectionError::OutOfRange { .. })
         ),
-        "nothing is left"
+        "no part of the volume is left"
     );
     assert!(matches!(
         oblique_near_plane(map, c, at(f64::NAN, -1.0)),
@@ -230,7 +230,7 @@ fn a_mirror_behind_the_eye_or_beyond_the_volume_is_refused() {
 }
 
 #[test]
-fn tiles_of_nothing_are_refused() {
+fn empty_tiles_are_rejected() {
     let lens = Perspective::new(Fov::Vertical(1.0), 1.0, 1.0, 10.0).expect("valid");
     for size in [(0.0, 1.0), (1.0, -1.0), (f64::NAN, 1.0), (1.0, f64::INFINITY)] {
         assert!(
