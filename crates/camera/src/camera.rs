@@ -8,8 +8,8 @@
 //!         [ 0  0  0  1 ] [ 0 0 0  1  ]
 //! ```
 //!
-//! Source: the textbook (Shirley and Marschner, ch. 8), §8.1.3, formula CA-2. (One set of notes
-//! prints the third row of the translation as 0 0 0 −ze, misprint M11: that matrix is singular and
+//! Source: the textbook (Shirley and Marschner, ch. 8), §8.1.3, formula CA-2. (In one set of notes,
+//! the third row of the translation is misprinted as 0 0 0 −ze, M11. That matrix is singular and
 //! puts every point at the same depth.)
 
 use crate::{Basis, CameraError};
@@ -54,8 +54,8 @@ impl Camera {
     /// top.
     ///
     /// # Errors
-    /// Returns an error if eye and target are the same, `up` is zero or parallel to the gaze, or a
-    /// coordinate is not finite.
+    /// Returns an error if the eye and the target are the same, `up` is zero or parallel to the
+    /// gaze, or a coordinate is not finite.
     pub fn look_at(
         eye: Point<World>,
         target: Point<World>,
@@ -82,7 +82,7 @@ impl Camera {
     /// to the gaze: −z when looking down, +z when looking up, and +y otherwise.
     ///
     /// # Errors
-    /// Returns an error if eye and target are the same or a coordinate is not finite.
+    /// Returns an error if the eye and the target are the same or a coordinate is not finite.
     pub fn look_at_or_fallback(
         eye: Point<World>,
         target: Point<World>,

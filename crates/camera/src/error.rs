@@ -106,7 +106,9 @@ pub enum CameraError {
         top: f64,
     },
     /// Two corners of the screen are the same point.
-    #[error("two corners of the screen are both {corner}: it needs a width and a height")]
+    #[error(
+        "two corners of the screen are both at {corner}: the screen needs a width and a height"
+    )]
     FlatScreen {
         /// Their common position.
         corner: Point<World>,

@@ -141,7 +141,7 @@ impl Extrinsics {
         Self::new(transpose(rotation), translation, CameraAxes::Pytorch3d)
     }
 
-    /// Returns the parameters of a camera.
+    /// Returns the parameters of a camera in these axes.
     #[must_use]
     pub fn from_camera(camera: Camera, axes: CameraAxes) -> Self {
         let from_eye = camera.eye() - Point::ORIGIN;

@@ -13,7 +13,7 @@
 //!
 //! Each side of the pyramid moves inward, with its own slope, until it touches a point. In
 //! coordinates along u, v, w a point (x, y, z) is left of the right side, which has slope r, if x −
-//! ex ≤ r (ez − z), that is, if ex + r ez ≥ x + r z. That is one number per side and point, and
+//! ex ≤ r (ez − z), that is, if ex + r ez ≥ x + r z. This gives one number per side and point, and
 //! only the largest, R, matters. With the smallest, L, for the left side, ex + r ez ≥ R and ex + l
 //! ez ≤ L. Hence ez ≥ (R − L)/(r − l), the smallest distance at which the width fits. The height
 //! gives a second distance. The larger one decides, and the picture is centered in the other
@@ -123,8 +123,8 @@ pub struct Framing {
 ///
 /// # Errors
 /// Returns an error if there are no points, a point is not finite, the window is empty or mirrored,
-/// or the padding is outside [0, ½). Points may also be so far away, or the frame so narrow or so
-/// far off the axis, that f64 cannot represent the eye.
+/// or the padding is outside [0, ½). It is also an error if the points are so far away, or the
+/// frame is so narrow or so far off the axis, that f64 cannot represent the eye.
 ///
 /// ```
 /// use camera::{NamedView, Slopes, frame_perspective};

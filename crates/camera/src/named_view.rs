@@ -97,7 +97,7 @@ impl NamedView {
     #[must_use]
     #[allow(
         clippy::wrong_self_convention,
-        reason = "a view is *from* somewhere; nothing is converted"
+        reason = "`from` means the viewing direction, not a conversion"
     )]
     pub fn from_direction(self) -> Vector<World> {
         let direction = match self {
@@ -135,7 +135,7 @@ impl NamedView {
     /// Returns the orientation of a camera with this view.
     #[must_use]
     pub fn basis(self) -> Basis {
-        // No view has an up parallel to its gaze; the tests check each one.
+        // No view has an up vector parallel to its gaze; the tests check every view.
         Basis::from_gaze(self.gaze(), self.up()).unwrap_or(Basis::WORLD)
     }
 }

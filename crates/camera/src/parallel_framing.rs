@@ -23,8 +23,8 @@ use homog::{Point, Vector, View, World};
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct ParallelFraming {
-    /// The camera. Its eye is on the projector through the center of the picture, one diagonal of
-    /// the points in front of the nearest point.
+    /// The camera. Its eye is on the projector through the center of the picture. Its distance from
+    /// the nearest point is the diagonal of the points.
     pub camera: Camera,
     /// The left side of the window in view space, in the plane z = 0 of the eye: −`right`.
     pub left: f64,
@@ -47,15 +47,15 @@ pub struct ParallelFraming {
 /// fills the frame.
 ///
 /// The image touches two opposite sides of the padded frame and is centered between the other two.
-/// `aspect` is the width/height of the frame, and `padding` is the fraction of the frame left free
-/// on every side: 0.05 is 5%. If all images coincide, because the points are on one projector, the
-/// height of the frame is the diagonal of the points. A single point is framed as a cube with side
-/// 1 around it, or with a millionth of its distance from the origin if that is more.
+/// `aspect` is the width of the frame divided by its height, and `padding` is the fraction of the
+/// frame left free on every side: 0.05 is 5%. If all images coincide, because the points are on one
+/// projector, the height of the frame is the diagonal of the points. A single point is framed as a
+/// cube with side 1 around it, or with a millionth of its distance from the origin if that is more.
 ///
 /// # Errors
 /// Returns an error if there are no points, a point is not finite, the aspect is not positive and
-/// finite, or the padding is outside [0, ½). Points may also be so far away, or the aspect or the
-/// projectors so extreme, that f64 cannot represent the eye.
+/// finite, or the padding is outside [0, ½). It is also an error if the points are so far away, or
+/// the aspect or the projectors are so extreme, that f64 cannot represent the eye.
 ///
 /// ```
 /// use camera::{NamedView, frame_parallel};

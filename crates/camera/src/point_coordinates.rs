@@ -13,7 +13,7 @@ use homog::{Bounds, Point, Vector, View, World};
 const MAX_COORDINATE: f64 = 1e300;
 /// Points closer together than this fraction of their distance from the origin count as one.
 const SINGLE_POINT_TOLERANCE: f64 = 1e-12;
-/// The relative rounding error of an eye's coordinates is below this.
+/// An upper bound for the relative rounding error of the eye's coordinates.
 const EYE_PRECISION: f64 = 1e-14;
 /// The side of the cube that frames a single point, if its coordinates are small enough.
 const SINGLE_POINT_SIDE: f64 = 1.0;
@@ -26,7 +26,7 @@ pub(crate) struct PointCoordinates<I> {
     points: I,
     basis: Basis,
     center: Point<World>,
-    /// The margin on every side: 0, unless all points coincide.
+    /// The margin on every side, which is 0 unless all points coincide.
     margin: f64,
     farthest: f64,
     pub(crate) extent: Extent,
@@ -95,8 +95,8 @@ impl<I: Iterator<Item = Point<World>> + Clone> PointCoordinates<I> {
     }
 
     /// Returns the camera whose eye has the given coordinates. `smallest` is the smallest length
-    /// that the position of the eye must resolve. If the eye is too far away for that, it is an
-    /// error.
+    /// that the position of the eye must resolve. Returns an error if the eye is too far away for
+    /// that.
     pub(crate) fn camera_at(
         &self,
         eye: Vector<View>,

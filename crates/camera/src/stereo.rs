@@ -104,9 +104,9 @@ impl StereoRig {
         Ok(StereoPair { left: moved(left)?, right: moved(right)? })
     }
 
-    /// Returns the offset to the right of the right eye's image of a point at `distance` from the
-    /// left eye's image, measured on the plane of zero parallax. It is negative in front of that
-    /// plane and equals the interocular distance at infinity.
+    /// Returns the parallax of a point at `distance`: how far its image for the right eye is to the
+    /// right of its image for the left eye, measured on the plane of zero parallax. It is negative
+    /// in front of that plane and equals the interocular distance at infinity.
     ///
     /// # Errors
     /// Returns an error if a distance is not positive and finite.

@@ -24,13 +24,13 @@ impl ViewProjection {
     /// Returns the viewer: the eye, or in a parallel projection the direction toward it, a point at
     /// infinity.
     ///
-    /// It is the only point without an image: the rows of x, y and w of the matrix all give 0 for
-    /// it. Its sign is chosen so that depth grows toward the viewer: `viewer.xyz − p·viewer.w` is
-    /// the vector from a visible point p to the viewer.
+    /// It is the only point without an image: the x, y and w rows of the matrix all give 0 for it.
+    /// Its sign is chosen so that depth grows toward the viewer: `viewer.xyz − p·viewer.w` is the
+    /// vector from a visible point p to the viewer.
     ///
-    /// w is 1 for an eye and 0 for a direction. It is −1 in reverse perspective, such as the bottom
-    /// row (p, q, r, 1) with r > 0: the lines of sight meet *behind* the scene, and points farther
-    /// from that center hide nearer points.
+    /// w is 1 for an eye and 0 for a direction. It is −1 in reverse perspective, for example with
+    /// the bottom row (p, q, r, 1) and r > 0: the lines of sight meet *behind* the scene, and
+    /// points farther from that center hide nearer points.
     #[must_use]
     pub fn viewer(&self) -> HPoint<World> {
         let viewer = self.blind_point();
@@ -41,15 +41,16 @@ impl ViewProjection {
     /// Returns whether the picture is mirrored, as by a window with left and right (or bottom and
     /// top) exchanged.
     ///
-    /// The sign comes from the determinant of the matrix, the row of z times the point without an
-    /// image: depth grows toward the viewer, who therefore has a positive z in clip space.
+    /// The sign comes from the determinant of the matrix, which is the z row times the point
+    /// without an image: depth grows toward the viewer, who therefore has a positive z in clip
+    /// space.
     #[must_use]
     pub fn is_mirrored(&self) -> bool {
         self.world_to_clip().raw().row(2).dot(self.blind_point()) > 0.0
     }
 
-    /// Returns the point without an image, as the four-dimensional cross product of the rows of x,
-    /// y and w. The determinant of three points and this one equals the determinant of (x, y, w) of
+    /// Returns the point without an image, as the four-dimensional cross product of the x, y and w
+    /// rows. The determinant of three points and this one equals the determinant of (x, y, w) of
     /// their images. The product points away from the viewer unless the picture is mirrored.
     fn blind_point(&self) -> DVec4 {
         let m = self.world_to_clip().raw();
@@ -118,7 +119,7 @@ mod tests {
             assert_eq!(viewer.w(), -r.signum());
             let center = viewer.divide().expect("a place");
             assert!((center - Point::new(0.0, 0.0, -1.0 / r)).length() < 1e-12, "{center:?}");
-            // In both, depth grows toward +z.
+            // In both cases, depth grows toward +z.
             assert!(viewer.z() > 0.0);
             assert!(!view_projection.is_mirrored());
         }

@@ -20,7 +20,7 @@ use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, Screen, Vector, World}
 /// use camera::{Camera, ViewProjection, ViewTransform};
 /// use homog::{Affine, Clip, Ndc, Point, Screen, Vector, View};
 ///
-/// // A parallel view along −z; the projection keeps x, y and the depth.
+/// // A parallel view along −z; the projection preserves x, y and the depth.
 /// let camera = Camera::look_to(Point::ORIGIN, -Vector::Z, Vector::Y)?;
 /// let view_to_clip = Affine::<View, Clip>::scale(1.0, 1.0, 1.0).into();
 /// // 200 × 100 pixels, y down.

@@ -61,7 +61,7 @@ impl<A: Space, B: Space> Affine<A, B> {
     }
 
     /// Rotates about `axis` by `angle` radians by the right-hand rule: counterclockwise when the
-    /// axis points at the viewer. `None` if the axis is zero or not finite.
+    /// axis points at the viewer. Returns `None` if the axis is zero or not finite.
     #[must_use]
     pub fn rotation(axis: Vector<B>, angle: f64) -> Option<Self> {
         let [x, y, z] = axis.normalized()?.raw.to_array();
@@ -219,7 +219,7 @@ mod tests {
     type Map = Affine<Model, World>;
 
     #[test]
-    fn inverses_undo_and_flat_maps_have_none() {
+    fn inverses_undo_the_map_and_flat_maps_have_none() {
         let turn = Affine::<Model, Model>::rotation_x(0.3);
         let map = turn.then(Map::translation(Vector::new(1.0, -2.0, 3.0)));
         let p = Point::new(0.5, 0.25, -4.0);

@@ -93,7 +93,7 @@ impl<S: Space> Bounds<S> {
     }
 
     /// Returns the bounds of the image of this box, or `None` if the image of a corner is not
-    /// finite. They are usually larger than the bounds of the transformed contents.
+    /// finite. The result is usually larger than the bounds of the transformed contents.
     #[must_use]
     pub fn transformed<T: Space>(self, map: Affine<S, T>) -> Option<Bounds<T>> {
         Bounds::from_points(self.corners().map(|corner| map.transform_point(corner)))

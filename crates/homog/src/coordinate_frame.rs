@@ -8,7 +8,7 @@
 //!
 //! The 4×4 matrix whose columns are the axes (w = 0) and the origin (w = 1) converts coordinates in
 //! the frame to coordinates in the parent space. Its inverse does the opposite. The matrix of one
-//! frame followed by the inverse for another converts coordinates between the two frames.
+//! frame followed by the inverse matrix of another converts coordinates between the two frames.
 
 use crate::{Affine, Point, Space, Vector};
 

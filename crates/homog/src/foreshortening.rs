@@ -75,7 +75,7 @@ impl Foreshortening {
     /// Returns f(t): the position in the image, as a fraction, of the point at fraction `t` of the
     /// segment.
     ///
-    /// Always `Some` for t in [0, 1]. Beyond the ends, `None` from the point where the image
+    /// Always `Some` for t in [0, 1]. Beyond the ends, it is `None` from the point where the image
     /// reaches infinity.
     #[must_use]
     pub fn image_parameter(self, t: f64) -> Option<f64> {
@@ -85,7 +85,7 @@ impl Foreshortening {
     /// Returns the inverse of f: the fraction of the segment that appears at fraction `s` of its
     /// image.
     ///
-    /// Always `Some` for s in [0, 1]. Beyond the ends, `None` from the vanishing point on.
+    /// Always `Some` for s in [0, 1]. Beyond the ends, it is `None` from the vanishing point on.
     #[must_use]
     pub fn source_parameter(self, s: f64) -> Option<f64> {
         perspective_fraction(s, self.start * s, interpolate(self.end, self.start, s))

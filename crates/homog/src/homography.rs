@@ -8,8 +8,8 @@
 //! ```
 //!
 //! Lines map to lines, but parallel lines may meet in the image. One line, whose points get w = 0,
-//! maps to infinity: in this example, 2y + 1 = 0. Any multiple of M is the same map. Source: the
-//! textbook (Shirley and Marschner, ch. 8), §8.2; HO-3.
+//! maps to infinity: in this example, 2y + 1 = 0. Any nonzero multiple of M is the same map.
+//! Source: the textbook (Shirley and Marschner, ch. 8), §8.2; HO-3.
 
 use crate::elimination::eliminate_full_pivoting;
 use crate::hpoint_kind::are_proportional;
@@ -46,7 +46,7 @@ impl Homography {
     }
 
     /// Returns the map that takes the corners (0,0), (1,0), (1,1), (0,1) of the unit square to the
-    /// given four points, in this order.
+    /// four given points, in this order.
     ///
     /// `None` if three of them are collinear or a coordinate is not finite.
     #[must_use]

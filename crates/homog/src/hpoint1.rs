@@ -83,7 +83,7 @@ mod tests {
             Some(d / z),
             "the misprint y_s = d/z puts all points at one height"
         );
-        // Misprinted as [d y, z] ~ [d y, 1]; correct is [d y / z, 1].
+        // Misprinted as [d y, z] ~ [d y, 1]; the correct form is [d y / z, 1].
         assert_eq!(image.equivalent(HPoint1::new(d * y / z, 1.0), 0.0), Some(true));
         assert_eq!(image.equivalent(HPoint1::new(d * y, 1.0), 1e-12), Some(false));
     }

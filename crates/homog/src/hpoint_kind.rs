@@ -162,7 +162,7 @@ mod tests {
 
     #[test]
     fn misprint_m2_the_factor_multiplies_the_point() {
-        // Misprinted as "x ~ α"; correct is x ~ αx for α ≠ 0.
+        // Misprinted as "x ~ α"; the correct form is x ~ αx for α ≠ 0.
         let x = HPoint::<World>::new(1.0, -2.0, 3.0, 4.0);
         for alpha in [-7.0, 1e-3, 1e300, -1e-300, 5e-324] {
             let multiple = HPoint::tagged(x.raw * alpha);

@@ -49,8 +49,8 @@ impl<A: Space, B: Space> Projective<A, B> {
     /// Returns the inverse map, with its condition number.
     ///
     /// # Errors
-    /// Returns an error if the matrix is singular (up to rounding, in any units of its rows and
-    /// columns) or not finite, or if the inverse is not finite.
+    /// Returns an error if the matrix is singular (up to rounding, regardless of the units of its
+    /// rows and columns) or not finite, or if the inverse is not finite.
     ///
     /// ```
     /// use homog::{Affine, Model, Projective, World};

@@ -1,17 +1,17 @@
 //! Homogeneous coordinates with typed spaces.
 //!
-//! A picture of a three-dimensional object is the result of a chain of maps. Each link knows its
-//! input and output spaces, and the compiler rejects a chain that does not fit:
+//! A picture of a three-dimensional object is the result of a chain of maps. Each map has an input
+//! space and an output space, and the compiler rejects a chain in which they do not match:
 //!
 //! ```text
 //!  Model ─Affine─► World ─Affine─► View ─Projective─► Clip ─divide─► Ndc ─Affine─► Screen
 //! ```
 //!
-//! | type | is | under a translation |
+//! | type | represents | under a translation |
 //! | --- | --- | --- |
 //! | [`Point`] | a position (x, y, z) | moves |
-//! | [`Vector`] | a difference of positions | stays |
-//! | [`Normal`] | a direction perpendicular to a surface | stays |
+//! | [`Vector`] | a difference of positions | is unchanged |
+//! | [`Normal`] | a direction perpendicular to a surface | is unchanged |
 //! | [`HPoint`] | the position (x/w, y/w, z/w), or a direction if w = 0 | moves w times as far |
 //! | [`Plane`], [`Ray`], [`Bounds`] | a x + b y + c z + d = 0; a half-line; a box | move |
 //! | [`CoordinateFrame`] | an origin with three axes | moves |
@@ -76,7 +76,7 @@
 //! | `serde` | arrays of coordinates, and of matrix rows |
 //!
 //! Source: P. Shirley, S. Marschner and others, *Fundamentals of Computer Graphics*, chapter 8,
-//! *Viewing*.  Formula ids such as HO-2 refer to the project's list of formulas.
+//! *Viewing*. Formula ids such as HO-2 refer to the project's list of formulas.
 #![no_std]
 
 mod affine;

@@ -21,7 +21,7 @@ pub struct MatrixDisplay<const N: usize> {
 }
 
 impl<const N: usize> MatrixDisplay<N> {
-    /// Creates a display of the matrix with the given rows.
+    /// Creates the display of a matrix from its rows.
     #[must_use]
     pub const fn from_rows(rows: [[f64; N]; N]) -> Self {
         Self { rows }

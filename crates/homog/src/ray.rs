@@ -15,7 +15,7 @@ use crate::{Bounds, Plane, Point, Space, Vector};
 pub struct Ray<S: Space> {
     /// The point at which the ray starts.
     pub origin: Point<S>,
-    /// The direction of the ray. With length 1, parameters along the ray are distances.
+    /// The direction of the ray. If its length is 1, parameters along the ray are distances.
     pub direction: Vector<S>,
 }
 

@@ -41,7 +41,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
     #[test]
-    fn an_inverse_undoes(map in map(), p in triple(), w in 0.5..2.0) {
+    fn inverses_undo_the_map(map in map(), p in triple(), w in 0.5..2.0) {
         let p = HPoint::new(p[0], p[1], p[2], w);
         let back = map.inverse().expect("regular").transform_hpoint(map.transform_hpoint(p));
         prop_assert_eq!(back.equivalent(p, 1e-10), Some(true));

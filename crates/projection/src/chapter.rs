@@ -9,7 +9,7 @@
 //! ```
 //! use homog::Point;
 //! use projection::chapter;
-//! // Exercises 8 and 9: n = 1, f = 2 takes (x, y, z, 1) to (x, y, 3z − 2, z).
+//! // Exercises 8 and 9: P for n = 1 and f = 2 maps (x, y, z, 1) to (x, y, 3z − 2, z).
 //! let p = chapter::p(1.0, 2.0)?;
 //! let image = p.transform_point(Point::new(1.0, 2.0, 4.0));
 //! assert_eq!(<[f64; 4]>::from(image), [1.0, 2.0, 10.0, 4.0]);

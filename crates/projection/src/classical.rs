@@ -80,13 +80,13 @@ impl Classical {
 
     /// Returns the complete projection.
     ///
-    /// `volume` is the visible part of the picture. Its window is in the picture plane, and near
-    /// and far are measured from that plane away from the viewer. For perspectives they are
-    /// measured on the line x = y = 0 before the divide.
+    /// `volume` is the visible part of the picture. Its window is in the picture plane, and the
+    /// near and far distances are measured from that plane away from the viewer. For perspective
+    /// projections, they are measured on the line x = y = 0 before the divide.
     ///
     /// # Errors
-    /// Returns an error if the near or far plane of a perspective is behind its eye, or the product
-    /// of picture and volume is out of the range of f64.
+    /// Returns an error if the near or far plane of a perspective projection is behind its eye, or
+    /// the product of picture and volume is out of the range of f64.
     pub fn view_to_clip(
         self,
         volume: Orthographic,

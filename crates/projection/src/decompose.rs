@@ -28,19 +28,20 @@ use thiserror::Error;
 /// The projection that a matrix was recognized as.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Decomposed {
-    /// A perspective from the origin. If its window is centered, it converts to
+    /// A perspective projection from the origin. If its window is centered, it converts to
     /// [`crate::Perspective`].
     Frustum(Frustum),
     /// The frustum of the WebGL lesson, with its apex beside the origin (LW-1).
     ApexMoved(ApexMovedFrustum),
-    /// A perspective from another position or orientation: a camera and a lens in one matrix.
+    /// A perspective projection from another position or orientation: a camera and a lens in one
+    /// matrix.
     PlacedFrustum {
         /// The camera's map.
         placement: Affine<View, View>,
         /// The lens.
         frustum: Frustum,
     },
-    /// A perspective whose near plane is inclined (Lengyel).
+    /// A perspective projection whose near plane is inclined (Lengyel).
     ObliqueNear {
         /// The camera's map; the identity if there is no camera.
         placement: Affine<View, View>,

@@ -55,7 +55,7 @@ pub enum ProjectionError {
         /// The name of the parameter.
         parameter: &'static str,
     },
-    /// The projectors are parallel to the plane and never meet it in one point.
+    /// The projectors are parallel to the plane, so they do not meet it in a single point.
     #[error("the projectors are parallel to the projection plane and never meet it")]
     ParallelToPlane,
     /// The center of projection is in the projection plane.

@@ -25,7 +25,7 @@ use homog::{Affine, Vector, View};
 /// use homog::Point;
 /// use projection::Oblique;
 /// let cabinet = Oblique::cabinet(0.0)?;
-/// // Half the depth, drawn to the right.
+/// // Depth is drawn at half length, to the right.
 /// let image = cabinet.onto_plane().transform_point(Point::new(1.0, 2.0, 3.0));
 /// assert_eq!(image, Point::new(2.5, 2.0, 0.0));
 /// # Ok::<(), projection::ProjectionError>(())
@@ -217,7 +217,7 @@ impl Oblique {
 /// use homog::Point;
 /// use projection::Planometric;
 /// let military = Planometric::military(0.0)?;
-/// // x to the right, −z (away) up, and the height added to it.
+/// // x is drawn to the right, −z (away) is drawn up, and the height is added to it.
 /// let image = military.onto_plane().transform_point(Point::new(1.0, 2.0, -3.0));
 /// assert_eq!(image, Point::new(1.0, 5.0, 0.0));
 /// # Ok::<(), projection::ProjectionError>(())

@@ -58,7 +58,7 @@ proptest! {
 
     /// IV-1, C8, C26: tests the maps from clip space back to view space.
     #[test]
-    fn closed_form_inverses_undo(
+    fn closed_form_inverses_undo_the_map(
         f in frustum(),
         p in perspective(),
         o in orthographic(),

@@ -1,5 +1,5 @@
-//! Distance and depth: the conversions are inverse and monotone, and resolution matches the
-//! formulas (ZP-1, LW-3).
+//! Distance and depth: the conversions are monotone and inverse to each other, and the resolution
+//! matches the formulas (ZP-1, LW-3).
 
 use super::samples::{self, convention, frustum, orthographic, planes};
 use homog::Point;

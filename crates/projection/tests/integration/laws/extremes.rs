@@ -149,7 +149,7 @@ proptest! {
         let volume = Orthographic::new(-w, 2.0 * w, -1.0, 1.0, -0.1, 0.1);
         for classical in made.into_iter().flatten() {
             finite("onto plane", classical.onto_plane().raw());
-            finite("depth kept", classical.depth_preserving().raw());
+            finite("depth-preserving", classical.depth_preserving().raw());
             finite("inverse", classical.depth_preserving_inverse().raw());
             let _ = (classical.class().name(), decompose(reread(classical.depth_preserving().raw()), c));
             if let Ok(map) = volume.and_then(|volume| classical.view_to_clip(volume, c)) {
@@ -183,7 +183,7 @@ proptest! {
         .flatten()
         {
             finite("projector", projector.onto_plane().raw());
-            finite("projector, depth kept", projector.depth_preserving().raw());
+            finite("projector, depth-preserving", projector.depth_preserving().raw());
         }
         let window = Window::centered(1.0, 1.0).expect("valid");
         for drawing in [

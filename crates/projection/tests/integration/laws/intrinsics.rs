@@ -1,4 +1,5 @@
-//! Tests K to matrix and back, and pixels from K against pixels from matrix, divide and viewport.
+//! Tests the conversion of K to a matrix and back, and compares pixels from K with pixels from
+//! matrix, divide and viewport.
 
 use super::samples::{self, convention, distance, frustum};
 use homog::{PixelCenters, Point, View};

@@ -182,7 +182,7 @@ fn impossible_vanishing_points_are_rejected() {
             three((0.0, 0.0), (1.0, 0.0), (2.0, 0.0)),
             Err(ProjectionError::ImpossibleVanishingPoints { .. })
         ),
-        "on one line"
+        "collinear"
     );
     assert!(
         matches!(
