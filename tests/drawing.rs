@@ -147,7 +147,7 @@ fn describe_disagreement(
 ) -> String {
     let percent = agreement.disagreement_ratio() * 100.0;
     let mut message =
-        format!("{kind:?} {direction}: the z-buffer hides {percent:.4} % of the visible length");
+        format!("{kind:?} {direction}: the z-buffer hides {percent:.4}% of the visible length");
     let mut segments = agreement.denied_segments.clone();
     segments.sort_by(|a, b| b.1.total_cmp(&a.1));
     for (segment, length) in segments.into_iter().take(5) {

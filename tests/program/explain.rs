@@ -100,7 +100,7 @@ fn invisible_nodes_are_explained() {
         explanation_json(&sandbox, &["--node", "0"])["verdict"].as_str().expect("words").to_owned()
     };
     let seen = verdict("explain_seen", &|_| {});
-    assert!(seen.starts_with("2 of 2 (100 %)"), "{seen}");
+    assert!(seen.starts_with("2 of 2 (100%)"), "{seen}");
     let away = verdict("explain_away", &|document| {
         document.json["nodes"][0]["translation"] = json!([100, 0, 0]);
     });

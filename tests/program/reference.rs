@@ -116,7 +116,7 @@ fn conventions_are_explained_by_name() {
             "near at z = -1, far at 1; y up; looks along -z (right-handed)",
             "near at z = 0, far at 1; y down; looks along -z (right-handed)",
             "near at z = 0, far at 1; y up; looks along +z (left-handed)",
-            "centers at whole numbers",
+            "centers at integers",
         ] {
             assert!(text.contains(line), "{words:?}, {line}: {text}");
         }

@@ -178,7 +178,7 @@ fn comparisons_print_statistics_and_set_the_exit_code() {
     assert_eq!(run.code, 0);
     assert_eq!(
         run.stderr,
-        "compared: agrees; maximum difference 0 of 255; 0 pixels (0.0000 %) exceed the tolerance of 0\n"
+        "compared: agrees; maximum difference 0 of 255; 0 pixels (0.0000%) exceed the tolerance of 0\n"
     );
     let (width, height, _) = sandbox.read_picture("same.compare.png");
     assert_eq!((width, height), (360, 90));

@@ -76,7 +76,7 @@ impl PictureComparison {
 }
 
 /// ```text
-/// compared: differs; maximum difference 12 of 255; 31 pixels (0.0045 %) exceed the tolerance of 0
+/// compared: differs; maximum difference 12 of 255; 31 pixels (0.0045%) exceed the tolerance of 0
 /// ```
 impl fmt::Display for PictureComparison {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -85,7 +85,7 @@ impl fmt::Display for PictureComparison {
         let percent = 100.0 * self.differing_fraction();
         write!(
             f,
-            "compared: {verdict}; maximum difference {greatest} of 255; {beyond} pixels ({percent:.4} %) exceed the tolerance of {tolerance}"
+            "compared: {verdict}; maximum difference {greatest} of 255; {beyond} pixels ({percent:.4}%) exceed the tolerance of {tolerance}"
         )
     }
 }

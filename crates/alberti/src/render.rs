@@ -179,7 +179,7 @@ fn agreement_message(agreement: &Agreement) -> String {
     let percent = 100.0 * agreement.disagreement_ratio();
     let length = agreement.visible_length;
     format!(
-        "verified: {percent:.4} % of {length:.0} px of visible lines is hidden in the z-buffer image"
+        "verified: {percent:.4}% of {length:.0} px of visible lines is hidden in the z-buffer image"
     )
 }
 

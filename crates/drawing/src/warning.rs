@@ -137,7 +137,7 @@ impl fmt::Display for Warning {
                 "so many faces overlap that their outlines are traced on a fine grid and are not exact",
             ),
             Self::OutlinesLeftOut => f.write_str(
-                "the models have so many copies that drawing their outlines would take too long, \
+                "the models have so many instances that drawing their outlines would take too long, \
                  so the outlines are omitted: `--no-line-limits` draws them",
             ),
             Self::PictureEmpty { reason } => write!(f, "the picture is empty: {reason}"),

@@ -83,30 +83,30 @@ impl ApiConventions {
         match self {
             Self::Alberti => {
                 "near at z = 1, far at -1; y up; looks along -z (right-handed); pixel rows from the \
-                 top, centers at halves, depth 1 to 0"
+                 top, centers at half-integers, depth 1 to 0"
             }
             Self::Chapter => {
                 "the textbook: near at z = 1, far at -1; y up; looks along -z (right-handed); pixel \
-                 rows from the bottom, centers at whole numbers"
+                 rows from the bottom, centers at integers"
             }
             Self::ChapterYDown => {
-                "the textbook's with pixel rows from the top (exercise 1); centers at whole numbers"
+                "the textbook's with pixel rows from the top (exercise 1); centers at integers"
             }
             Self::OpenGl => {
                 "near at z = -1, far at 1; y up; looks along -z (right-handed); pixel rows from the \
-                 bottom, centers at halves, depth 0 to 1"
+                 bottom, centers at half-integers, depth 0 to 1"
             }
             Self::Vulkan => {
                 "near at z = 0, far at 1; y down; looks along -z (right-handed); pixel rows from the \
-                 top, centers at halves"
+                 top, centers at half-integers"
             }
             Self::Direct3d => {
                 "near at z = 0, far at 1; y up; looks along +z (left-handed); pixel rows from the \
-                 top, centers at halves"
+                 top, centers at half-integers"
             }
             Self::WebGpu => {
                 "also Metal: near at z = 0, far at 1; y up; looks along -z (right-handed); pixel \
-                 rows from the top, centers at halves"
+                 rows from the top, centers at half-integers"
             }
         }
     }

@@ -55,7 +55,7 @@ pub(super) fn advise_on_flag(
         let is_number = name.parse::<u16>().is_ok();
         let flag = ["port", "size"].into_iter().find(|flag| is_number && has_flag(command, flag));
         let help = flag.map_or(String::new(), |flag| format!(": use `--{flag} {name}`"));
-        return Some(format!("unexpected argument `{name}` of `{}`{help}", full_name(command)));
+        return Some(format!("unexpected argument `{name}` for `{}`{help}", full_name(command)));
     }
     let names: Vec<&str> = command.get_arguments().filter_map(|flag| flag.get_long()).collect();
     let begun = || {

@@ -73,7 +73,9 @@ fn planometric_words(turn: f64, height: f64, z_up: bool, onto_plane: bool) -> St
     let [turn, height] = [turn, height].map(format_number);
     let (plan, up) = if z_up { ("x and y", "z") } else { ("x and z", "y") };
     let depth = if onto_plane { "" } else { ", depth preserved" };
-    format!("{name}{depth}: the plan of {plan} turned by {turn}°, {up} upwards times {height}")
+    format!(
+        "{name}{depth}: the plan of {plan} rotated by {turn}°, with heights along {up} scaled by {height}"
+    )
 }
 
 /// Describes view volumes, also combined with a camera; `None` for other maps.

@@ -95,7 +95,7 @@ impl<'a> Archive<'a> {
             return Err(Diagnostic::error(
                 codes::MISSING_DATA,
                 location,
-                "the entry of the archive is encrypted",
+                "the archive entry is encrypted",
                 "save the file without a password",
             ));
         }

@@ -381,7 +381,7 @@ fn broken_archives_are_errors() {
         file[at] = byte;
         fault(&file)
     };
-    assert!(patched(directory + 8, 1).contains("the entry of the archive is encrypted"));
+    assert!(patched(directory + 8, 1).contains("the archive entry is encrypted"));
     assert!(patched(directory + 10, 14).contains("the unsupported compression method 14"));
     assert!(patched(directory + 16, 0).contains("checksum"));
     assert!(patched(directory + 27, 1).contains("too many for"), "a size of at least 16 MiB");
