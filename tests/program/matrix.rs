@@ -360,7 +360,7 @@ fn the_likeliest_reading_comes_first() {
         ),
         (
             ".866 0 .5 0 .5 1 -.866 0 0 0 0 0 0 0 0 1",
-            "It is a military projection: the plan of x and z turned by 30°",
+            "It is a military projection: the plan of x and z rotated by 30°",
         ),
         (
             "0.707107 0 -0.707107 0 -0.408248 0.816497 -0.408248 0 0.57735 0.57735 0.57735 \
