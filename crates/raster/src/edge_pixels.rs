@@ -1,5 +1,5 @@
-//! Multisample resolve of edge pixels: several opaque triangles share the samples of a pixel, and
-//! its color is the mean of theirs.
+//! Multisample resolve of edge pixels. Several opaque triangles share the samples of such a pixel,
+//! and its color is the mean of the sample colors.
 //!
 //! ```text
 //!   A A A A B B B B     the triangle of each pixel's first sample: shaded as eight neighbors are
@@ -18,9 +18,9 @@ use std::ops::Range;
 /// The edge pixels in one row of a tile.
 #[derive(Debug)]
 pub(crate) struct EdgePixels {
-    /// For each pixel, red, green, blue and alpha, summed over its samples.
+    /// Red, green, blue and alpha of each pixel, summed over its samples.
     color_sums: [[f32; TILE as usize]; 4],
-    /// The blocks of eight pixels with edge pixels, one bit each.
+    /// The blocks of eight pixels that contain edge pixels, one bit per block.
     blocks: u32,
     /// The contributions of triangles that are not visible at the first sample, from left to right.
     contributions: Vec<Contribution>,
@@ -33,14 +33,14 @@ impl Default for EdgePixels {
 }
 
 impl EdgePixels {
-    /// Begins another row.
+    /// Starts a new row.
     #[inline(always)]
     pub(crate) fn clear(&mut self) {
         self.blocks = 0;
         self.contributions.clear();
     }
 
-    /// The contributions that remain to be shaded and added, from left to right.
+    /// Returns the contributions that remain to be shaded and added, from left to right.
     pub(crate) fn contributions(&self) -> &[Contribution] {
         &self.contributions
     }
@@ -49,7 +49,7 @@ impl EdgePixels {
     /// number of samples that show the same triangle or one that `continues` its surface. Other
     /// triangles become contributions.
     ///
-    /// `planes` are the triangles of all samples; those of pixels outside `lanes` are ignored.
+    /// `planes` holds the triangles of all samples; pixels outside `lanes` are ignored.
     #[inline(always)]
     pub(crate) fn add_first_samples(
         &mut self,
@@ -102,14 +102,15 @@ impl EdgePixels {
         }
     }
 
-    /// The mean colors over the samples, block by block: the index of the block and eight colors.
+    /// Returns the mean colors over the samples block by block: the index of each block and its
+    /// eight colors.
     #[inline(always)]
     pub(crate) fn mean_colors(
         &self,
         samples: Samples,
     ) -> impl Iterator<Item = (usize, [F32x8; 4])> {
         let blocks = (0..TILE as usize / LANES).filter(|block| self.blocks >> block & 1 != 0);
-        // The number of samples is a power of two: its reciprocal is exact, and so is the product.
+        // The number of samples is a power of two, so its reciprocal and the product are exact.
         let inv_count = 1.0 / samples.count() as f32;
         blocks.map(move |block| {
             let mut means = [[0.0; LANES]; 4];
@@ -124,7 +125,8 @@ impl EdgePixels {
     }
 }
 
-/// For each of eight pixels, the samples that show the first sample's triangle, one bit each.
+/// Returns, for each of eight pixels, the samples that show the first sample's triangle, one bit
+/// per sample.
 #[inline(always)]
 fn first_sample_masks(planes: &[[u32; LANES]]) -> [u32; LANES] {
     let mut masks = [1; LANES];

@@ -12,9 +12,9 @@ pub enum RasterError {
          must be at least 1 and must end within {MAX_SIDE}"
     )]
     Size {
-        /// The first column.
+        /// The leftmost column.
         x: u32,
-        /// The first row.
+        /// The top row.
         y: u32,
         /// The requested width in pixels.
         width: u32,
@@ -22,11 +22,11 @@ pub enum RasterError {
         height: u32,
     },
     /// A depth buffer and a frame have different numbers of samples.
-    #[error("a depth buffer of {found} samples does not fit a frame of {expected}")]
+    # [error("a depth buffer with {found} samples does not match a frame with {expected}")]
     DepthCount {
-        /// The samples of the frame.
+        /// The number of samples in the frame.
         expected: usize,
-        /// The samples of the buffer.
+        /// The number of samples in the buffer.
         found: usize,
     },
 }

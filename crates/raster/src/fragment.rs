@@ -13,9 +13,9 @@ use crate::screen_vertex::SUBPIXELS;
 /// A primitive at one pixel, ready for shading.
 ///
 /// At the center of the pixel, a vertex attribute is the sum of the vertex values times
-/// [`weights`](Self::weights), which are perspective-correct (IN-2). Its screen derivatives, by
-/// which textures choose their mip level, are the same sum with [`weights_dx`](Self::weights_dx)
-/// and [`weights_dy`](Self::weights_dy).
+/// [`weights`](Self::weights), which are perspective-correct (IN-2). Its screen derivatives, which
+/// determine the mip level of textures, are the same sum with [`weights_dx`](Self::weights_dx) and
+/// [`weights_dy`](Self::weights_dy).
 #[derive(Clone, Copy, Debug)]
 pub struct Fragment<'a> {
     /// The id with which the primitive was submitted.
@@ -27,17 +27,17 @@ pub struct Fragment<'a> {
     /// The weights of the primitive's vertices at the center of the pixel, or at a nearby point
     /// inside if the center is outside. They are nonnegative and add up to 1.
     pub weights: [f32; 3],
-    /// The weights of the screen triangle's vertices, equal to those of the primitive unless it was
-    /// clipped.
+    /// The weights of the screen triangle's vertices. They equal the primitive's weights unless the
+    /// primitive was clipped.
     pub(crate) barycentrics: [f32; 3],
-    /// The reciprocal of the sum by which the barycentrics were normalized.
+    /// The reciprocal of the sum by which the barycentric weights were normalized.
     pub(crate) inv_sum: f32,
     pub(crate) triangle: &'a ScreenTriangle,
     pub(crate) source_weights: &'a [SourceWeights],
 }
 
 impl<'a> Fragment<'a> {
-    /// The fragment of a triangle at pixel (x, y).
+    /// Creates the fragment of a triangle at pixel (x, y).
     #[inline]
     pub(crate) fn new(
         triangle: &'a ScreenTriangle,
@@ -70,8 +70,8 @@ impl<'a> Fragment<'a> {
         self.weight_derivatives(weight_steps_y(self.triangle))
     }
 
-    /// Derivatives by the quotient rule: a weight is a part over the sum of the parts, and these
-    /// are linear on the screen.
+    /// Computes derivatives by the quotient rule: each weight is one part divided by the sum of all
+    /// parts, and the parts are linear in screen space.
     fn weight_derivatives(&self, steps: [f32; 3]) -> [f32; 3] {
         // ∂weight = (∂part − weight · ∂Σ) / Σ.
         let sum = steps[0] + steps[1] + steps[2];
@@ -80,7 +80,7 @@ impl<'a> Fragment<'a> {
     }
 }
 
-/// The change of area times 1/w of each vertex per pixel to the right.
+/// Returns the change of area times 1/w per pixel to the right, for each vertex.
 #[inline(always)]
 pub(crate) fn weight_steps_x(triangle: &ScreenTriangle) -> [f32; 3] {
     let [p, q, r] = &triangle.vertices;
@@ -88,7 +88,7 @@ pub(crate) fn weight_steps_x(triangle: &ScreenTriangle) -> [f32; 3] {
     [step(q.y, r.y, p.inv_w()), step(r.y, p.y, q.inv_w()), step(p.y, q.y, r.inv_w())]
 }
 
-/// The change of area times 1/w of each vertex per pixel down.
+/// Returns the change of area times 1/w per pixel down, for each vertex.
 #[inline(always)]
 pub(crate) fn weight_steps_y(triangle: &ScreenTriangle) -> [f32; 3] {
     let [p, q, r] = &triangle.vertices;
@@ -96,7 +96,7 @@ pub(crate) fn weight_steps_y(triangle: &ScreenTriangle) -> [f32; 3] {
     [step(r.x, q.x, p.inv_w()), step(p.x, r.x, q.inv_w()), step(q.x, p.x, r.inv_w())]
 }
 
-/// The center of a pixel in grid steps, in a row or in a column.
+/// Returns the x or y coordinate of a pixel's center in grid steps.
 pub(crate) fn pixel_center(pixel: u32) -> i32 {
     pixel as i32 * SUBPIXELS + SUBPIXELS / 2
 }
@@ -120,7 +120,8 @@ pub(crate) fn to_source_weights(
     match triangle.source {
         WeightSource::Unclipped => [p, q, r],
         WeightSource::Flipped => [p, r, q],
-        // Weights in a part of the primitive, times the weights of its vertices in the whole.
+        // The weights within the part, times the weights of the part's vertices within the
+        // primitive.
         WeightSource::Clipped(entry) => {
             let [at_p, at_q, at_r] = source_weights[entry as usize];
             [0, 1, 2].map(|k| p * at_p[k] + q * at_q[k] + r * at_r[k])

@@ -7,7 +7,7 @@ use crate::tile_loop::FilledTile;
 use crate::tile_visibility::{TileVisibility, TranslucentLayer};
 use crate::{Fragment, Frame, Surface};
 
-/// One pixel of a filled tile, and its translucent layers, back to front.
+/// One pixel of a filled tile and its translucent layers, back to front.
 struct PixelLayers<'a> {
     tile: &'a TileVisibility,
     layers: &'a [TranslucentLayer],
@@ -21,10 +21,11 @@ impl Frame {
     /// Calls `map` with the front fragment of each pixel that has one and writes the result to
     /// `target`: rows from the top, `width` × `height` values. Uses up to `threads` threads.
     ///
-    /// The front fragment is the nearest one that covers the first sample of the pixel, or its
-    /// center with one sample. Translucent primitives count, and masked ones where they pass the
-    /// alpha test. At equal depth, the last translucent primitive submitted counts, because it is
-    /// drawn over the others; among opaque ones, the first.
+    /// The front fragment is the nearest fragment that covers the first sample of the pixel, which
+    /// is its center if there is only one sample. Translucent primitives count, and so do masked
+    /// primitives where they pass the alpha test. At equal depth, the translucent primitive
+    /// submitted last wins, because it is drawn over the others; among opaque primitives, the one
+    /// submitted first wins.
     pub fn map_front_fragments<S: Surface, P: Copy + Send>(
         &self,
         surface: &S,

@@ -25,8 +25,7 @@
 //! on an edge shared by two triangles belongs to exactly one of them (the top-left rule, RA-1).
 //! Visibility comes first: every sample stores its nearest triangle. Then each visible triangle is
 //! shaded once per pixel, so hidden surfaces cost no shading. The crate knows nothing about
-//! materials: a [`Surface`] receives perspective-correct weights of the vertices (IN-2) and returns
-//! colors.
+//! materials: a [`Surface`] receives perspective-correct vertex weights (IN-2) and returns colors.
 //!
 //! # Conventions
 //!
@@ -112,7 +111,7 @@ pub use error::RasterError;
 pub use fragment::Fragment;
 pub use fragment_lanes::{F32x8, Fragments, LANES, WeightLanes};
 pub use frame::{Frame, MAX_SIDE, MeshTriangles};
-/// The types of points, maps and spaces, re-exported to save a second dependency.
+/// Point, map and space types, re-exported so that callers need no second dependency.
 pub use homog;
 pub use monitor::{Monitor, Workers};
 pub use parallel::for_each_parallel;

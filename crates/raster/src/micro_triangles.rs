@@ -9,18 +9,19 @@
 //! ```
 //!
 //! In a fine mesh a triangle covers few of the samples in its bounds: two thirds of the eight-pixel
-//! rows that it touches contain no sample of it. Here the eight lanes are triangles instead of
-//! pixels. For a mesh of 600,000 triangles with four samples per pixel, of which each triangle
-//! covers five, this saves 27% of the visibility instructions and 6% of the drawing time.
+//! rows that it touches contain none of its samples. Here the eight lanes are triangles instead of
+//! pixels. For a mesh of 600,000 triangles that cover five samples each, drawn with four samples
+//! per pixel, this saves 27% of the visibility instructions and 6% of the drawing time.
 //!
-//! Measured and rejected, because they cost more than they save:
-//! - hierarchical z for micro-triangles, and all of this with one sample per pixel;
+//! The following were measured and rejected, because they cost more than they save:
+//! - hierarchical z for micro-triangles, and micro-triangles with one sample per pixel;
 //! - for larger triangles, a branch that skips rows without a sample: 14% fewer instructions, but
 //!   9% to 39% more time, because it cannot be predicted;
 //! - separate bounds of each triangle in each sample plane: 16% more instructions, because the
 //!   loops over blocks then start in each plane;
-//! - four samples of two pixels in a vector instead of eight pixels: drawing four samples takes
-//!   0.96 of the time, but one sample takes 1.13, with 16 KiB more code.
+//! - four samples of two pixels in a vector instead of eight pixels: drawing takes 0.96 times as
+//!   long with four samples per pixel but 1.13 times as long with one, and the code grows by 16
+//!   KiB.
 
 use crate::sample_plane::{BLOCK_SIDE, BLOCKS_PER_ROW, SamplePlane, TILE_PIXELS};
 use crate::tile_grid::TILE;
@@ -30,12 +31,12 @@ use fearless_simd::{Simd, f32x8, i32x8};
 
 /// The longest side of a micro-triangle's bounds in pixels.
 const SIDE: usize = 4;
-/// The number of sample planes whose positions fit the bits of one word.
+/// The number of sample planes whose positions fit into the bits of one word.
 const PLANES_PER_WORD: usize = 4;
-/// The number of micro-triangles in a batch from which setting up all eight lanes pays.
+/// The minimum number of micro-triangles in a batch for which setting up all eight lanes pays off.
 const MIN_COUNT: u32 = 2;
 
-/// The micro-triangles of a batch: their coverage, and the terms of their depths.
+/// The micro-triangles of a batch, with their coverage and depth terms.
 #[derive(Debug, Default)]
 pub(crate) struct MicroTriangles {
     /// The triangles of the batch that are micro-triangles, one bit each.
@@ -46,19 +47,20 @@ pub(crate) struct MicroTriangles {
     row_depths: Vec<[f32; BATCH_SIZE]>,
     /// For each column and triangle, dx · x.
     column_depths: [[f32; BATCH_SIZE]; SIDE],
-    /// For each row, column and triangle, its part of the index of a sample in its plane.
+    /// For each row and triangle, the row's contribution to the index of a sample in its plane;
+    /// below, the same for each column.
     row_indices: [[i32; BATCH_SIZE]; SIDE],
     column_indices: [[i32; BATCH_SIZE]; SIDE],
 }
 
 impl MicroTriangles {
-    /// Whether a triangle of the batch is one of these.
+    /// Returns whether a triangle of the batch is a micro-triangle.
     #[inline(always)]
     pub(crate) const fn contain(&self, lane: usize) -> bool {
         self.lanes >> lane & 1 != 0
     }
 
-    /// Prepares the micro-triangles of a batch, with start values `starts` in each plane.
+    /// Prepares the micro-triangles of a batch, using the start values `starts` of each plane.
     #[inline(always)]
     pub(crate) fn prepare<S: Simd>(
         &mut self,
@@ -103,7 +105,7 @@ impl MicroTriangles {
             for y in 0..heights {
                 let mut edges = row;
                 for x in 0..SIDE {
-                    // The combined sign bits of the edge functions: all are clear inside.
+                    // Combine the sign bits of the edge functions: all are clear inside.
                     let signs = (edges[0] | edges[1] | edges[2]) >> 31;
                     inside |= !signs & (1 << (SIDE * y + x));
                     for k in 0..3 {
@@ -118,7 +120,7 @@ impl MicroTriangles {
         }
     }
 
-    /// Depth test and depth write of the samples covered by one of the triangles.
+    /// Depth-tests and writes the samples covered by one of the triangles.
     #[inline(always)]
     pub(crate) fn rasterize(
         &self,
@@ -152,7 +154,7 @@ impl MicroTriangles {
 /// The triangles of a batch whose bounds are at most 4 × 4 pixels, one bit each, and the maximum
 /// height of their bounds.
 ///
-/// All 16 positions are in the tile; those beyond the border of the picture are never shown.
+/// All 16 positions are in the tile; positions beyond the border of the picture are never shown.
 #[inline(always)]
 fn micro_lanes(batch: &TriangleBatch) -> (u32, usize) {
     let [x0, y0, x1, y1] = &batch.bounds;
@@ -182,7 +184,7 @@ mod tests {
 
     const TILE_RECT: TileRect = TileRect { x: 64, y: 0, left: 0, top: 0, right: 64, bottom: 56 };
 
-    /// Clockwise triangles of up to four pixels, in the tile and across its borders.
+    /// Generates clockwise triangles of up to four pixels, inside the tile and across its borders.
     fn triangle() -> impl Strategy<Value = ScreenTriangle> {
         let corner = (0..900_i32, 0..900_i32, 0.0..1.0_f32);
         let place = (-3..64_i32, -3..64_i32);
@@ -213,7 +215,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn micro_triangles_have_the_samples_of_others(
+        fn micro_triangles_match_the_general_rasterizer(
             triangles in prop::array::uniform8(triangle()), count in 0..3_usize,
         ) {
             let samples = [Samples::Four, Samples::Eight, Samples::Sixteen][count];

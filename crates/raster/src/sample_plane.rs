@@ -1,5 +1,4 @@
-//! Sample planes: the depth buffer and the visibility buffer of one sample of every pixel of a
-//! tile.
+//! Sample planes: the depth and visibility buffers of a tile for one sample per pixel.
 //!
 //! ```text
 //!   tile 64 × 64 = 8 × 8 blocks          block = 8 rows of 8 pixels
@@ -11,10 +10,10 @@
 //! Pixels are stored block by block: a row of a block is one vector, and the depths of a block fill
 //! four cache lines.
 //!
-//! Hierarchical z (Greene, Kass and Miller 1993): each block has two bounds,  a depth that none of
-//! its samples is farther than, and one that none is nearer than. A triangle farther than the first
-//! is hidden in the whole block; one nearer than the second hides the block and is written without
-//! a depth test. The tile as a whole has the first bound too. Bounds may lag behind the samples,
+//! Hierarchical z (Greene, Kass and Miller 1993): each block has a farthest and a nearest bound,
+//! which none of its samples exceeds. A triangle beyond the farthest bound is hidden in the whole
+//! block; a triangle in front of the nearest bound hides the whole block and is written without a
+//! depth test. The tile as a whole also has a farthest bound. Bounds may lag behind the samples,
 //! but they always hold.
 
 use crate::tile_grid::{TILE, TileRect};
@@ -25,19 +24,19 @@ pub(crate) const TILE_PIXELS: usize = (TILE * TILE) as usize;
 pub(crate) const BLOCK_SIDE: usize = 8;
 /// The number of blocks in a row of blocks of a tile.
 pub(crate) const BLOCKS_PER_ROW: usize = TILE as usize / BLOCK_SIDE;
-/// The triangle index of the background, larger than any other.
+/// The triangle index of the background, which is larger than any other index.
 pub(crate) const NO_TRIANGLE: u32 = u32::MAX;
 
-/// The bound of the tile is recomputed after this many blocks have come nearer.
+/// The number of blocks that must come nearer before the tile's bound is recomputed.
 const STALE_BLOCKS: u32 = 16;
 
-/// The array index of a pixel of the tile.
+/// Returns the array index of a pixel of the tile.
 pub(crate) const fn pixel_index(x: usize, y: usize) -> usize {
     ((y / BLOCK_SIDE * BLOCKS_PER_ROW + x / BLOCK_SIDE) * BLOCK_SIDE + y % BLOCK_SIDE) * BLOCK_SIDE
         + x % BLOCK_SIDE
 }
 
-/// Depth and triangle index of one sample of every pixel of a tile.
+/// The depth and triangle index of one sample of every pixel of a tile.
 ///
 /// The background is at depth −∞, so everything else is nearer.
 #[derive(Debug)]
@@ -46,11 +45,11 @@ pub(crate) struct SamplePlane {
     pub(crate) depth: Box<[f32; TILE_PIXELS]>,
     /// The visibility buffer: the index of the nearest triangle.
     pub(crate) triangle: Box<[u32; TILE_PIXELS]>,
-    /// For each block, a depth that no sample of it is farther than.
+    /// The farthest bound of each block: none of its samples is farther.
     pub(crate) block_farthest: [f32; BLOCKS_PER_ROW * BLOCKS_PER_ROW],
-    /// For each block, a depth that no sample of it is nearer than.
+    /// The nearest bound of each block: none of its samples is nearer.
     pub(crate) block_nearest: [f32; BLOCKS_PER_ROW * BLOCKS_PER_ROW],
-    /// A depth that no sample of the tile is farther than.
+    /// The farthest bound of the tile: no sample is farther.
     tile_farthest: f32,
     /// The number of blocks that have come nearer since `tile_farthest` was computed.
     stale_blocks: u32,
@@ -70,8 +69,9 @@ impl SamplePlane {
 
     /// Clears the plane to the background.
     ///
-    /// Blocks outside the visible part of the tile get +∞ as their farthest depth: everything in
-    /// them is hidden, so no work is done there, and they do not hold back the bound of the tile.
+    /// Blocks outside the visible part of the tile get +∞ as their farthest bound. Everything in
+    /// them is then hidden, so no work is done there, and they do not hold back the bound of the
+    /// tile.
     pub(crate) fn clear(&mut self, visible: TileRect) {
         self.depth.fill(f32::NEG_INFINITY);
         self.triangle.fill(NO_TRIANGLE);
@@ -85,8 +85,8 @@ impl SamplePlane {
         (self.tile_farthest, self.stale_blocks) = (f32::NEG_INFINITY, 0);
     }
 
-    /// Computes the bounds of the blocks in the visible part of the tile from its depths. The
-    /// pixels of a block beyond it are at −∞ and hold back its farthest bound, which is safe.
+    /// Computes the bounds of the blocks in the visible part of the tile from its depths. Pixels of
+    /// a block outside that part are at −∞ and hold back the block's farthest bound, which is safe.
     pub(crate) fn find_block_bounds(&mut self, visible: TileRect) {
         let columns = visible.left as usize / 8..visible.right.div_ceil(8) as usize;
         for row in visible.top as usize / 8..visible.bottom.div_ceil(8) as usize {
@@ -102,13 +102,13 @@ impl SamplePlane {
         self.tile_farthest = self.block_farthest.iter().copied().fold(f32::INFINITY, f32::min);
     }
 
-    /// A depth that no sample of the tile is farther than; anything farther is hidden.
+    /// Returns the farthest bound of the tile: no sample is farther, so anything farther is hidden.
     pub(crate) fn tile_farthest(&self) -> f32 {
         self.tile_farthest
     }
 
-    /// Counts blocks that have come nearer, and updates the bound of the tile after
-    /// [`STALE_BLOCKS`] of them.
+    /// Counts blocks that have come nearer and updates the tile's bound after [`STALE_BLOCKS`] of
+    /// them.
     ///
     /// Reducing sixty-four bounds to one after every block would cost more than it saves.
     #[inline(always)]

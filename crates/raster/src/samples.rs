@@ -45,7 +45,7 @@ const SIXTEEN: [(i32, i32); 16] = [
 ];
 
 impl Samples {
-    /// The pattern with `count` samples; `None` unless it is 1, 4, 8 or 16.
+    /// Returns the pattern with `count` samples, or `None` if `count` is not 1, 4, 8 or 16.
     #[must_use]
     pub const fn from_count(count: u32) -> Option<Self> {
         match count {
@@ -87,7 +87,8 @@ impl Samples {
         (0..self.count()).map(move |sample| self.sample_offset(sample))
     }
 
-    /// The first sample of a pixel, in pixels from the upper left corner: (½, ½) with one sample.
+    /// Returns the position of the first sample in pixels from the upper left corner of its pixel:
+    /// (½, ½) with one sample.
     #[must_use]
     pub fn first_offset(self) -> [f32; 2] {
         let (x, y) = self.sample_offset(0);
@@ -108,8 +109,8 @@ impl Samples {
     }
 }
 
-/// Converts an offset in 1/16 pixel from the center to grid steps from the upper left corner of the
-/// pixel. This is exact, because 1/16 pixel is 16 grid steps.
+/// Converts an offset from the center of the pixel in 1/16 pixel to an offset from its upper left
+/// corner in grid steps. This is exact, because 1/16 pixel is 16 grid steps.
 #[inline(always)]
 const fn grid_offset(from_center: (i32, i32)) -> (i32, i32) {
     let (x, y) = from_center;
@@ -121,7 +122,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn samples_lie_inside_their_pixel_on_rows_and_columns_of_their_own() {
+    fn samples_are_inside_their_pixel_in_distinct_rows_and_columns() {
         for samples in [Samples::One, Samples::Four, Samples::Eight, Samples::Sixteen] {
             let offsets: Vec<_> = samples.sample_offsets().collect();
             for (i, a) in offsets.iter().enumerate() {

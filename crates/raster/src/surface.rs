@@ -8,52 +8,54 @@ use crate::{Fragment, Fragments, Frame};
 
 /// The appearance of the primitives of a frame: alpha test and shading.
 pub trait Surface: Sync {
-    /// The alpha test: whether a masked primitive is present in this fragment. The default is
-    /// `true`; it is called only in frames with masked primitives.
+    /// Returns whether a masked primitive is present in this fragment: the alpha test. It is called
+    /// only in frames with masked primitives. The default returns `true`.
     #[inline(always)]
     fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
         let _ = fragment;
         true
     }
 
-    /// The alpha test for eight adjacent fragments of one masked primitive.
+    /// Runs the alpha test for eight adjacent fragments of one masked primitive.
     ///
-    /// Some may be outside the primitive; their results are ignored. Drawing calls this method. The
-    /// default calls [`passes_alpha_test`](Self::passes_alpha_test) for each.
+    /// Some fragments may be outside the primitive; their results are ignored. Drawing calls this
+    /// method; the default calls [`passes_alpha_test`](Self::passes_alpha_test) for each fragment.
     #[inline(always)]
     fn alpha_test_eight(&self, fragments: &Fragments<'_>) -> [bool; LANES] {
         let weights = fragments.weights();
         std::array::from_fn(|lane| self.passes_alpha_test(&fragments.fragment(lane, &weights)))
     }
 
-    /// The color of a fragment: linear red, green and blue, premultiplied by alpha, and alpha.
+    /// Returns the color of a fragment: linear red, green and blue, premultiplied by alpha, and
+    /// alpha.
     ///
-    /// Opaque and masked primitives replace everything behind them, including alpha. Alpha is 1
-    /// unless the color includes a background that is itself transparent, as for refracting glass.
+    /// Opaque and masked primitives replace everything behind them, including alpha. Their alpha is
+    /// 1 unless the color includes a background that is itself transparent, as for refracting
+    /// glass.
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4];
 
-    /// The colors of eight fragments: all reds, all greens, all blues, all alphas.
+    /// Returns the colors of eight fragments: all reds, all greens, all blues, all alphas.
     ///
-    /// Drawing calls this method; the default calls [`shade`](Self::shade) for each. Written as
-    /// plain loops over the lanes and marked `#[inline(always)]`, it is compiled for the vector
-    /// instructions of the processor and is several times as fast.
+    /// Drawing calls this method; the default calls [`shade`](Self::shade) for each fragment. An
+    /// implementation written as plain loops over the lanes and marked `#[inline(always)]` is
+    /// compiled for the processor's vector instructions and is several times as fast.
     #[inline(always)]
     fn shade_eight(&self, fragments: &Fragments<'_>) -> [F32x8; 4] {
         shade_each(fragments, |fragment| self.shade(fragment))
     }
 
-    /// Whether two opaque primitives are neighbors in one smooth surface, so the color of one can
-    /// represent both in a pixel that shows both.
+    /// Returns whether two opaque primitives are neighbors in one smooth surface, so that the color
+    /// of one can represent both in a pixel that shows both.
     ///
-    /// Called for primitives that show the same side in one pixel, with the ids with which they
-    /// were submitted. The default is `false`: each primitive is shaded separately.
+    /// It is called with the submitted ids of two primitives that show the same side in one pixel.
+    /// The default returns `false`: each primitive is shaded separately.
     #[inline(always)]
     fn is_continuous(&self, first_id: u32, second_id: u32) -> bool {
         let _ = (first_id, second_id);
         false
     }
 
-    /// The colors of eight fragments that may be translucent, and their transmittances.
+    /// Returns the colors and transmittances of eight fragments that may be translucent.
     ///
     /// The default is the "over" operator: [`shade_eight`](Self::shade_eight) with a transmittance
     /// of 1 − alpha. Override it for glass that absorbs by color. Transmittances of opaque
@@ -66,7 +68,7 @@ pub trait Surface: Sync {
     }
 }
 
-/// The colors of eight fragments, computed one by one: all reds, all greens, all blues, all alphas.
+/// Shades eight fragments one by one. Returns all reds, all greens, all blues, all alphas.
 #[inline(always)]
 pub fn shade_each(
     fragments: &Fragments<'_>,
@@ -83,17 +85,17 @@ pub fn shade_each(
     colors
 }
 
-/// The colors of eight fragments that may be translucent.
+/// The colors and transmittances of eight fragments that may be translucent.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct TranslucentColors {
     /// All reds, all greens, all blues, all alphas; linear and premultiplied.
     pub color: [F32x8; 4],
-    /// The factors for everything behind, for red, green and blue; 0 to 1.
+    /// The factors applied to the red, green and blue of everything behind, from 0 to 1.
     pub transmittance: [F32x8; 3],
 }
 
-/// A surface whose fragments have the color that a function returns: linear red, green and blue,
-/// premultiplied by alpha, and alpha.
+/// Creates a surface from a function that returns the color of a fragment: linear red, green and
+/// blue, premultiplied by alpha, and alpha.
 ///
 /// ```
 /// # use raster::{Frame, Samples, surface_fn};
@@ -153,13 +155,13 @@ impl<S: Surface + ?Sized> Surface for &S {
 ///
 /// Any function from a color to a pixel is an encoder.
 pub trait Encode<P>: Sync {
-    /// The pixel of a color.
+    /// Encodes a color as a pixel.
     fn encode_pixel(&self, color: [f32; 4]) -> P;
 
-    /// The pixels of eight colors, given as all reds, all greens, all blues and all alphas.
+    /// Encodes eight colors, passed as all reds, all greens, all blues and all alphas.
     ///
-    /// The default calls [`encode_pixel`](Self::encode_pixel) for each; loops over lanes are
-    /// faster.
+    /// The default calls [`encode_pixel`](Self::encode_pixel) for each color; an implementation
+    /// with loops over the lanes is faster.
     #[inline(always)]
     fn encode_eight(&self, colors: &[F32x8; 4]) -> [P; LANES] {
         let [r, g, b, alpha] = colors;
@@ -175,13 +177,13 @@ impl<P, F: Fn([f32; 4]) -> P + Sync> Encode<P> for F {
 }
 
 impl Frame {
-    /// Draws the frame over `background` (linear, premultiplied by alpha) into `target`: the pixels
-    /// that `encode` returns, rows from the top, `width` × `height` of them.
+    /// Draws the frame over `background` (linear, premultiplied by alpha) and writes the pixels
+    /// that `encode` returns to `target`: `width` × `height` pixels, rows from the top.
     ///
     /// The samples of a pixel are averaged in linear light (multisample resolve). Uses up to
-    /// `threads` threads; the result is the same for any number. A `target` with another length
-    /// gets the rows that fit.
-    #[expect(clippy::needless_pass_by_value, reason = "a function is handed over as it is")]
+    /// `threads` threads; the result is the same for any number. If `target` has a different
+    /// length, only the rows that fit are written.
+    #[expect(clippy::needless_pass_by_value, reason = "callers pass closures by value")]
     pub fn draw<S: Surface, P: Copy + Send>(
         &self,
         surface: &S,
@@ -190,7 +192,7 @@ impl Frame {
         target: &mut [P],
         encode: impl Encode<P>,
     ) {
-        // Clearing whole bands is faster than clearing tiles, and leaves the rows in the cache for
+        // Clearing whole bands is faster than clearing tiles and leaves the rows in the cache for
         // the tiles.
         let begin = |band: &mut [P]| band.fill(encode.encode_pixel(background));
         self.for_each_tile(surface, threads, target, begin, |filled| {

@@ -3,18 +3,18 @@
 //!
 //! | pixels of a row | shaded | by |
 //! | --- | --- | --- |
-//! | eight neighbors with one triangle each | as they lie | this module |
-//! | with several triangles (edges) | neighbors, then the gathered rest | [`EdgePixels`] |
+//! | eight neighbors with one triangle each | in place | this module |
+//! | with several triangles (edges) | first samples in place, others gathered | [`EdgePixels`] |
 //! | under translucent layers | gathered, blended sample by sample | [`LayeredPixels`] |
 //!
 //! Most pixels are of the first kind, which needs no gathering and no sums.
 //!
 //! Resolving takes the mean of the samples of a pixel in linear light, before the target's
 //! encoding: a mean of encoded values would darken edges. Each triangle is shaded at most once per
-//! pixel, and the color is weighted by the number of its samples (multisampling, not
-//! supersampling). Triangles that are neighbors in one smooth surface share one color per pixel
-//! (fragment merging: Fatahalian and others, *Reducing shading on GPUs using quad-fragment
-//! merging*, 2010). In a mesh as fine as the pixels, most are.
+//! pixel, and its color is weighted by the number of samples that show it (multisampling, not
+//! supersampling). Neighboring triangles of one smooth surface share one color per pixel (fragment
+//! merging: Fatahalian and others, *Reducing shading on GPUs using quad-fragment merging*, 2010).
+//! If a mesh is as fine as the pixels, most of its triangles are merged.
 
 use crate::edge_pixels::EdgePixels;
 use crate::fragment_lanes::{F32x8, LANES};
@@ -28,7 +28,7 @@ use homog::PixelRect;
 
 /// A filled tile with everything needed to shade it.
 ///
-/// Nothing here changes the tile: rows are written in order, from the top.
+/// Nothing here changes the tile. Rows are written in order, from the top.
 pub(crate) struct TileResolve<'a, S> {
     pub(crate) frame: &'a Frame,
     pub(crate) surface: &'a S,
@@ -53,7 +53,7 @@ pub(crate) struct Contribution {
     pub(crate) translucent: bool,
 }
 
-/// The pixels of a row that cannot be written immediately. Kept between rows to reuse the memory.
+/// The pixels of a row that cannot be written immediately. Kept between rows to reuse their memory.
 #[derive(Debug, Default)]
 pub(crate) struct RowScratch {
     /// Pixels that several opaque triangles share.
@@ -121,7 +121,7 @@ impl<S: Surface> TileResolve<'_, S> {
     /// Writes the pixels of a row that show one triangle each, and gathers the others.
     ///
     /// A block of eight pixels is handled as a whole: one pixel with a layer or an edge sends all
-    /// eight the slower way, which is correct for any pixel.
+    /// eight down the slower path, which is correct for any pixel.
     #[inline(always)]
     fn write_row<P: Copy>(
         &self,
@@ -144,13 +144,13 @@ impl<S: Surface> TileResolve<'_, S> {
             let over;
             (over, layers) = split_before(layers, (y * TILE + lanes.end) as usize);
             let run = PixelRun { y, lanes, layers: over };
-            // Translucent layers: gathered now, and blended sample by sample after the row.
+            // Translucent layers are gathered now and blended sample by sample after the row.
             if !run.layers.is_empty() {
                 self.gather_contributions(&run, &mut layered.contributions);
                 continue;
             }
-            // One triangle per pixel: shaded and written immediately. Otherwise an edge crosses the
-            // run.
+            // With one triangle per pixel, shade and write immediately. Otherwise an edge crosses
+            // the run.
             match self.single_triangles(&run) {
                 Some(triangles) => self.write_uniform(&run, triangles, targets, empty, encode),
                 None => self.begin_edge_pixels(&run, edges),
@@ -158,16 +158,16 @@ impl<S: Surface> TileResolve<'_, S> {
         }
     }
 
-    /// The triangles of a run's pixels, if each pixel has the same one at all samples.
+    /// Returns the triangles of a run's pixels if each pixel has the same triangle at all samples.
     ///
-    /// The test combines whole vectors with exclusive or, accumulated over the samples: no branch
-    /// in the loop.
+    /// The test combines whole vectors with exclusive or and accumulates the result over the
+    /// samples, so the loop has no branch.
     #[inline(always)]
     fn single_triangles(&self, run: &PixelRun<'_>) -> Option<[u32; LANES]> {
         let at = pixel_index(run.block_start() as usize, run.y as usize);
         let first = self.tile.row_triangles(0, at);
         let mut differs = 0;
-        // Every sample plane against the first.
+        // Compare every sample plane with the first.
         for sample in 1..self.frame.samples.count() {
             let triangles = self.tile.row_triangles(sample, at);
             for lane in 0..LANES {
@@ -179,7 +179,7 @@ impl<S: Surface> TileResolve<'_, S> {
 
     /// The triangles of a run's pixels, sample by sample.
     ///
-    /// `planes` is the memory for the result: a frame has at most 16 planes.
+    /// `planes` provides the memory for the result: a frame has at most 16 planes.
     #[inline(always)]
     pub(crate) fn sample_triangles<'p>(
         &self,
@@ -196,7 +196,7 @@ impl<S: Surface> TileResolve<'_, S> {
 
     /// Shades and writes adjacent pixels with one triangle each.
     ///
-    /// Background pixels are left unchanged: the band was filled with the background before.
+    /// Background pixels are left unchanged: the band is already filled with the background.
     #[inline(always)]
     fn write_uniform<P: Copy>(
         &self,
@@ -207,7 +207,7 @@ impl<S: Surface> TileResolve<'_, S> {
         encode: &impl Encode<P>,
     ) {
         let differs = any_differ(triangles);
-        // Only background.
+        // Background only.
         if !differs && triangles[0] == NO_TRIANGLE {
             return;
         }
@@ -227,8 +227,8 @@ impl<S: Surface> TileResolve<'_, S> {
         }
     }
 
-    /// The colors of a run with one triangle per pixel; `differs` if not all triangles are the
-    /// same. Background pixels get any color.
+    /// Returns the colors of a run with one triangle per pixel; `differs` is true unless all
+    /// triangles are the same. The colors of background pixels are arbitrary.
     ///
     /// One triangle in eight adjacent pixels is the common case: vertex attributes are fetched
     /// once, and no gathering is needed.
@@ -248,13 +248,12 @@ impl<S: Surface> TileResolve<'_, S> {
         self.surface.shade_eight(&Fragments::from_one_triangle(triangle, source_weights, x, y))
     }
 
-    /// Shades eight pixels from (x, y) to the right that show different triangles. Background
-    /// pixels get any color.
+    /// Shades eight pixels, from (x, y) to the right, that show different triangles. The colors of
+    /// background pixels are arbitrary.
     #[inline(always)]
     fn shade_several(&self, triangles: [u32; LANES], x: u32, y: u32) -> [F32x8; 4] {
         // The background has the largest index, so the minimum is a triangle. Background lanes
-        // repeat the fragment that shows it: no surface is shaded where it is not visible. Padding
-        // for background lanes.
+        // repeat the fragment that shows it, so no surface is shaded where it is not visible.
         let (mut any, mut any_lane) = (NO_TRIANGLE, 0);
         for (lane, &triangle) in triangles.iter().enumerate() {
             if triangle < any {
@@ -273,7 +272,7 @@ impl<S: Surface> TileResolve<'_, S> {
         self.surface.shade_eight(&fragments)
     }
 
-    /// A triangle of the frame by its index, which is not [`NO_TRIANGLE`].
+    /// Returns the triangle of the frame with this index, which must not be [`NO_TRIANGLE`].
     #[inline(always)]
     fn triangle(&self, index: u32) -> &ScreenTriangle {
         self.frame.triangles.triangle(index)
@@ -294,7 +293,7 @@ impl<S: Surface> TileResolve<'_, S> {
         if differs || first[0] != NO_TRIANGLE {
             colors = self.shade_neighbors(run, first, differs);
         }
-        // The background color, where the first sample shows it.
+        // Set the background color where the first sample shows it.
         for (color, background) in colors.iter_mut().zip(self.background) {
             for lane in 0..LANES {
                 color[lane] = if first[lane] == NO_TRIANGLE { background } else { color[lane] };
@@ -307,8 +306,8 @@ impl<S: Surface> TileResolve<'_, S> {
         edges.add_first_samples(block, lanes, planes, &colors, continues);
     }
 
-    /// Whether two triangles of one pixel, or the background, are parts of one smooth surface that
-    /// needs only one color.
+    /// Returns whether two triangles of one pixel are parts of one smooth surface that needs only
+    /// one color. The background is not part of any surface.
     ///
     /// Both must show the same side to the viewer; parts of clipped triangles are never merged.
     #[inline(always)]
@@ -346,7 +345,7 @@ impl<S: Surface> TileResolve<'_, S> {
             edges.add_contributions(from..end, &colors);
         }
         let (left, right) = (self.rect.left as usize, self.rect.right as usize);
-        // Multisample resolve: the mean in linear light, then the encoding.
+        // Multisample resolve: take the mean in linear light, then encode it.
         for (block, means) in edges.mean_colors(self.frame.samples) {
             let pixels = encode.encode_eight(&means);
             let (first, end) = ((block * LANES).max(left), ((block + 1) * LANES).min(right));
@@ -355,7 +354,8 @@ impl<S: Surface> TileResolve<'_, S> {
         }
     }
 
-    /// The fragments of up to eight contributions to a row; `None` if all are background.
+    /// Returns the fragments of up to eight contributions to a row, or `None` if all are
+    /// background.
     ///
     /// Background lanes repeat another fragment.
     ///
@@ -378,7 +378,8 @@ impl<S: Surface> TileResolve<'_, S> {
         Some(Fragments::from_triangles(visible, source_weights, columns, self.rect.y + y))
     }
 
-    /// Sets the contributions that are not shaded: the background color where there is no triangle.
+    /// Sets the colors of contributions that are not shaded: contributions without a triangle get
+    /// the background color.
     #[inline(always)]
     pub(crate) fn fix_background_colors(
         &self,
@@ -397,7 +398,8 @@ impl<S: Surface> TileResolve<'_, S> {
 
 /// Whether the triangles of eight pixels are not all the same.
 ///
-/// Exclusive or instead of comparisons: eight lanes are one vector, and there is only one branch.
+/// Uses exclusive or instead of comparisons: eight lanes form one vector, and there is only one
+/// branch.
 #[inline(always)]
 fn any_differ(triangles: [u32; LANES]) -> bool {
     let mut differs = 0;
@@ -409,7 +411,7 @@ fn any_differ(triangles: [u32; LANES]) -> bool {
 
 /// Splits layers, which are sorted by pixel, into layers of pixels before `end` and the rest.
 ///
-/// Linear in the layers taken: over a tile, every layer is visited once.
+/// The time is linear in the number of layers taken, so every layer of a tile is visited once.
 #[inline]
 pub(crate) fn split_before(
     layers: &[TranslucentLayer],

@@ -37,7 +37,7 @@ pub(crate) struct TileVisibility {
     planes: Vec<SamplePlane>,
     /// Sorted by pixel, and within a pixel back to front.
     pub(crate) layers: Vec<TranslucentLayer>,
-    /// A depth that no sample of any plane is farther than; anything farther is hidden.
+    /// The farthest bound of all planes: no sample is farther, so anything farther is hidden.
     farthest_depth: f32,
     /// The start values of the current batch, for each plane.
     batch_starts: Vec<BatchStarts>,
@@ -46,13 +46,13 @@ pub(crate) struct TileVisibility {
 }
 
 impl TileVisibility {
-    /// The triangle visible at a sample of the pixel with a given
-    /// [index](crate::sample_plane::pixel_index); [`NO_TRIANGLE`] for the background.
+    /// Returns the triangle visible at a sample of the pixel with this
+    /// [index](crate::sample_plane::pixel_index), or [`NO_TRIANGLE`] for the background.
     pub(crate) fn triangle(&self, sample: usize, pixel: usize) -> u32 {
         self.planes[sample].triangle[pixel]
     }
 
-    /// The triangles visible at one sample of eight pixels, a row of a block.
+    /// Returns the triangles visible at one sample of the eight pixels in a row of a block.
     #[inline(always)]
     pub(crate) fn row_triangles(&self, sample: usize, first: usize) -> [u32; BLOCK_SIDE] {
         let mut row = [NO_TRIANGLE; BLOCK_SIDE];
@@ -60,7 +60,7 @@ impl TileVisibility {
         row
     }
 
-    /// The depth at a sample of a pixel, −∞ for the background.
+    /// Returns the depth at a sample of a pixel, or −∞ for the background.
     pub(crate) fn sample_depth(&self, sample: usize, pixel: usize) -> f32 {
         self.planes[sample].depth[pixel]
     }
@@ -74,7 +74,7 @@ impl TileVisibility {
         surface: &dyn Surface,
     ) {
         self.planes.resize_with(frame.samples.count(), SamplePlane::new);
-        // Clear depth and visibility buffer to the background.
+        // Clear the depth and visibility buffers to the background.
         self.planes.iter_mut().for_each(|plane| plane.clear(rect));
         self.farthest_depth = f32::NEG_INFINITY;
         if let Some(initial) = &frame.initial_depth {
@@ -112,7 +112,7 @@ impl TileVisibility {
         loop {
             let some = self.next_unoccluded(frame, &mut rest, &mut indices, &mut has_translucent);
             let [first, ..] = some else { break };
-            // Lanes without their own triangle repeat the first.
+            // Lanes without a triangle repeat the first triangle.
             let mut triangles = [frame.triangles.triangle(*first); triangle_batch::BATCH_SIZE];
             for (triangle, &index) in triangles.iter_mut().zip(some) {
                 *triangle = frame.triangles.triangle(index);
@@ -144,8 +144,8 @@ impl TileVisibility {
         }
     }
 
-    /// Rasterizes the triangles of a bin one by one, the translucent ones last: for depth functions
-    /// that do not allow hierarchical z.
+    /// Rasterizes the triangles of a bin one by one, translucent triangles last. Used for depth
+    /// functions that rule out hierarchical z.
     #[inline(always)]
     fn rasterize_in_order<S: Simd>(
         &mut self,
@@ -191,10 +191,11 @@ impl TileVisibility {
         }
     }
 
-    /// The next few triangles of a list that may be visible.
+    /// Returns the next few triangles of a list that may be visible.
     ///
-    /// Occlusion culling by the tile's depth bound: triangles behind everything in the tile are
-    /// skipped before any setup. Translucent ones are skipped too, and reported.
+    /// This is occlusion culling by the tile's depth bound: triangles behind everything in the tile
+    /// are skipped before any setup. Translucent triangles are also skipped, and `has_translucent`
+    /// is set.
     #[inline(always)]
     fn next_unoccluded<'a>(
         &self,
@@ -237,7 +238,7 @@ impl TileVisibility {
             return self.micro_triangles.rasterize(&mut self.planes, lane, range, index);
         }
         let functions = batch.lane_functions(lane);
-        // The tile's depth bound stays: only triangles too large for a batch recompute it.
+        // The tile's depth bound stays unchanged: only triangles too large for a batch update it.
         let lanes = TriangleLanes::new(simd, &functions);
         let start = |plane: usize| self.batch_starts[plane].lane_start(lane);
         rasterize_triangle(simd, &mut self.planes, &lanes, start, index);
@@ -314,8 +315,8 @@ impl TileVisibility {
 
     /// Sorts layers by pixel, and within a pixel back to front.
     ///
-    /// Depth ties of translucent layers: the one submitted later is drawn over the other. (Among
-    /// opaque triangles the one submitted first stays: `rasterize.rs`.)
+    /// Of two translucent layers at equal depth, the one submitted later is drawn over the other.
+    /// (Among opaque triangles the one submitted first wins; see `rasterize.rs`.)
     fn sort_layers(&mut self) {
         // Pixel, depth, triangle: a total order, so an unstable sort gives one result.
         self.layers.sort_unstable_by(|a, b| {
@@ -325,10 +326,10 @@ impl TileVisibility {
     }
 }
 
-/// The pixels of a tile that the alpha test of one triangle was run for.
+/// The pixels of a tile in which the alpha test of one triangle has run.
 ///
-/// Alpha belongs to the pixel, not to its samples: it is tested once, for eight pixels of a block's
-/// row together. One bit per pixel and row records whether it was tested, and another whether it
+/// Alpha is per pixel, not per sample, so it is tested once, for all eight pixels in a row of a
+/// block together. One bit per pixel and row records whether it was tested, and another whether it
 /// passed.
 struct MaskedPixels {
     tested: [u64; TILE as usize],
@@ -342,8 +343,8 @@ impl Default for MaskedPixels {
 }
 
 impl MaskedPixels {
-    /// Whether a triangle passes the alpha test in a pixel of the tile. The first sample of the
-    /// pixel to survive the depth test runs it.
+    /// Returns whether a triangle passes the alpha test in a pixel of the tile. The test runs when
+    /// the first sample of the pixel passes the depth test.
     #[inline(always)]
     fn passes(
         &mut self,
@@ -368,8 +369,7 @@ impl MaskedPixels {
     }
 }
 
-/// The layer of a sample of a translucent triangle, with its index and depth; `None` outside of the
-/// visible region.
+/// Returns the layer of one sample of a translucent triangle, or `None` outside the visible region.
 #[inline(always)]
 fn translucent_layer(
     rect: TileRect,
@@ -383,10 +383,10 @@ fn translucent_layer(
     rect.is_visible(x, y).then_some(layer)
 }
 
-/// Merges the layers of one triangle, from `first` on, that are samples of the same pixel. The
-/// layer has the depth of its first sample.
+/// Merges the layers of one triangle, from index `first` on, that are samples of the same pixel. A
+/// merged layer has the depth of its first sample.
 fn merge_layer_samples(layers: &mut Vec<TranslucentLayer>, first: usize) {
-    // Samples of one pixel side by side, with the first sample in front.
+    // Make the samples of each pixel adjacent, starting with the first sample.
     layers[first..].sort_unstable_by_key(|layer| (layer.pixel, layer.mask));
     let mut merged = first;
     for next in first..layers.len() {

@@ -5,12 +5,12 @@
 //!   position ─to_clip─► (x, y, z, w) ─÷ w─► NDC ─ndc_to_screen─► pixels ─round─► ScreenVertex
 //! ```
 //!
-//! Every operation has the same order as for a single point ([`ScreenVertex::snap`]). A vertex
-//! therefore has the same bits in a mesh drawn whole and in a clipped triangle beside it: no cracks
-//! appear between them. The loops over eight lanes compile to vector instructions.
+//! Operations have the same order as for a single point ([`ScreenVertex::snap`]). A vertex
+//! therefore has the same bits in an unclipped mesh and in a clipped triangle next to it, so no
+//! cracks appear between them. The loops over eight lanes compile to vector instructions.
 //!
-//! Vertices on both sides of the eye are allowed: those with w ≤ 0, and those beyond the guard
-//! band, become `None`, and triangles that use them must be clipped.
+//! Vertices may be on either side of the eye. Vertices with w ≤ 0 or beyond the guard band become
+//! `None`, and triangles that use them must be clipped.
 
 use crate::parallel::for_each_parallel;
 use crate::screen_vertex::{GUARD_BAND, SUBPIXELS};
@@ -29,12 +29,12 @@ type F64x8 = [f64; SNAP_LANES];
 
 /// The number of positions in a work item.
 ///
-/// A multiple of the block size of selections, so runs begin at whole blocks.
+/// This is a multiple of the block size of selections, so runs begin at block boundaries.
 const CHUNK_POSITIONS: usize = 8192;
 
 /// The projection of a mesh's positions in space `A` to the screen, with settings for computing it.
 ///
-/// Plain data: it can be rebuilt for each mesh at the cost of a copy.
+/// It is plain data, so rebuilding it for each mesh costs no more than a copy.
 #[derive(Clone, Copy, Debug)]
 pub struct VertexProjection<A: Space> {
     /// The model-view-projection matrix.
@@ -50,10 +50,10 @@ pub struct VertexProjection<A: Space> {
 impl<A: Space> VertexProjection<A> {
     /// Projects positions to the screen and snaps them, bit for bit like [`ScreenVertex::snap`].
     ///
-    /// `vertices` gets the length of `positions`; if it has been that long before, nothing is
-    /// allocated.
+    /// `vertices` is resized to the length of `positions`. If it has been that long before, nothing
+    /// is allocated.
     ///
-    /// Positions that are not finite or cannot be drawn without clipping give `None`.
+    /// Positions that are not finite or cannot be drawn without clipping become `None`.
     pub fn project_positions(
         &self,
         positions: &[[f32; 3]],
@@ -64,7 +64,7 @@ impl<A: Space> VertexProjection<A> {
 
     /// Projects only the positions that a selection needs.
     ///
-    /// The other entries of `vertices` are meaningless: they keep their old values.
+    /// The other entries of `vertices` keep their old values and are meaningless.
     ///
     /// Vertices of culled clusters are skipped in blocks of 64.
     pub fn project_selected_positions(
@@ -76,7 +76,7 @@ impl<A: Space> VertexProjection<A> {
         self.project_chunks(positions, vertices, |chunk| selection.vertices_within(chunk));
     }
 
-    /// Projects the runs of each chunk of positions that `runs` returns, relative to the start of
+    /// Projects the runs that `runs` returns for each chunk of positions, relative to the start of
     /// the chunk.
     ///
     /// A chunk is a disjoint slice of positions and vertices, so threads write without locks.
@@ -102,10 +102,11 @@ impl<A: Space> VertexProjection<A> {
 }
 
 impl ScreenVertex {
-    /// Perspective divide, viewport transform and snapping of many points: each entry of `vertices`
-    /// matches [`snap`](Self::snap), bit for bit. Extra elements of the longer slice are ignored.
+    /// Divides many points by w, applies the viewport transform and snaps the results. Each entry
+    /// of `vertices` matches [`snap`](Self::snap), bit for bit. Extra elements of the longer slice
+    /// are ignored.
     ///
-    /// For points that are already in clip space, such as the vertices of clipped polygons.
+    /// Use it for points that are already in clip space, such as the vertices of clipped polygons.
     pub fn divide_and_snap_points(
         points: &[HPoint<Clip>],
         ndc_to_screen: Affine<Ndc, Screen>,
@@ -123,7 +124,7 @@ impl ScreenVertex {
                 }
             }
         });
-        // The last few, one by one.
+        // The last few points, one by one.
         let done = points.len().min(vertices.len()) / SNAP_LANES * SNAP_LANES;
         for (&point, vertex) in points[done..].iter().zip(&mut vertices[done..]) {
             let screen = point.divide().map(|point| ndc_to_screen.transform_point(point));
@@ -132,7 +133,7 @@ impl ScreenVertex {
     }
 }
 
-/// Projects positions and snaps them with vector instructions; matrices are given by rows.
+/// Projects positions and snaps them with vector instructions; matrices are passed as rows.
 ///
 /// It is not generic, so it is compiled in this crate.
 fn project_run(
@@ -144,7 +145,7 @@ fn project_run(
     dispatch!(simd_level.level(), _simd => project_chunk(positions, to_clip, to_screen, vertices));
 }
 
-/// Projects positions and snaps them; matrices are given by rows.
+/// Projects positions and snaps them; matrices are passed as rows.
 ///
 /// Padding lanes are zeros, and their results are discarded.
 #[inline(always)]
@@ -161,7 +162,7 @@ fn project_chunk(
         ) {
             *vertices = divide_and_snap(transform_to_clip(positions, to_clip), to_screen);
         } else {
-            // The last few, padded with zeros.
+            // The last few positions, padded with zeros.
             let mut eight = [[0.0; 3]; SNAP_LANES];
             eight[..positions.len()].copy_from_slice(positions);
             let eight = divide_and_snap(transform_to_clip(&eight, to_clip), to_screen);
@@ -170,8 +171,8 @@ fn project_chunk(
     }
 }
 
-/// The clip-space x, y, z and w of positions: a matrix, given by rows, times each position, in
-/// glam's order of addition.
+/// Returns the clip-space x, y, z and w of positions: a matrix, passed as rows, times each
+/// position, added in the same order as in glam.
 ///
 /// The sum is ((x·m₀ + y·m₁) + z·m₂) + m₃: another order would round differently and crack the edge
 /// between clipped and unclipped triangles.
@@ -188,9 +189,9 @@ fn transform_to_clip(positions: &[[f32; 3]; SNAP_LANES], rows: DMat4) -> [F64x8;
     clip
 }
 
-/// The x, y, z and w of points as a structure of arrays.
+/// Returns the x, y, z and w of points as a structure of arrays.
 ///
-/// A transposition, eight points to four vectors.
+/// This transposes eight points to four vectors.
 #[inline(always)]
 fn split_coordinates(points: &[HPoint<Clip>; SNAP_LANES]) -> [F64x8; 4] {
     let mut clip = [[0.0; SNAP_LANES]; 4];
@@ -201,10 +202,12 @@ fn split_coordinates(points: &[HPoint<Clip>; SNAP_LANES]) -> [F64x8; 4] {
     clip
 }
 
-/// Perspective divide, viewport transform (a matrix by rows) and snapping of eight points.
+/// Divides eight points by w, applies the viewport transform (a matrix as rows) and snaps the
+/// results.
 ///
-/// `None` in lanes whose point cannot be drawn: outside the guard band, w not positive or not
-/// finite, or a depth beyond ±2²⁰. All lanes are computed to the end, without branches.
+/// A lane is `None` if its point cannot be drawn: if it is outside the guard band, its w is not
+/// positive and finite, or its depth is beyond ±2²⁰. All lanes are computed to the end, without
+/// branches.
 #[inline(always)]
 fn divide_and_snap(
     [x, y, z, w]: [F64x8; 4],
@@ -220,7 +223,7 @@ fn divide_and_snap(
     // Viewport transform, then rounding to the subpixel grid.
     let (x, is_x) = snap_to_grid(&transform_row(to_screen.x_axis, &ndc));
     let (y, is_y) = snap_to_grid(&transform_row(to_screen.y_axis, &ndc));
-    // Depth is a row of the same matrix: z/w mapped to far = 0, near = 1, in f64.
+    // Depth comes from a row of the same matrix, which maps z/w to 0 at far and 1 at near, in f64.
     let z = transform_row(to_screen.z_axis, &ndc);
     // Rounded to f32 once, at the end.
     let (mut depth, mut inv_w) = ([0.0_f32; SNAP_LANES], [0.0_f32; SNAP_LANES]);
@@ -230,7 +233,7 @@ fn divide_and_snap(
     }
     let mut vertices = [None; SNAP_LANES];
     for (lane, vertex) in vertices.iter_mut().enumerate() {
-        // Inside the guard band means on the grid.
+        // A point inside the guard band is on the grid.
         let on_grid = is_x[lane] & is_y[lane] & w[lane].is_finite();
         *vertex =
             ScreenVertex::new_if_drawable(on_grid, x[lane], y[lane], depth[lane], inv_w[lane]);
@@ -238,7 +241,7 @@ fn divide_and_snap(
     vertices
 }
 
-/// A row of a matrix times the points (x, y, z, 1), in glam's order of addition.
+/// Multiplies a row of a matrix by the points (x, y, z, 1), adding in the same order as glam.
 ///
 /// The parentheses match glam: x and y are added first, then z, then w.
 #[inline(always)]
@@ -250,7 +253,8 @@ fn transform_row(row: DVec4, [x, y, z]: &[F64x8; 3]) -> F64x8 {
     sums
 }
 
-/// The nearest grid steps, halves up, and whether the coordinates are within the guard band.
+/// Returns the nearest grid steps, with halves rounded up, and whether the coordinates are within
+/// the guard band.
 ///
 /// Lanes outside the guard band give 0, which converts safely to `i32`.
 #[inline(always)]
@@ -260,8 +264,8 @@ fn snap_to_grid(pixels: &F64x8) -> ([i32; SNAP_LANES], [bool; SNAP_LANES]) {
         let at = pixels[lane];
         within[lane] = (at >= *GUARD_BAND.start()) & (at <= *GUARD_BAND.end());
         let at = if within[lane] { at * f64::from(SUBPIXELS) + 0.5 } else { 0.0 };
-        // Floor by truncation and correction: SSE2 has no instruction for it, and `floor` would be
-        // a library call that prevents vectorization of the loop.
+        // Compute the floor by truncation and correction: SSE2 has no instruction for it, and
+        // `floor` would be a library call that prevents vectorization of the loop.
         let truncated = at as i32;
         steps[lane] = truncated - i32::from(f64::from(truncated) > at);
     }
@@ -288,7 +292,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(4096))]
 
         #[test]
-        fn many_are_projected_as_each(
+        fn bulk_projection_matches_single_points(
             positions in prop::collection::vec(prop::array::uniform3(coordinate()), 0..20),
             threads in 1..3_usize,
         ) {
@@ -309,7 +313,7 @@ mod tests {
         }
 
         #[test]
-        fn many_are_snapped_as_each(
+        fn bulk_snapping_matches_single_points(
             points in prop::collection::vec(prop::array::uniform4(coordinate()), 0..20),
         ) {
             let points: Vec<_> = points.iter().map(|&[x, y, z, w]| HPoint::new(x, y, z, w)).collect();
