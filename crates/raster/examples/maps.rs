@@ -1,6 +1,6 @@
-//! A visibility buffer as pictures: a depth map, `depth.png`, and a map of ids, `ids.png`.
+//! Writes a visibility buffer as two pictures: a depth map, `depth.png`, and an id map, `ids.png`.
 //!
-//! Three hundred triangles at random positions and depths.
+//! The scene is three hundred triangles at random positions and depths.
 
 use homog::Point;
 use raster::{Frame, Opacity, Samples, ScreenVertex};
@@ -39,7 +39,7 @@ fn write(
     Ok(())
 }
 
-/// Numbers between 0 and 1 that look random but are the same in every run.
+/// Returns numbers between 0 and 1 that look random but are the same in every run.
 struct Numbers(u64);
 
 impl Numbers {

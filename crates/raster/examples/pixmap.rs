@@ -1,16 +1,16 @@
-//! Triangles drawn directly into a `tiny_skia::Pixmap`, with tiny-skia's strokes on top:
+//! Draws triangles directly into a `tiny_skia::Pixmap`, with tiny-skia strokes on top:
 //! `pixmap.png`.
 //!
-//! `Frame::draw` takes any slice of pixels and a closure that encodes colors: here to tiny-skia's
-//! pixels, whose codes are premultiplied by alpha. Where nothing is drawn, the pixmap stays
-//! transparent.
+//! `Frame::draw` accepts any slice of pixels and a closure that encodes colors. Here it encodes
+//! tiny-skia pixels, whose codes are premultiplied by alpha. Where nothing is drawn, the pixmap
+//! stays transparent.
 
 use homog::Point;
 use raster::{CullMode, Frame, Opacity, Samples, ScreenVertex, surface_fn};
 use tiny_skia::{Paint, PathBuilder, Pixmap, PremultipliedColorU8, Stroke, Transform};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mut pixmap = Pixmap::new(256, 256).ok_or("no room")?;
+    let mut pixmap = Pixmap::new(256, 256).ok_or("cannot allocate the pixmap")?;
     let corner = |n: u32| {
         let (sin, cos) = libm::sincos(f64::from(n) * std::f64::consts::PI / 5.0);
         let reach = if n.is_multiple_of(2) { 110.0 } else { 50.0 };
@@ -30,8 +30,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         [light, 0.8 * light, 0.3 * light, 1.0]
     });
     frame.draw(&facets, [0.0; 4], 2, pixmap.pixels_mut(), |[r, g, b, alpha]: [f32; 4]| {
-        // A square root encodes the light, close enough to sRGB; then the codes are multiplied by
-        // alpha.
+        // A square root encodes linear light, close enough to sRGB; then the codes are multiplied
+        // by alpha.
         let code = |light: f32| ((light * alpha).sqrt() * 255.0 + 0.5) as u8;
         let alpha = (alpha * 255.0 + 0.5) as u8;
         let [r, g, b] = [r, g, b].map(|light| code(light).min(alpha));
@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         path.move_to(128.0, 128.0);
         path.line_to(x as f32, y as f32);
     }
-    let path = path.finish().ok_or("no path")?;
+    let path = path.finish().ok_or("the path is empty")?;
     pixmap.stroke_path(&path, &Paint::default(), &Stroke::default(), Transform::identity(), None);
     pixmap.save_png("pixmap.png")?;
     Ok(())

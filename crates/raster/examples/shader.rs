@@ -2,16 +2,16 @@
 //! `shader.png`.
 //!
 //! The corners carry positions on the floor. Blending them by the fragment's weights gives the
-//! position that a pixel shows, correct in perspective because the vertices carry their w. The
-//! derivatives of the weights give the size of the pixel on the floor: where it covers a whole tile
-//! or more, the checkerboard fades to its mean.
+//! position that a pixel shows, which is correct in perspective because the vertices carry their w.
+//! The derivatives of the weights give the size of the pixel on the floor: where it covers a whole
+//! square or more, the checkerboard fades to its mean.
 
 use homog::{HPoint, Screen};
 use raster::{
     CullMode, Fragment, Frame, Opacity, Samples, ScreenVertex, VertexAttribute, surface_fn,
 };
 
-/// The corners of the floor: x to the right, distance in front of the eye.
+/// The corners of the floor: x to the right, and distance in front of the eye.
 const FLOOR: [[f32; 2]; 4] = [[-9.0, 1.0], [9.0, 1.0], [400.0, 400.0], [-400.0, 400.0]];
 const TRIANGLES: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 
@@ -28,8 +28,8 @@ fn checker(fragment: &Fragment<'_>) -> [f32; 4] {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (width, height) = (640, 360);
     let vertices = FLOOR.map(|[x, ahead]| {
-        // The eye is one unit above the floor: similar triangles, and w is the distance in front of
-        // the eye.
+        // The eye is one unit above the floor. The projection follows from similar triangles, and w
+        // is the distance in front of the eye.
         let (x, ahead) = (f64::from(x), f64::from(ahead));
         let image =
             HPoint::<Screen>::new(320.0 * ahead + 360.0 * x, 120.0 * ahead + 240.0, 1.0, ahead);

@@ -1,7 +1,7 @@
-//! A spinning triangle, twelve frames on one strip: `triangle.png`.
+//! Draws a spinning triangle as a strip of twelve frames: `triangle.png`.
 //!
-//! Everything a frame needs: vertices on the screen, indices, and a surface that returns their
-//! color.
+//! It shows everything a frame needs: vertices on the screen, indices, and a surface that returns
+//! colors.
 
 use homog::Point;
 use raster::{CullMode, Frame, Opacity, Samples, ScreenVertex, surface_fn};

@@ -1,11 +1,11 @@
-//! A fixed workload for the rasterizer only, for counting its instructions: `cargo xtask
+//! A fixed workload that runs only the rasterizer, for counting its instructions: `cargo xtask
 //! bench --instructions`.
 //!
-//! Twenty thousand triangles of a few pixels, as in typical models, and forty that cross the
-//! picture one behind another, drawn with baseline instructions. The argument is the number of
+//! It draws twenty thousand triangles of a few pixels, as in typical models, and forty that cross
+//! the picture one behind another, with baseline instructions. The argument is the number of
 //! samples per pixel. The printed number depends on every pixel, so no work can be optimized away.
 
-#![allow(clippy::print_stdout, reason = "a program speaks on its standard output")]
+#![allow(clippy::print_stdout, reason = "the program prints its result")]
 
 use homog::Point;
 use raster::{CullMode, Fragment, Frame, Opacity, Samples, ScreenVertex, SimdLevel, Surface};
@@ -19,7 +19,7 @@ const LARGE_TRIANGLES: u32 = 40;
 struct Random(u64);
 
 impl Random {
-    /// Between 0 and 1.
+    /// Returns a number between 0 and 1.
     fn next_unit(&mut self) -> f64 {
         self.0 =
             self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -27,7 +27,7 @@ impl Random {
     }
 }
 
-/// A color derived from the triangle's id, blended over its corners.
+/// A surface with a color derived from the triangle's id, blended between its corners.
 struct IdSurface;
 
 impl Surface for IdSurface {
@@ -45,7 +45,7 @@ impl Surface for IdSurface {
 fn main() -> ExitCode {
     let samples = std::env::args().nth(1).and_then(|count| count.parse().ok());
     let Some(samples) = samples.and_then(Samples::from_count) else {
-        println!("give the number of samples: 1, 4, 8 or 16");
+        println!("pass the number of samples: 1, 4, 8 or 16");
         return ExitCode::FAILURE;
     };
     match draw_workload(samples) {
@@ -83,7 +83,7 @@ fn draw_workload(samples: Samples) -> Result<u32, raster::RasterError> {
     Ok(pixels.as_flattened().iter().fold(2_166_136_261, mix))
 }
 
-/// A triangle up to six pixels wide and high, at any depth.
+/// Returns a triangle up to six pixels wide and high, at any depth.
 fn small_triangle(dice: &mut Random) -> [Option<ScreenVertex>; 3] {
     let (x, y) =
         (dice.next_unit() * f64::from(IMAGE_SIZE.0), dice.next_unit() * f64::from(IMAGE_SIZE.1));

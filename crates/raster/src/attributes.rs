@@ -1,10 +1,10 @@
-//! Vertex attributes in fragments: values at the vertices, interpolated perspective-correctly.
+//! Vertex attributes in fragments, with perspective-correct interpolation.
 
 use crate::Fragment;
 use homog::Interpolate;
 
 impl Fragment<'_> {
-    /// The value of an attribute at this fragment, from its values at the three vertices of the
+    /// Interpolates an attribute at this fragment from its values at the three vertices of the
     /// primitive (IN-2).
     #[must_use]
     #[inline(always)]
@@ -12,15 +12,15 @@ impl Fragment<'_> {
         A::weighted_sum_f32(values, self.weights)
     }
 
-    /// The derivative of an attribute with respect to the column: its change per pixel to the
-    /// right.
+    /// Returns the derivative of an attribute with respect to the column: its change per pixel to
+    /// the right.
     #[must_use]
     #[inline]
     pub fn interpolate_dx<A: Interpolate>(&self, values: [A; 3]) -> A {
         A::weighted_sum_f32(values, self.weights_dx())
     }
 
-    /// The derivative of an attribute with respect to the row: its change per pixel down.
+    /// Returns the derivative of an attribute with respect to the row: its change per pixel down.
     #[must_use]
     #[inline]
     pub fn interpolate_dy<A: Interpolate>(&self, values: [A; 3]) -> A {
@@ -64,30 +64,32 @@ pub struct VertexAttribute<'a, A> {
 }
 
 impl<'a, A: Interpolate> VertexAttribute<'a, A> {
-    /// The values at the vertices of a mesh whose triangles have ids that count up from 0.
+    /// Creates an attribute from its values at the vertices of a mesh whose triangle ids count up
+    /// from 0.
     #[must_use]
     pub const fn new(triangles: &'a [[u32; 3]], values: &'a [A]) -> Self {
         Self { first_id: 0, triangles, values }
     }
 
-    /// This attribute, for a mesh whose ids count up from `first_id`.
+    /// Returns this attribute for a mesh whose triangle ids count up from `first_id`.
     #[must_use]
     pub const fn with_first_id(self, first_id: u32) -> Self {
         Self { first_id, ..self }
     }
 
-    /// The value in a fragment of the mesh.
+    /// Returns the value at a fragment of the mesh.
     ///
     /// # Panics
-    /// Panics if the fragment does not belong to a triangle of the mesh, or a vertex has no value.
+    /// Panics if the fragment does not belong to a triangle of the mesh or if a vertex has no
+    /// value.
     #[must_use]
     #[inline(always)]
     pub fn at(&self, fragment: &Fragment<'_>) -> A {
         fragment.interpolate(self.corners(fragment.id))
     }
 
-    /// The change of the value per pixel to the right and down; textures use it to choose the mip
-    /// level.
+    /// Returns the change of the value per pixel to the right and down. Use it to choose the mip
+    /// level of a texture.
     ///
     /// # Panics
     /// See [`at`](Self::at).
@@ -98,7 +100,7 @@ impl<'a, A: Interpolate> VertexAttribute<'a, A> {
         [fragment.interpolate_dx(corners), fragment.interpolate_dy(corners)]
     }
 
-    /// The values at the corners of a triangle.
+    /// Returns the values at the corners of a triangle.
     #[inline(always)]
     fn corners(&self, id: u32) -> [A; 3] {
         let triangle = self.triangles[id.wrapping_sub(self.first_id) as usize];

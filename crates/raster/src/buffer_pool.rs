@@ -1,4 +1,4 @@
-//! The buffer pool of a frame: memory for drawing, kept from one drawing to the next.
+//! The buffer pool of a frame: memory for drawing, kept between drawings.
 //!
 //! The bins and tiles of a picture take a few megabytes. With the pool, a frame that is drawn
 //! repeatedly, as in an animation, allocates nothing after the first time (a test checks this).
@@ -33,7 +33,7 @@ pub(crate) struct ThreadBuffers {
 pub(crate) struct BufferPool(Mutex<DrawBuffers>);
 
 impl BufferPool {
-    /// Takes the buffers out of the pool; empty ones if they are in use.
+    /// Takes the buffers out of the pool, or returns empty buffers if they are in use.
     pub(crate) fn take_buffers(&self) -> DrawBuffers {
         std::mem::take(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
     }

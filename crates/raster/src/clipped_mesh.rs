@@ -6,9 +6,9 @@
 //! ```
 //!
 //! [`Frame::add_mesh`] takes vertices on the screen, where a vertex behind the eye has no position.
-//! Its triangles are omitted, and with them a floor under the viewer's feet. Clipping cuts such
-//! triangles at the near plane while they are still in homogeneous coordinates (CL-3). At the sides
-//! of the picture, a guard band far outside replaces the planes (CL-4).
+//! Triangles with such a vertex are omitted, for example a floor under the viewer's feet. Clipping
+//! cuts such triangles at the near plane while they are still in homogeneous coordinates (CL-3). At
+//! the sides of the picture, a guard band far outside it replaces the planes (CL-4).
 
 use crate::{CullMode, Frame, GUARD_BAND, Opacity, ScreenVertex, VertexProjection, signed_area};
 use clip::{ClippedSegment, Outcode, Volume, clip_segment, clip_triangle};
@@ -25,7 +25,7 @@ pub struct ScreenProjection {
     winding: f64,
 }
 
-/// A mesh in model, world or any other space, as [`Frame::add_clipped_mesh`] takes it.
+/// A mesh in model, world or any other space, to pass to [`Frame::add_clipped_mesh`].
 #[derive(Clone, Copy, Debug, Default)]
 #[non_exhaustive]
 pub struct SourceMesh<'a> {
@@ -35,33 +35,33 @@ pub struct SourceMesh<'a> {
     pub triangles: &'a [[u32; 3]],
     /// The id of the first triangle; the others count up from it.
     pub first_id: u32,
-    /// How the triangles take part in visibility.
+    /// How the triangles affect visibility.
     pub opacity: Opacity,
     /// The winding of the triangles to cull.
     pub cull: CullMode,
 }
 
 impl<'a> SourceMesh<'a> {
-    /// A mesh of opaque triangles with ids that count up from 0, without culling.
+    /// Creates a mesh of opaque triangles with ids that count up from 0, without culling.
     #[must_use]
     pub const fn new(positions: &'a [[f32; 3]], triangles: &'a [[u32; 3]]) -> Self {
         let (opacity, cull) = (Opacity::Opaque, CullMode::Nothing);
         Self { positions, triangles, first_id: 0, opacity, cull }
     }
 
-    /// This mesh with ids that count up from `first_id`.
+    /// Returns this mesh with ids that count up from `first_id`.
     #[must_use]
     pub const fn with_first_id(self, first_id: u32) -> Self {
         Self { first_id, ..self }
     }
 
-    /// This mesh, alpha tested or translucent.
+    /// Returns this mesh with another opacity, such as alpha tested or translucent.
     #[must_use]
     pub const fn with_opacity(self, opacity: Opacity) -> Self {
         Self { opacity, ..self }
     }
 
-    /// This mesh with triangles of one winding culled.
+    /// Returns this mesh with triangles of one winding culled.
     #[must_use]
     pub const fn with_culling(self, cull: CullMode) -> Self {
         Self { cull, ..self }
@@ -69,12 +69,12 @@ impl<'a> SourceMesh<'a> {
 }
 
 impl ScreenProjection {
-    /// The projection through a viewport, such as [`Viewport::image_for`] with the size of the
-    /// frame and the convention of the projection.
+    /// Creates a projection through a viewport, such as [`Viewport::image_for`] with the frame's
+    /// size and the projection's convention.
     #[must_use]
     pub fn new(viewport: &Viewport) -> Self {
-        // The grid ends GUARD_BAND pixels beyond the picture; one pixel less is a margin for
-        // rounding in the divide.
+        // The grid ends GUARD_BAND pixels beyond the picture; subtracting one pixel leaves a margin
+        // for rounding in the divide.
         let area = viewport.area();
         let band = |side: f64, center: f64| {
             let half = 0.5 * side;
@@ -93,8 +93,8 @@ impl ScreenProjection {
         }
     }
 
-    /// The projection to an image of `width` × `height` pixels, for a projection matrix of this
-    /// range: a [`ClipRange`] or a `projection::Convention`.
+    /// Creates a projection to an image of `width` × `height` pixels. `range` is the clip range of
+    /// the projection matrix: a [`ClipRange`] or a `projection::Convention`.
     ///
     /// # Errors
     /// Returns an error if the image has no pixels.
@@ -106,34 +106,34 @@ impl ScreenProjection {
         Ok(Self::new(&Viewport::image_for(width, height, range)?))
     }
 
-    /// The clipping volume.
+    /// Returns the clipping volume.
     #[must_use]
     pub const fn volume(&self) -> &Volume {
         &self.volume
     }
 
-    /// This projection with another clipping volume: with additional planes, or without near or
-    /// far.
+    /// Returns this projection with another clipping volume, for example with additional planes or
+    /// without a near or far plane.
     #[must_use]
     pub const fn with_volume(self, volume: Volume) -> Self {
         Self { volume, ..self }
     }
 
-    /// The viewport transform.
+    /// Returns the viewport transform.
     #[must_use]
     pub const fn ndc_to_screen(&self) -> Affine<Ndc, Screen> {
         self.ndc_to_screen
     }
 
-    /// Perspective divide, viewport transform and snapping; `None` if the point cannot be drawn
-    /// without clipping.
+    /// Divides a point by w, applies the viewport transform and snaps it. Returns `None` if the
+    /// point cannot be drawn without clipping.
     #[must_use]
     #[inline]
     pub fn snap(&self, point: HPoint<Clip>) -> Option<ScreenVertex> {
         ScreenVertex::snap(self.ndc_to_screen.transform_point(point.divide()?), point.w())
     }
 
-    /// The vertices of a primitive on the screen; `None` if any of them cannot be drawn.
+    /// Returns the screen vertices of a primitive, or `None` if any of them cannot be drawn.
     #[must_use]
     #[inline]
     pub fn snap_all<const N: usize>(&self, points: [HPoint<Clip>; N]) -> Option<[ScreenVertex; N]> {
@@ -144,7 +144,7 @@ impl ScreenProjection {
         Some(vertices)
     }
 
-    /// Whether the winding of a triangle that may reach behind the eye survives culling.
+    /// Returns whether a triangle that may extend behind the eye survives culling.
     ///
     /// The sign of the determinant of the (x, y, w) of its vertices is its winding before the
     /// divide (Olano and Greer, *Triangle Scan Conversion using 2D Homogeneous Coordinates*, 1997).
@@ -157,14 +157,14 @@ impl ScreenProjection {
     }
 }
 
-/// The sign as a number; 0 for 0 and NaN.
+/// Returns the sign of a number as −1, 0 or 1, with 0 for NaN.
 fn sign(x: f64) -> i64 {
     i64::from(x > 0.0) - i64::from(x < 0.0)
 }
 
 impl Frame {
-    /// Adds a mesh in any space: transforms, clips before the divide, culls and snaps it. Triangles
-    /// that cross the near plane are cut there, and their fragments carry weights of the whole
+    /// Adds a mesh in any space: transforms it, clips it before the divide, culls and snaps it.
+    /// Triangles that cross the near plane are cut there; their fragments have weights in the whole
     /// triangles.
     ///
     /// ```
@@ -211,7 +211,7 @@ impl Frame {
             simd_level,
             &mut vertices,
         );
-        // A vertex in front of the near plane may still be on the screen.
+        // A vertex between the eye and the near plane may still project onto the screen.
         for (vertex, code) in vertices.iter_mut().zip(&outcodes) {
             *vertex = vertex.filter(|_| code.is_inside());
         }
@@ -242,7 +242,7 @@ impl Frame {
         if !screen.retains(cull, points) {
             return;
         }
-        // The clipped polygon as a fan.
+        // Add the clipped polygon as a fan.
         for part in clip_triangle(points, &screen.volume).triangles() {
             if let Some(corners) = screen.snap_all(part.map(|vertex| vertex.point)) {
                 let weights = part.map(|vertex| vertex.weights.map(|weight| weight as f32));
@@ -269,7 +269,8 @@ impl Frame {
 }
 
 impl ScreenProjection {
-    /// Whether the bounding box of the positions is inside the volume, so no clipping is needed.
+    /// Returns whether the bounding box of the positions is inside the volume, so that no clipping
+    /// is needed.
     fn holds_box_of<S: Space>(
         &self,
         source_to_clip: Projective<S, Clip>,
@@ -303,15 +304,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_winding_holds_also_with_corners_behind_the_eye() {
+    fn winding_is_correct_with_vertices_behind_the_eye() {
         let screen =
             |range| ScreenProjection::new(&Viewport::image_for(8, 8, range).expect("size"));
         let up = screen(ClipRange::CHAPTER);
         let corners =
             [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)].map(|(x, y)| HPoint::new(x, y, 0.0, 1.0));
         let [p, q, r] = corners;
-        // A vertex moved through the plane of the eye, along the line from another vertex: the
-        // surface still shows the same face.
+        // Moving a vertex through the plane of the eye, along the line from another vertex, leaves
+        // the same face visible.
         let [[qx, qy, ..], [rx, ry, ..]] = [q, r].map(<[f64; 4]>::from);
         let behind = HPoint::new(4.0 * qx - 3.0 * rx, 4.0 * qy - 3.0 * ry, 0.0, 1.0);
         for triangle in [[p, q, r], [p, behind, r]] {
@@ -321,7 +322,7 @@ mod tests {
             assert!(!up.retains(CullMode::CounterClockwise, triangle));
             assert!(!up.retains(CullMode::Clockwise, [a, c, b]));
             assert!(up.retains(CullMode::Nothing, [a, c, b]));
-            // With y down the same numbers show the other face.
+            // With y down, the same numbers show the other face.
             assert!(!screen(ClipRange::VULKAN).retains(CullMode::Clockwise, triangle));
         }
     }

@@ -57,13 +57,14 @@ impl Clusters {
         Self { list: starts.map(cluster).collect() }
     }
 
-    /// The clusters in the order of their triangles.
+    /// Returns the clusters in the order of their triangles.
     #[must_use]
     pub fn as_slice(&self) -> &[Cluster] {
         &self.list
     }
 
-    /// The bounding box of the mesh, as minimum and maximum coordinates; [∞, −∞] if it is empty.
+    /// Returns the bounding box of the mesh as minimum and maximum coordinates, or [∞, −∞] if the
+    /// mesh is empty.
     #[must_use]
     pub fn bounds(&self) -> [[f32; 3]; 2] {
         self.list.iter().fold(EMPTY_BOUNDS, |bounds, cluster| union_bounds(bounds, &cluster.bounds))
@@ -109,34 +110,34 @@ impl Cluster {
         }
     }
 
-    /// The indices of the triangles in the mesh.
+    /// Returns the range of the triangles' indices in the mesh.
     #[must_use]
     pub fn triangles(&self) -> Range<usize> {
         self.triangles[0] as usize..self.triangles[1] as usize
     }
 
-    /// The range of vertex indices that the triangles use.
+    /// Returns the range of vertex indices that the triangles use.
     #[must_use]
     pub fn vertices(&self) -> Range<usize> {
         self.vertices[0] as usize..self.vertices[1] as usize
     }
 
-    /// The bounding box: the minimum and maximum coordinates of the vertices.
+    /// Returns the bounding box: the minimum and maximum coordinates of the vertices.
     #[must_use]
     pub const fn bounds(&self) -> [[f32; 3]; 2] {
         self.bounds
     }
 
-    /// Back-face culling of the cluster: whether all of its triangles certainly face away from the
-    /// viewer.
+    /// Returns whether all triangles of the cluster certainly face away from the viewer, for
+    /// back-face culling.
     ///
-    /// The viewer is an eye, or a direction toward it as a point at infinity. Front faces are
-    /// counterclockwise.
+    /// The viewer is an eye point, or the direction toward the viewer as a point at infinity. Front
+    /// faces are counterclockwise.
     ///
-    /// With the viewer `e` and a vertex `p`, a triangle with normal `n` faces away if n · (e − e_w
-    /// p) < 0. The box bounds all `p`, the cone all `n`. The maximum product belongs to the vector
-    /// from the center of the box and the nearest normal of the cone, plus at most the radius of
-    /// the box.
+    /// For a viewer `e` and a vertex `p`, a triangle with normal `n` faces away if n · (e − e_w p)
+    /// < 0. The box bounds every `p`, and the cone every `n`. The maximum product is the product of
+    /// the vector from the center of the box and the nearest normal of the cone, plus at most the
+    /// radius of the box.
     #[must_use]
     pub fn is_back_facing<S: Space>(&self, viewer: HPoint<S>) -> bool {
         let axis = DVec3::from_array(self.cone_axis.map(f64::from));
@@ -147,21 +148,22 @@ impl Cluster {
         let axis = axis / cosine;
         let [least, greatest] = self.bounds.map(|corner| DVec3::from_array(corner.map(f64::from)));
         let (eye, w) = (viewer.raw().truncate(), viewer.w());
-        // From the center of the box; in parallel projection w is 0 and the direction is already
-        // that to the viewer.
+        // The vector from the center of the box. In parallel projection w is 0, and this is the
+        // direction to the viewer.
         let to_viewer = eye - (least + greatest) * (0.5 * w);
         let radius = (greatest - least).length() * (0.5 * w.abs());
         let along = to_viewer.dot(axis);
         let across = (to_viewer.length_squared() - along * along).max(0.0).sqrt();
         let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-        // The cosine of the difference of two angles: from the axis to the viewer, which exceeds a
-        // right angle, and from the axis to the border of the cone, which does not.
+        // The cosine of the difference between two angles: the angle from the axis to the viewer,
+        // which exceeds a right angle, and the angle from the axis to the border of the cone, which
+        // does not.
         let greatest = along * cosine + across * sine + radius;
         along < 0.0 && greatest < -CONE_MARGIN * to_viewer.length()
     }
 }
 
-/// The union of two bounding boxes.
+/// Returns the union of two bounding boxes.
 #[inline(always)]
 fn union_bounds([low, high]: [[f32; 3]; 2], other: &[[f32; 3]; 2]) -> [[f32; 3]; 2] {
     [min_coordinates(low, other[0]), max_coordinates(high, other[1])]
@@ -169,7 +171,8 @@ fn union_bounds([low, high]: [[f32; 3]; 2], other: &[[f32; 3]; 2]) -> [[f32; 3];
 
 #[inline(always)]
 fn min_coordinates(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    // Written this way, these are single instructions; `f32::min` takes several, to handle NaN.
+    // Written this way, each comparison is a single instruction; `f32::min` takes several to handle
+    // NaN.
     [0, 1, 2].map(|k| if a[k] < b[k] { a[k] } else { b[k] })
 }
 
@@ -200,22 +203,22 @@ impl TriangleNormals {
             return;
         };
         let (a, b) = (subtract(q, p), subtract(r, p));
-        // The cross product of two edges, with a length of twice the area.
+        // The length of the cross product of two edges is twice the area.
         let normal =
             [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
         let squared = dot(normal, normal);
-        // In thinner triangles, the rounding of the cross product would rotate the normal.
+        // In thinner triangles, rounding of the cross product would rotate the normal.
         self.are_known &= squared > dot(a, a) * dot(b, b) * 1e-6 && squared.is_normal();
         let inv_length = 1.0 / squared.sqrt();
         self.list[self.count] = normal.map(|coordinate| coordinate * inv_length);
         self.count += 1;
     }
 
-    /// The axis of the cone around the normals, times the cosine of its half angle. Zero if the
-    /// cone is at least as wide as a half-space, or if a normal is unknown.
+    /// Returns the axis of the cone around the normals, times the cosine of its half angle. The
+    /// result is zero if the cone is at least as wide as a half-space or if a normal is unknown.
     ///
-    /// The axis is the mean of the normals. A minimal cone would cull slightly more but cost much
-    /// more.
+    /// The axis is the mean of the normals. A minimal cone would cull slightly more but would cost
+    /// much more.
     fn normal_cone(&self) -> [f32; 3] {
         let list = if self.are_known { &self.list[..self.count] } else { &[] };
         let sum = list.iter().fold([0.0; 3], |sum, normal| [0, 1, 2].map(|k| sum[k] + normal[k]));
@@ -240,21 +243,21 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// The part of a mesh to draw: runs of its triangles, and the vertices that they need.
+/// The part of a mesh to draw: runs of its triangles and the vertices that they need.
 #[derive(Clone, Debug, Default)]
 pub struct MeshSelection {
     /// Runs of triangles in order, none adjacent to the next.
     triangle_runs: Vec<Range<usize>>,
-    /// Whether vertices are needed, by blocks of [`VERTEX_BLOCK`].
+    /// Whether the vertices of each block of [`VERTEX_BLOCK`] are needed.
     vertex_blocks: Vec<bool>,
 }
 
-/// The number of vertices in a block, which are needed together or not: eight vectors of eight
-/// lanes.
+/// The number of vertices in a block, the unit in which vertices are selected: eight vectors of
+/// eight lanes.
 const VERTEX_BLOCK: usize = 64;
 
 impl MeshSelection {
-    /// Clears the selection, for a mesh with `vertices` vertices.
+    /// Clears the selection and prepares it for a mesh with `vertices` vertices.
     pub fn clear(&mut self, vertices: usize) {
         self.triangle_runs.clear();
         self.vertex_blocks.clear();
@@ -276,27 +279,27 @@ impl MeshSelection {
         }
     }
 
-    /// Selects all `triangles` triangles of the mesh, and all vertices.
+    /// Selects all `triangles` triangles of the mesh and all of its vertices.
     pub fn add_all(&mut self, triangles: usize) {
         self.triangle_runs.clear();
         self.triangle_runs.extend((triangles > 0).then_some(0..triangles));
         self.vertex_blocks.fill(true);
     }
 
-    /// Whether no triangle is selected.
+    /// Returns whether no triangle is selected.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.triangle_runs.is_empty()
     }
 
-    /// The selected triangles: runs of indices in the mesh, in order.
+    /// Returns the selected triangles as runs of indices in the mesh, in order.
     #[must_use]
     pub fn triangles(&self) -> &[Range<usize>] {
         &self.triangle_runs
     }
 
-    /// The needed vertices in the range `among`: runs of indices counted from `among.start`, in
-    /// order.
+    /// Returns the needed vertices in the range `among` as runs of indices, in order and relative
+    /// to `among.start`.
     ///
     /// `among` must begin at a multiple of the block size, 64.
     pub fn vertices_within(&self, among: Range<usize>) -> impl Iterator<Item = Range<usize>> {
@@ -319,8 +322,8 @@ mod tests {
     use homog::Model;
     use proptest::prelude::*;
 
-    /// A ball of rings and spokes, with its front faces outside; triangles at the poles are
-    /// degenerate.
+    /// Builds a sphere of rings and spokes whose front faces point outward; the triangles at the
+    /// poles are degenerate.
     fn ball(rings: u32, spokes: u32) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
         let place = |ring: u32, spoke: u32| {
             let angle =
@@ -347,7 +350,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn what_is_turned_away_shows_only_backs(
+        fn culled_clusters_contain_only_back_faces(
             direction in prop::array::uniform3(-1.0..1.0_f64), w in 0.0..1.0_f64,
         ) {
             let (positions, triangles) = ball(60, 400);
@@ -362,13 +365,13 @@ mod tests {
                 }
             }
             let backs = triangles.iter().filter(|&&t| faces(&positions, t, viewer) < 0.0).count();
-            // From infinity half of the ball faces away, most of it in whole clusters.
+            // Seen from infinity, half of the sphere faces away, most of it in whole clusters.
             prop_assert!(viewer.w() > 0.0 || 10 * away >= 6 * backs, "{away} of {backs}");
         }
     }
 
     #[test]
-    fn clusters_hold_all_triangles_and_their_vertices() {
+    fn clusters_contain_all_triangles_and_their_vertices() {
         let (positions, triangles) = ball(9, 31);
         let clusters = Clusters::build(&positions, &triangles, true);
         let mut next = 0;
@@ -386,9 +389,9 @@ mod tests {
     }
 
     #[test]
-    fn corners_that_a_mesh_does_not_have_are_not_there() {
+    fn out_of_range_vertex_indices_are_ignored() {
         let clusters = Clusters::build(&[[1.0; 3]], &[[0, 7, 9], [0, 0, 0]], true);
-        let [cluster] = clusters.as_slice() else { panic!("one cluster") };
+        let [cluster] = clusters.as_slice() else { panic!("expected one cluster") };
         assert_eq!((cluster.vertices(), cluster.bounds()), (0..1, [[1.0; 3]; 2]));
         assert!(!cluster.is_back_facing(HPoint::<Model>::new(0.0, 0.0, 1.0, 0.0)));
         assert!(Clusters::build(&[], &[], true).as_slice().is_empty());
@@ -396,7 +399,7 @@ mod tests {
     }
 
     #[test]
-    fn a_selection_gives_runs_of_triangles_and_of_blocks() {
+    fn selections_consist_of_triangle_runs_and_vertex_blocks() {
         let (positions, triangles) = ball(20, 50);
         let clusters = Clusters::build(&positions, &triangles, true);
         let mut selection = MeshSelection::default();
@@ -411,7 +414,7 @@ mod tests {
             let needed = clusters.as_slice()[at].vertices();
             assert!(all.iter().any(|run| run.start <= needed.start && needed.end <= run.end));
         }
-        // Projected in two parts, they are the same.
+        // Two parts of the mesh yield the same vertices as the whole.
         let parts = [0..512, 512..positions.len()].map(|part| {
             let runs: Vec<_> = selection.vertices_within(part.clone()).collect();
             runs.iter().flat_map(|run| run.start + part.start..run.end + part.start).collect()

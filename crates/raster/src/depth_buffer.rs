@@ -10,7 +10,8 @@ use crate::tile_loop::FilledTile;
 use crate::{DepthCompare, Frame, RasterError, Samples, Surface};
 use homog::PixelRect;
 
-/// The depth at each sample of each pixel, rows from the top: a shadow map, a depth pre-pass.
+/// The depth at each sample of each pixel, rows from the top. Use it for shadow maps and depth
+/// pre-passes.
 ///
 /// ```
 /// use homog::Point;
@@ -32,16 +33,16 @@ use homog::PixelRect;
 pub struct DepthBuffer {
     region: PixelRect,
     samples: Samples,
-    /// Sample by sample, each with the rows of its pixels.
+    /// The depths of the first sample in all pixels, row by row, then those of the other samples.
     depths: Vec<f32>,
 }
 
 impl DepthBuffer {
-    /// A buffer with one depth sample per pixel, rows from the top. Empty pixels have −∞, or +∞ for
-    /// [`DepthCompare::Less`].
+    /// Creates a buffer with one depth sample per pixel, rows from the top. The depth of an empty
+    /// pixel is −∞, or +∞ for [`DepthCompare::Less`].
     ///
     /// # Errors
-    /// [`RasterError::DepthCount`] unless there are `width` × `height` depths.
+    /// Returns [`RasterError::DepthCount`] unless there are `width` × `height` depths.
     pub fn from_depths(width: u32, height: u32, depths: Vec<f32>) -> Result<Self, RasterError> {
         let region = PixelRect::from_size(width, height);
         match depths.len() == region.area() {
@@ -50,26 +51,27 @@ impl DepthBuffer {
         }
     }
 
-    /// The width in pixels.
+    /// Returns the width in pixels.
     #[must_use]
     pub const fn width(&self) -> u32 {
         self.region.width
     }
 
-    /// The height in pixels.
+    /// Returns the height in pixels.
     #[must_use]
     pub const fn height(&self) -> u32 {
         self.region.height
     }
 
-    /// The depths at the first sample of each pixel, rows from the top. With one sample per pixel,
-    /// it is at the center.
+    /// Returns the depths at the first sample of each pixel, rows from the top. With one sample per
+    /// pixel, the sample is at the center.
     #[must_use]
     pub fn depths(&self) -> &[f32] {
         &self.depths[..self.region.area()]
     }
 
-    /// The depth at the first sample of a pixel; outside the buffer, the depth of an empty pixel.
+    /// Returns the depth at the first sample of a pixel, or the depth of an empty pixel outside the
+    /// buffer.
     #[must_use]
     pub fn depth(&self, x: u32, y: u32) -> f32 {
         let is_inside = x < self.region.width && y < self.region.height;
@@ -77,12 +79,12 @@ impl DepthBuffer {
         if is_inside { self.depths[index] } else { f32::NEG_INFINITY }
     }
 
-    /// The number of depths.
+    /// Returns the number of depths.
     pub(crate) fn sample_count(&self) -> usize {
         self.depths.len()
     }
 
-    /// Whether the pixels and samples of a frame match this buffer.
+    /// Returns whether the pixels and samples of a frame match this buffer.
     pub(crate) fn fits(&self, region: PixelRect, samples: Samples) -> bool {
         (self.region, self.samples) == (region, samples)
     }
@@ -109,16 +111,16 @@ impl DepthBuffer {
 }
 
 impl Frame {
-    /// The depth at every sample: depth without color. Empty samples have −∞, or +∞ for
-    /// [`DepthCompare::Less`], unless the frame began with other depths.
+    /// Renders the depth at every sample, without color. Empty samples have −∞, or +∞ for
+    /// [`DepthCompare::Less`], unless the frame has other initial depths.
     ///
-    /// Masked primitives count where `surface` passes the alpha test; translucent ones do not
+    /// Masked primitives count where `surface` passes the alpha test; translucent primitives do not
     /// count. Uses up to `threads` threads; the result is the same for any number.
     #[must_use]
     pub fn depth_buffer<S: Surface>(&self, surface: &S, threads: usize) -> DepthBuffer {
         let (area, count) = (self.region.area(), self.samples.count());
         let empty = self.compare.to_internal(f32::NEG_INFINITY);
-        // Pixel by pixel in bands first, then rearranged sample by sample.
+        // Written to bands pixel by pixel first, then rearranged sample by sample.
         let mut depths = match &self.initial_depth {
             Some(initial) => interleave(&initial.depths, count),
             None => vec![empty; area * count],
@@ -151,8 +153,8 @@ impl Frame {
         }
     }
 
-    /// Draws the frame over the picture in `target`: linear colors, premultiplied by alpha, rows
-    /// from the top. Pixels without a passing fragment keep their color.
+    /// Draws the frame over the picture in `target`, which consists of linear colors, premultiplied
+    /// by alpha, rows from the top. Pixels without a passing fragment keep their color.
     ///
     /// With the [depth buffer](Self::with_depth_buffer) of that picture, this is a second pass over
     /// it. Translucent primitives are blended by their alpha.

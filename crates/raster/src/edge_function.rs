@@ -8,8 +8,8 @@
 //!     v0────v1               (horizontal, the inside below it on the screen).
 //! ```
 //! Two triangles that share an edge see it from opposite sides, so exactly one of them owns the
-//! samples on it: no gap, and no pixel drawn twice. All of this is integer arithmetic on snapped
-//! vertices; a tolerance would only move the gaps.
+//! samples on it: there is no gap, and no pixel is drawn twice. All of this is integer arithmetic
+//! on snapped vertices; a tolerance would only move the gaps.
 
 use crate::ScreenVertex;
 
@@ -25,28 +25,28 @@ pub(crate) struct EdgeFunction {
 }
 
 impl EdgeFunction {
-    /// The edge from `start` to `end` of a triangle with positive area (clockwise on a screen with
-    /// y down).
+    /// Creates the edge function from `start` to `end` for a triangle with positive area (clockwise
+    /// on a screen with y down).
     pub(crate) fn new(start: ScreenVertex, end: ScreenVertex) -> Self {
         let (x, y) = (i64::from(start.x), i64::from(start.y));
         let a = y - i64::from(end.y);
         let b = i64::from(end.x) - x;
-        // Top-left rule. (a, b) is the inner normal: it points right on a left edge, and down
+        // Top-left rule. (a, b) is the inward normal: it points right on a left edge, and down
         // (larger y) on a top edge.
         let is_top_left = a > 0 || (a == 0 && b > 0);
-        // E is 0 on the edge; the bias of one step makes it negative where the edge does not own
-        // its samples.
+        // E is 0 on the edge; a bias of one step makes it negative if the edge does not own its
+        // samples.
         Self { a, b, c: -(a * x + b * y) - i64::from(!is_top_left) }
     }
 
-    /// E at a grid position: ≥ 0 if the edge does not exclude it.
+    /// Evaluates E at a grid position: the result is ≥ 0 if the edge does not exclude the position.
     pub(crate) fn evaluate(&self, x: i64, y: i64) -> i64 {
         self.a * x + self.b * y + self.c
     }
 }
 
-/// Twice the signed area of a triangle in square grid steps: positive if its vertices are clockwise
-/// on the screen (y down), 0 if it is degenerate.
+/// Returns twice the signed area of a triangle in square grid steps: positive if its vertices are
+/// clockwise on the screen (y down), and 0 if it is degenerate.
 ///
 /// A surface whose front faces are counterclockwise (glTF, OpenGL) has a **negative** area here
 /// when it faces the viewer. The result is exact: coordinates have 23 bits within the guard band.
@@ -66,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn counter_clockwise_with_y_up_is_negative_area_on_the_screen() {
+    fn counterclockwise_triangles_with_y_up_have_negative_screen_area() {
         // y up: (0,0) (1,0) (0,1) is counterclockwise; with y down its corners are (0,1) (1,1)
         // (0,0).
         assert!(signed_area([vertex(0, 256), vertex(256, 256), vertex(0, 0)]) < 0);

@@ -22,7 +22,7 @@ pub enum RasterError {
         height: u32,
     },
     /// A depth buffer and a frame have different numbers of samples.
-    # [error("a depth buffer with {found} samples does not match a frame with {expected}")]
+    #[error("a depth buffer with {found} samples does not match a frame with {expected}")]
     DepthCount {
         /// The number of samples in the frame.
         expected: usize,

@@ -57,14 +57,14 @@ impl<'a> Fragment<'a> {
         Self { id: triangle.id, x, y, weights, barycentrics, inv_sum, triangle, source_weights }
     }
 
-    /// The derivative of the weights with respect to the column: their change per pixel to the
-    /// right. The components add up to 0.
+    /// Returns the derivative of the weights with respect to the column: their change per pixel to
+    /// the right. The components add up to 0.
     #[must_use]
     pub fn weights_dx(&self) -> [f32; 3] {
         self.weight_derivatives(weight_steps_x(self.triangle))
     }
 
-    /// The derivative of the weights with respect to the row: their change per pixel down.
+    /// Returns the derivative of the weights with respect to the row: their change per pixel down.
     #[must_use]
     pub fn weights_dy(&self) -> [f32; 3] {
         self.weight_derivatives(weight_steps_y(self.triangle))
@@ -101,8 +101,8 @@ pub(crate) fn pixel_center(pixel: u32) -> i32 {
     pixel as i32 * SUBPIXELS + SUBPIXELS / 2
 }
 
-/// Twice the areas of the three triangles formed by a point and the edges, exact before rounding to
-/// `f32`.
+/// Returns twice the areas of the three triangles formed by a point and the edges, exact before
+/// rounding to `f32`.
 #[inline]
 fn barycentric_areas(vertices: [ScreenVertex; 3], x: i32, y: i32) -> [f32; 3] {
     let [p, q, r] = vertices.map(|v| (i64::from(v.x - x), i64::from(v.y - y)));

@@ -24,8 +24,8 @@ pub type F32x8 = [f32; LANES];
 
 /// Eight fragments in one row of pixels, to be shaded at once.
 ///
-/// There are always eight: if there are fewer to shade, the other lanes repeat one of them, and
-/// their colors are ignored. They need not be neighbors or belong to one primitive.
+/// There are always eight: if fewer are to be shaded, the other lanes repeat one of them, and their
+/// colors are ignored. The fragments need not be adjacent or belong to one primitive.
 #[derive(Clone, Copy, Debug)]
 pub struct Fragments<'a> {
     /// The columns of the pixels.
@@ -34,8 +34,8 @@ pub struct Fragments<'a> {
     pub y: u32,
     /// Whether all are fragments of one triangle in adjacent pixels.
     ///
-    /// Set for runs of pixels covered by one triangle. It avoids gathering vertices and lets
-    /// shading fetch attributes once.
+    /// This is set for runs of pixels covered by one triangle. It avoids gathering vertices and
+    /// lets shading fetch attributes once.
     is_single: bool,
     /// The screen triangle of each fragment.
     triangles: [&'a ScreenTriangle; LANES],
@@ -44,7 +44,7 @@ pub struct Fragments<'a> {
 }
 
 impl<'a> Fragments<'a> {
-    /// The fragments of one triangle in eight pixels from (x, y) to the right.
+    /// Creates the fragments of one triangle in eight pixels from (x, y) to the right.
     ///
     /// Pixels outside the triangle are allowed: their weights are clamped and their colors ignored.
     #[inline(always)]
@@ -61,7 +61,7 @@ impl<'a> Fragments<'a> {
         Self { x, y, is_single: true, triangles: [triangle; LANES], source_weights }
     }
 
-    /// The fragments of any eight triangles, each in its own pixel.
+    /// Creates the fragments of any eight triangles, each in its own pixel.
     #[inline(always)]
     pub(crate) fn from_triangles(
         triangles: [&'a ScreenTriangle; LANES],
@@ -72,24 +72,24 @@ impl<'a> Fragments<'a> {
         Self { x, y, is_single: false, triangles, source_weights }
     }
 
-    /// The id with which the primitive of a fragment was submitted; `lane` is 0 to 7.
+    /// Returns the id with which a fragment's primitive was submitted; `lane` is from 0 to 7.
     #[inline(always)]
     #[must_use]
     pub const fn id(&self, lane: usize) -> u32 {
         self.triangles[lane].id
     }
 
-    /// Whether all are known to be fragments of one primitive, so vertex attributes can be fetched
-    /// once.
+    /// Returns whether all fragments are known to belong to one primitive, so that vertex
+    /// attributes can be fetched once.
     #[inline(always)]
     #[must_use]
     pub const fn is_single_primitive(&self) -> bool {
         self.is_single
     }
 
-    /// The weights of the vertices in the eight fragments.
+    /// Returns the weights of the vertices in the eight fragments.
     ///
-    /// They are perspective-correct and nonnegative, and the three of a lane add up to 1.
+    /// They are perspective-correct and nonnegative, and the three weights in a lane add up to 1.
     #[inline(always)]
     #[must_use]
     pub fn weights(&self) -> WeightLanes<'a> {
@@ -104,7 +104,7 @@ impl<'a> Fragments<'a> {
         WeightLanes { values, barycentrics, inv_sum, is_single, triangles, source_weights }
     }
 
-    /// One of the fragments, with `lane` from 0 to 7, given the weights of all.
+    /// Returns one of the fragments, with `lane` from 0 to 7, given the weights of all fragments.
     ///
     /// The result is bit-identical to a fragment computed individually.
     #[inline(always)]
@@ -126,7 +126,7 @@ impl<'a> Fragments<'a> {
 
 /// The weights of the vertices in eight fragments, with their screen derivatives.
 ///
-/// Derivatives are computed by methods, only if a surface calls them.
+/// The derivatives are methods, so they are computed only if a surface calls them.
 #[derive(Clone, Copy, Debug)]
 pub struct WeightLanes<'a> {
     /// For each vertex, its weights at the fragments: see [`Fragment::weights`].
@@ -141,21 +141,23 @@ pub struct WeightLanes<'a> {
 }
 
 impl WeightLanes<'_> {
-    /// The derivatives of the weights with respect to the column: see [`Fragment::weights_dx`].
+    /// Returns the derivatives of the weights with respect to the column: see
+    /// [`Fragment::weights_dx`].
     #[inline(always)]
     #[must_use]
     pub fn dx(&self) -> [F32x8; 3] {
         self.derivatives(weight_steps_x)
     }
 
-    /// The derivatives of the weights with respect to the row, downward.
+    /// Returns the derivatives of the weights with respect to the row: see
+    /// [`Fragment::weights_dy`].
     #[inline(always)]
     #[must_use]
     pub fn dy(&self) -> [F32x8; 3] {
         self.derivatives(weight_steps_y)
     }
 
-    /// Derivatives by the quotient rule, given the change per pixel of area times 1/w.
+    /// Computes derivatives by the quotient rule, given the change of area times 1/w per pixel.
     ///
     /// With parts pₖ = areaₖ / wₖ, linear on the screen, and S their sum, a weight is pₖ / S and
     /// its derivative (∂pₖ − weightₖ · ∂S) / S.
@@ -180,7 +182,7 @@ impl WeightLanes<'_> {
         for (lane, sum) in sum.iter_mut().enumerate() {
             *sum = steps[0][lane] + steps[1][lane] + steps[2][lane];
         }
-        // Quotient rule, with the division done once when the weights were made.
+        // Quotient rule; the division was done once, when the weights were computed.
         for (steps, weights) in steps.iter_mut().zip(&self.barycentrics) {
             for (lane, step) in steps.iter_mut().enumerate() {
                 *step = (*step - weights[lane] * sum[lane]) * self.inv_sum[lane];
@@ -193,7 +195,7 @@ impl WeightLanes<'_> {
 /// Converts weights of the screen triangles' vertices to weights of the source primitives'
 /// vertices.
 ///
-/// Assembly may have swapped two vertices or clipped the primitive; shading does not notice.
+/// Assembly may have swapped two vertices or clipped the primitive; shading is unaffected.
 #[inline(always)]
 fn to_source_weights(
     is_single: bool,
@@ -210,7 +212,8 @@ fn to_source_weights(
     }
     // Most triangles of a mesh are flipped, because the rasterizer needs them clockwise.
     let mut weights = [p, r, q];
-    // One pass decides for all lanes: a select for swapped vertices, a flag for clipped ones.
+    // One pass handles all lanes: it selects between swapped and original vertices and flags
+    // clipped triangles.
     let mut is_clipped = false;
     for lane in 0..LANES {
         let source = triangles[lane].source;
@@ -228,7 +231,7 @@ fn to_source_weights(
 
 /// Replaces the weights in those lanes whose triangles are part of a clipped primitive.
 ///
-/// Out of line: few pixels need it, and the gather would slow down all others.
+/// Kept out of line, because few pixels need it and the gather would slow down all others.
 #[cold]
 fn clipped_source_weights(
     triangles: [&ScreenTriangle; LANES],
@@ -251,12 +254,12 @@ fn clipped_source_weights(
 ///
 /// Offsets are integer grid steps in `f64`, where their products and differences are exact.
 ///
-/// Offsets are relative to the pixel and therefore small where it matters: next to a vertex no
-/// digits cancel.
+/// Offsets are relative to the pixel and therefore small where it matters: next to a vertex, no
+/// digits are lost to cancellation.
 struct VertexLanes {
-    /// Grid steps from the center of the pixel to each vertex, to the right.
+    /// The offset of each vertex from the center of the pixel, in grid steps to the right.
     dx: [[f64; LANES]; 3],
-    /// Grid steps from the center of the pixel to each vertex, downward.
+    /// The offset of each vertex from the center of the pixel, in grid steps down.
     dy: [[f64; LANES]; 3],
     /// 1/w of each vertex.
     inv_w: [F32x8; 3],
@@ -266,13 +269,13 @@ impl VertexLanes {
     const ZERO: Self =
         Self { dx: [[0.0; LANES]; 3], dy: [[0.0; LANES]; 3], inv_w: [[0.0; LANES]; 3] };
 
-    /// One triangle in eight adjacent pixels: no gathering is needed.
+    /// Spreads one triangle over eight adjacent pixels; no gathering is needed.
     #[inline(always)]
     fn from_one_triangle(triangle: &ScreenTriangle, x: u32, y: u32) -> Self {
         let mut lanes = Self::ZERO;
         let (cx, cy) = (pixel_center(x), pixel_center(y));
         for (k, vertex) in triangle.vertices.iter().enumerate() {
-            // Along the row the offset falls by one pixel, 256 steps, per lane.
+            // Along the row the offset decreases by one pixel, or 256 steps, per lane.
             let first = f64::from(vertex.x - cx);
             for (lane, dx) in lanes.dx[k].iter_mut().enumerate() {
                 *dx = first - f64::from(lane as i32 * SUBPIXELS);
@@ -299,8 +302,8 @@ impl VertexLanes {
         lanes
     }
 
-    /// Perspective-correct weights of the vertices, and the reciprocals of the sums by which they
-    /// were normalized (IN-2).
+    /// Returns the perspective-correct weights of the vertices and the reciprocals of the sums by
+    /// which they were normalized (IN-2).
     #[inline(always)]
     fn barycentric_weights(&self) -> ([F32x8; 3], F32x8) {
         let Self { dx, dy, inv_w } = self;

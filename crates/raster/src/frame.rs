@@ -24,10 +24,10 @@ use core::ops::Range;
 use homog::PixelRect;
 use std::sync::Arc;
 
-/// The longest side of a picture in pixels.
+/// The maximum width and height of a picture in pixels.
 pub const MAX_SIDE: u32 = 16384;
 
-/// Meshes with fewer triangles are assembled by one thread: starting another takes as long.
+/// Meshes with fewer triangles are assembled by one thread, because starting another takes as long.
 const PARALLEL_TRIANGLES: usize = 8 * CHUNK_TRIANGLES;
 
 /// The primitives of one picture and the settings for drawing them.
@@ -52,7 +52,7 @@ pub struct Frame {
     threads: usize,
     /// The depth function.
     pub(crate) compare: DepthCompare,
-    /// The initial depths; empty if there are none.
+    /// The initial depths, if any.
     pub(crate) initial_depth: Option<Arc<DepthBuffer>>,
     /// The observer that is notified of finished bands and can cancel drawing.
     pub(crate) monitor: Option<Arc<dyn Monitor>>,
@@ -60,23 +60,23 @@ pub struct Frame {
     pub(crate) buffers: BufferPool,
 }
 
-/// The triangles of a mesh on the screen, as [`Frame::add_mesh_runs`] takes them.
+/// The triangles of a mesh on the screen, to pass to [`Frame::add_mesh_runs`].
 #[derive(Clone, Copy, Debug)]
 pub struct MeshTriangles<'a> {
-    /// The vertices; `None` for those that cannot be drawn without clipping.
+    /// The vertices; a vertex is `None` if it cannot be drawn without clipping.
     pub vertices: &'a [Option<ScreenVertex>],
     /// The indices of each triangle's vertices.
     pub triangles: &'a [[u32; 3]],
     /// The id of the first triangle; the others count up from it.
     pub first_id: u32,
-    /// How the triangles take part in visibility.
+    /// How the triangles affect visibility.
     pub opacity: Opacity,
     /// The winding of the triangles to cull.
     pub cull: CullMode,
 }
 
 impl Frame {
-    /// An empty frame of `width` × `height` pixels.
+    /// Creates an empty frame of `width` × `height` pixels.
     ///
     /// # Errors
     /// Returns [`RasterError::Size`] unless both sides are between 1 and [`MAX_SIDE`].
@@ -84,7 +84,7 @@ impl Frame {
         Self::for_region(PixelRect::from_size(width, height), samples)
     }
 
-    /// An empty frame that shows a region of a larger picture.
+    /// Creates an empty frame that shows a region of a larger picture.
     ///
     /// Vertices and fragments have coordinates in the whole picture, and regions drawn one by one
     /// match the whole bit for bit. Use regions to draw pictures too large for memory, or to redraw
@@ -108,38 +108,38 @@ impl Frame {
         })
     }
 
-    /// This frame, drawn with the given vector instructions: for benchmarks, and for tests that the
+    /// Returns this frame with another SIMD level. Use it for benchmarks, and to test that the
     /// level does not change a bit.
     #[must_use]
     pub fn with_simd_level(self, simd_level: SimdLevel) -> Self {
         Self { simd_level, ..self }
     }
 
-    /// This frame, with large [meshes](Self::add_mesh) assembled by up to `threads` threads
+    /// Returns this frame with large [meshes](Self::add_mesh) assembled by up to `threads` threads
     /// (default: 1). The result does not depend on the number.
     #[must_use]
     pub fn with_threads(self, threads: usize) -> Self {
         Self { threads, ..self }
     }
 
-    /// This frame with a monitor. `monitor` is notified of each finished row of tiles and asked
-    /// before the next one starts. If drawing ends early, the target contains an unfinished
-    /// picture.
+    /// Returns this frame with a monitor. `monitor` is notified of each finished row of tiles, and
+    /// can cancel drawing before the next row starts. If drawing ends early, the target contains an
+    /// unfinished picture.
     #[must_use]
     pub fn with_monitor(self, monitor: Arc<dyn Monitor>) -> Self {
         Self { monitor: Some(monitor), ..self }
     }
 
-    /// This frame without its primitives and with another depth function.
+    /// Returns this frame without its primitives and with another depth function.
     #[must_use]
     pub fn with_depth_compare(mut self, compare: DepthCompare) -> Self {
         self.clear();
         Self { compare, ..self }
     }
 
-    /// This frame, drawn over existing depths: a second pass.
+    /// Returns this frame with initial depths, for a second pass.
     ///
-    /// Fragments that do not pass the test against them are absent, both in pictures and in id
+    /// Fragments that fail the depth test against them are absent from both pictures and id
     /// buffers.
     ///
     /// # Errors
@@ -153,22 +153,22 @@ impl Frame {
         Ok(Self { initial_depth: Some(depths), ..self })
     }
 
-    /// Whether drawing should end.
+    /// Returns whether drawing should stop.
     pub(crate) fn is_canceled(&self) -> bool {
         self.monitor.as_ref().is_some_and(Monitor::is_canceled)
     }
 
-    /// The vector instructions used for drawing the frame.
+    /// Returns the vector instructions used for drawing the frame.
     #[must_use]
     pub const fn simd_level(&self) -> SimdLevel {
         self.simd_level
     }
 
     /// Removes all primitives, changes the size and samples, and keeps the memory. The initial
-    /// depths and the monitor are removed too.
+    /// depths and the monitor are also removed.
     ///
     /// # Errors
-    /// As for [`new`](Self::new); the frame is then unchanged.
+    /// Returns the same errors as [`new`](Self::new); the frame is then unchanged.
     pub fn reset(&mut self, width: u32, height: u32, samples: Samples) -> Result<(), RasterError> {
         self.region = check_region(PixelRect::from_size(width, height))?;
         self.samples = samples;
@@ -183,13 +183,13 @@ impl Frame {
         self.source_weights.clear();
     }
 
-    /// The width in pixels.
+    /// Returns the width in pixels.
     #[must_use]
     pub const fn width(&self) -> u32 {
         self.region.width
     }
 
-    /// The height in pixels.
+    /// Returns the height in pixels.
     #[must_use]
     pub const fn height(&self) -> u32 {
         self.region.height
@@ -197,9 +197,10 @@ impl Frame {
 
     /// Adds a whole triangle of either winding.
     ///
-    /// Nothing is culled. To cull back faces, check [`signed_area`] first or add a mesh.
+    /// No winding is culled. To cull back faces, check [`signed_area`] first or add a mesh.
     ///
-    /// Degenerate triangles and those between samples are dropped: they cover no sample.
+    /// Degenerate triangles and triangles between samples are dropped, because they cover no
+    /// sample.
     pub fn add_triangle(&mut self, vertices: [ScreenVertex; 3], id: u32, opacity: Opacity) {
         self.push_unclipped(vertices, id, opacity);
     }
@@ -221,14 +222,15 @@ impl Frame {
         self.add_mesh_runs(mesh, std::slice::from_ref(&all));
     }
 
-    /// Adds some triangles of a mesh: the given `runs`, in order. They keep their ids in the mesh.
+    /// Adds the triangles of a mesh that are in `runs`, in order. They keep their ids in the mesh.
     ///
     /// Runs must be sorted and must not overlap; any part of a run beyond the mesh is ignored.
     ///
     /// With several threads the triangles are assembled in chunks of 4096. The order of the buffer,
     /// and with it the winner at equal depth, does not depend on how the chunks are distributed.
     pub fn add_mesh_runs(&mut self, mesh: MeshTriangles<'_>, runs: &[Range<usize>]) {
-        // One rectangle test for all triangles of the mesh: it depends only on the frame.
+        // One rectangle test serves all triangles of the mesh, because it depends only on the
+        // frame.
         let (bounds, compare) = (self.sample_bounds(), self.compare);
         let count: usize = runs.iter().map(ExactSizeIterator::len).sum();
         if self.threads > 1 && count >= PARALLEL_TRIANGLES {
@@ -263,8 +265,8 @@ impl Frame {
 
     /// Adds part of a clipped triangle.
     ///
-    /// `weights` are the weights of the source triangle's vertices at each of the given vertices;
-    /// from them, fragments get weights of the source triangle.
+    /// `weights` contains the weights of the source triangle's vertices at each of these vertices.
+    /// They convert the weights of fragments to weights in the source triangle.
     pub fn add_clipped_triangle(
         &mut self,
         vertices: [ScreenVertex; 3],
@@ -278,7 +280,7 @@ impl Frame {
     /// Adds a line `width` pixels wide, as a rectangle whose square ends are flush with the ends of
     /// the line.
     ///
-    /// Its fragments have the weights of the two ends, and 0 for the third vertex.
+    /// Its fragments have weights for the two ends and 0 for the third vertex.
     pub fn add_line(&mut self, ends: [ScreenVertex; 2], width: f64, id: u32, opacity: Opacity) {
         for (vertices, weights) in triangulate_line(ends, width).into_iter().flatten() {
             self.push_clipped(vertices, weights, id, opacity);
@@ -339,14 +341,15 @@ impl Frame {
             1.. => (vertices, [at_p, at_q, at_r]),
             _ => ([p, r, q], [at_p, at_r, at_q]),
         };
-        // An index instead of nine weights: most triangles have none, and all remain small.
+        // Store an index instead of nine weights: most triangles have no weights, and all remain
+        // small.
         let source = WeightSource::Clipped(self.source_weights.len() as u32);
         self.source_weights.push(weights);
         let vertices = normalize_inv_w(oriented_depths(self.compare.negates(), vertices));
         self.triangles.push(ScreenTriangle { vertices, id, source, opacity }, tiles);
     }
 
-    /// The test whether a triangle can cover a sample of this frame.
+    /// Returns the test for whether a triangle can cover a sample of this frame.
     fn sample_bounds(&self) -> SampleBounds {
         SampleBounds { grid: TileGrid::new(self.region), samples: self.samples }
     }
@@ -382,11 +385,11 @@ impl MeshTriangles<'_> {
         }
     }
 
-    /// Primitive assembly: appends the triangles of a run that are not culled and may cover a
+    /// Assembles primitives: appends the triangles of a run that are not culled and may cover a
     /// sample.
     ///
-    /// The order of tests: missing vertices, winding, bounds, degeneracy. Most triangles of a fine
-    /// mesh fail the bounds test.
+    /// The tests run in this order: missing vertices, winding, bounds, degeneracy. Most triangles
+    /// of a fine mesh fail the bounds test.
     fn assemble_triangles<const NEGATES: bool>(
         &self,
         bounds: SampleBounds,
@@ -405,7 +408,7 @@ impl MeshTriangles<'_> {
             if !self.cull.retains(area) {
                 continue;
             }
-            // In a mesh finer than the pixels, most triangles end here, before any setup.
+            // In a mesh finer than the pixels, most triangles are dropped here, before any setup.
             let Some(tiles) = bounds.touched_tiles([p, q, r]) else { continue };
             let vertices = oriented_depths(NEGATES, [p, q, r]);
             if let Some(triangle) = assemble_triangle(vertices, area, id, self.opacity) {
@@ -415,7 +418,7 @@ impl MeshTriangles<'_> {
     }
 }
 
-/// The vertices with depths for which greater wins.
+/// Returns the vertices with depths oriented so that greater wins.
 #[inline(always)]
 fn oriented_depths(negates: bool, mut vertices: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
     if negates {
@@ -426,7 +429,8 @@ fn oriented_depths(negates: bool, mut vertices: [ScreenVertex; 3]) -> [ScreenVer
     vertices
 }
 
-/// A whole triangle with its vertices clockwise on the screen; `None` if it is degenerate.
+/// Assembles a whole triangle with its vertices clockwise on the screen, or returns `None` if it is
+/// degenerate.
 ///
 /// `area` is the [`signed_area`] of the vertices, already computed for culling.
 #[inline(always)]
@@ -446,9 +450,10 @@ fn assemble_triangle(
     Some(ScreenTriangle { vertices: normalize_inv_w(vertices), id, source, opacity })
 }
 
-/// The test whether a triangle's bounds contain a sample of the frame, and which tiles they touch.
+/// The test for whether a triangle's bounds contain a sample of the frame and which tiles they
+/// touch.
 ///
-/// Conservative: a bounding rectangle may contain a sample that the triangle does not cover.
+/// It is conservative: a bounding rectangle may contain a sample that the triangle does not cover.
 #[derive(Clone, Copy)]
 struct SampleBounds {
     /// The tiles of the frame's region.
@@ -458,16 +463,16 @@ struct SampleBounds {
 }
 
 impl SampleBounds {
-    /// The tiles of the frame that a triangle's bounds touch; `None` if they touch none or contain
-    /// no sample.
+    /// Returns the tiles of the frame that a triangle's bounds touch, or `None` if they touch no
+    /// tile or contain no sample.
     #[inline(always)]
     fn touched_tiles(&self, [p, q, r]: [ScreenVertex; 3]) -> Option<TileRange> {
         // The bounding box in grid steps.
         let x = [p.x.min(q.x).min(r.x), p.x.max(q.x).max(r.x)];
         let y = [p.y.min(q.y).min(r.y), p.y.max(q.y).max(r.y)];
         let (width, height) = (x[1].wrapping_sub(x[0]), y[1].wrapping_sub(y[0]));
-        // Boxes at least as wide and high as a pixel contain all of its samples, or those of its
-        // neighbors.
+        // A box at least as wide and tall as a pixel contains every sample, of this pixel or of a
+        // neighbor.
         let is_large = (width >= SUBPIXELS - 1) & (height >= SUBPIXELS - 1);
         if is_large || self.holds_sample([x[0], y[0]], [width, height]) {
             self.grid.tiles_in_bounds(x, y)
@@ -476,7 +481,8 @@ impl SampleBounds {
         }
     }
 
-    /// Whether a box contains a sample, given its minimum corner and its size in grid steps.
+    /// Returns whether a box contains a sample, given its minimum corner and its size in grid
+    /// steps.
     ///
     /// Bounds are closed: a sample on the border counts, because the top-left rule may assign it to
     /// the triangle. Samples repeat with every pixel, so the distance to the next one is a

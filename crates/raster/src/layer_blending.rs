@@ -1,4 +1,4 @@
-//! Blending of translucent layers: fragment by fragment, back to front, sample by sample.
+//! Blending of translucent layers, back to front, separately for each sample.
 //!
 //! ```text
 //!   pixel: opaque A (samples 0–2), opaque B (sample 3), layer C (all), layer D (samples 2–3)
@@ -6,8 +6,8 @@
 //!   sample 1: A ← C       sample 3: B ← C ← D        then the mean of the samples
 //! ```
 //!
-//! The order is exact per pixel, by depth, for any submission order (order-independent transparency
-//! with per-pixel lists).
+//! Layers are sorted by depth in each pixel, so the order is exact for any submission order
+//! (order-independent transparency with per-pixel lists).
 
 use crate::fragment_lanes::LANES;
 use crate::sample_plane::NO_TRIANGLE;
@@ -19,13 +19,15 @@ use crate::{Encode, Surface, TranslucentColors};
 /// The contributions to the pixels with layers in one row of a tile, and their colors.
 #[derive(Debug, Default)]
 pub(crate) struct LayeredPixels {
-    /// From left to right; within a pixel back to front, opaque ones first.
+    /// The contributions from left to right; within a pixel, opaque contributions first, then
+    /// layers back to front.
     pub(crate) contributions: Vec<Contribution>,
     /// The indices of contributions in the order in which they are shaded.
     shading_order: Vec<u32>,
     /// The color of each contribution.
     colors: Vec<[f32; 4]>,
-    /// The factor applied to everything behind each contribution; meaningless for opaque ones.
+    /// The factor applied to everything behind each contribution; meaningless for opaque
+    /// contributions.
     transmittances: Vec<[f32; 3]>,
 }
 
@@ -33,11 +35,11 @@ impl<S: Surface> TileResolve<'_, S> {
     /// Lists the contributions to each pixel of a run with layers: each opaque triangle once, then
     /// the layers back to front.
     ///
-    /// A pixel that shows the background gets a contribution without a triangle, so it is written
-    /// too.
+    /// A pixel that shows the background gets a contribution without a triangle, so it is also
+    /// written.
     ///
-    /// Every sample of a pixel is in exactly one opaque contribution: its triangle or the
-    /// background. There are at most as many of these as samples.
+    /// Every sample of a pixel is in exactly one opaque contribution, which is a triangle or the
+    /// background. There are at most as many opaque contributions as samples.
     #[inline(always)]
     pub(crate) fn gather_contributions(
         &self,
@@ -60,7 +62,7 @@ impl<S: Surface> TileResolve<'_, S> {
                 remaining &= !mask;
                 contributions.push(Contribution { x, triangle, mask, translucent: false });
             }
-            // The layers of this pixel: they are sorted by pixel.
+            // Take the layers of this pixel; layers are sorted by pixel.
             let over;
             (over, layers) = split_before(layers, (run.y * TILE + x + 1) as usize);
             contributions.extend(over.iter().map(|layer| {
@@ -70,7 +72,7 @@ impl<S: Surface> TileResolve<'_, S> {
         }
     }
 
-    /// A mask with one bit for each sample.
+    /// Returns a mask with one bit for each sample.
     fn full_sample_mask(&self) -> u16 {
         (u32::MAX >> (32 - self.frame.samples.count())) as u16
     }
@@ -79,9 +81,9 @@ impl<S: Surface> TileResolve<'_, S> {
     /// pixels.
     ///
     /// Groups of eight extend across pixel borders, so lanes are idle only in the last group of the
-    /// row. Contributions are shaded in the order of their triangles. In the order of pixels, a
-    /// group would alternate between a layer and the surface behind it, and surfaces shade eight
-    /// fragments of one draw call in half the time of eight from two.
+    /// row. Contributions are shaded in the order of their triangles. In pixel order, a group would
+    /// alternate between a layer and the surface behind it, and surfaces shade eight fragments of
+    /// one draw call in half the time they need for fragments of two.
     #[inline(always)]
     pub(crate) fn write_layered_pixels<P: Copy>(
         &self,
@@ -92,7 +94,7 @@ impl<S: Surface> TileResolve<'_, S> {
     ) {
         self.shade_contributions(y, layered);
         let LayeredPixels { contributions, colors, transmittances, .. } = layered;
-        // Blend pixel by pixel: contributions of one pixel are adjacent.
+        // Blend pixel by pixel: the contributions to one pixel are adjacent.
         let mut from = 0;
         while let Some(first) = contributions.get(from) {
             let of_pixel = contributions[from..].iter().take_while(|next| next.x == first.x);
@@ -135,9 +137,9 @@ impl<S: Surface> TileResolve<'_, S> {
         }
     }
 
-    /// The color of a pixel: the mean of its samples.
+    /// Returns the color of a pixel: the mean of its samples.
     ///
-    /// Without layers it is the plain multisample resolve, weighted by the numbers of samples.
+    /// Without layers this is the plain multisample resolve, weighted by sample counts.
     #[inline(always)]
     fn blend_pixel(
         &self,
@@ -158,7 +160,7 @@ impl<S: Surface> TileResolve<'_, S> {
         self.mean_color(sum)
     }
 
-    /// The color of a pixel with layers: back-to-front blending of each sample.
+    /// Returns the color of a pixel with layers, after blending each sample back to front.
     ///
     /// Blending the means instead would be cheaper, but the background would show through where an
     /// opaque edge and the edge of a layer meet.
@@ -193,7 +195,7 @@ impl<S: Surface> TileResolve<'_, S> {
         self.mean_color(sum)
     }
 
-    /// The mean of a pixel's samples from their sum, in linear light.
+    /// Returns the mean of a pixel's samples, given their sum in linear light.
     #[inline(always)]
     fn mean_color(&self, sum: [f32; 4]) -> [f32; 4] {
         let count = self.frame.samples.count() as f32;

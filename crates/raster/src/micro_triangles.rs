@@ -151,8 +151,8 @@ impl MicroTriangles {
     }
 }
 
-/// The triangles of a batch whose bounds are at most 4 × 4 pixels, one bit each, and the maximum
-/// height of their bounds.
+/// Returns the triangles of a batch whose bounds are at most 4 × 4 pixels, one bit each, and the
+/// maximum height of their bounds.
 ///
 /// All 16 positions are in the tile; positions beyond the border of the picture are never shown.
 #[inline(always)]
@@ -204,7 +204,7 @@ mod tests {
         })
     }
 
-    /// The visible depths and triangles of planes.
+    /// Returns the visible depths and triangles of planes.
     fn visible_samples(planes: &[SamplePlane]) -> Vec<(f32, u32)> {
         let pixels = || (0..56).flat_map(|y| (0..64).map(move |x| pixel_index(x, y)));
         let samples = |plane: &SamplePlane| {

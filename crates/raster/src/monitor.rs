@@ -1,10 +1,10 @@
-//! Monitors: progress and cancellation of long work.
+//! Monitors: progress reports and cancellation for long-running work.
 
 use std::fmt::Debug;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// An observer of long work: it receives progress reports and may request cancellation.
+/// An observer of long-running work: it receives progress reports and may request cancellation.
 ///
 /// Both methods are called often, from any worker thread, and should return quickly. An
 /// [`AtomicBool`] is a monitor that requests cancellation once it is true.
@@ -24,12 +24,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// }
 /// ```
 pub trait Monitor: Debug + Send + Sync {
-    /// Whether the work should end early. Its result is then incomplete.
+    /// Returns whether the work should stop early. Its result is then incomplete.
     fn is_canceled(&self) -> bool {
         false
     }
 
-    /// Records that `done` of `total` equal parts of the work are done; `total` is not 0. Calls
+    /// Records that `done` of `total` equal parts of the work are done; `total` is never 0. Calls
     /// from several threads may arrive out of order.
     fn report_progress(&self, done: u64, total: u64) {
         let _ = (done, total);
@@ -37,7 +37,8 @@ pub trait Monitor: Debug + Send + Sync {
 }
 
 impl Monitor for AtomicBool {
-    /// The load is relaxed: the flag orders nothing else, and noticing it late costs little.
+    /// Loads the flag with relaxed ordering: it orders nothing else, and noticing it late costs
+    /// little.
     fn is_canceled(&self) -> bool {
         self.load(Ordering::Relaxed)
     }
@@ -53,8 +54,8 @@ impl<M: Monitor + ?Sized> Monitor for Arc<M> {
     }
 }
 
-/// The number of threads for a piece of work, and an optional monitor. Where this type is accepted,
-/// a plain number of threads works too.
+/// The number of threads for a piece of work, with an optional monitor. Functions that accept this
+/// type also accept a plain number of threads.
 #[derive(Clone, Copy, Debug)]
 pub struct Workers<'a> {
     /// The maximum number of threads, at least 1. Results do not depend on it.
@@ -64,13 +65,13 @@ pub struct Workers<'a> {
 }
 
 impl<'a> Workers<'a> {
-    /// The given number of threads, observed by a monitor.
+    /// Combines a number of threads with a monitor.
     #[must_use]
     pub const fn monitored(threads: usize, monitor: &'a dyn Monitor) -> Self {
         Self { threads, monitor: Some(monitor) }
     }
 
-    /// Whether the work should end early.
+    /// Returns whether the work should stop early.
     #[must_use]
     pub fn is_canceled(&self) -> bool {
         self.monitor.is_some_and(Monitor::is_canceled)

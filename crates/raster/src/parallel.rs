@@ -1,8 +1,8 @@
 //! Data-parallel loops over scoped threads.
 //!
-//! Threads are started for each loop and end with it. Starting one takes about 30 µs; loops with
-//! more than one thread run for milliseconds. In return, no thread pool outlives the frame, and no
-//! dependency is needed.
+//! Threads are started for each loop and end with it. Starting a thread takes about 30 µs, while
+//! loops with more than one thread run for milliseconds. In return, no thread pool outlives the
+//! frame, and no dependency is needed.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -20,7 +20,7 @@ where
     for_each_with_workers(&mut nothing, items, |(), item| work(item));
 }
 
-/// Calls `work` with each item and the state of the thread that takes it.
+/// Calls `work` with each item and the state of the thread that processes it.
 ///
 /// There is one thread per worker, but at most one per item. The calling thread is the first of
 /// them; a single worker starts no thread.

@@ -3,17 +3,17 @@
 use crate::ScreenVertex;
 use crate::screen_vertex::{GRID_RANGE, SUBPIXELS};
 
-/// How a primitive takes part in visibility: the alpha modes of glTF, `OPAQUE`, `MASK` and `BLEND`.
+/// How a primitive affects visibility: the glTF alpha modes `OPAQUE`, `MASK` and `BLEND`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Opacity {
-    /// Hides everything behind it: its color and alpha replace those behind.
+    /// Hides everything behind it: its color and alpha replace the values behind.
     #[default]
     Opaque,
     /// Alpha tested: hides everything behind it where
     /// [`Surface::passes_alpha_test`](crate::Surface::passes_alpha_test) is true, and is absent
     /// elsewhere.
     Masked,
-    /// Alpha blended: its fragments are blended over the opaque ones, back to front.
+    /// Alpha blended: its fragments are blended over opaque fragments, back to front.
     Translucent,
 }
 
@@ -30,7 +30,7 @@ pub enum CullMode {
 }
 
 impl CullMode {
-    /// Whether a triangle with this [signed area](crate::signed_area) is drawn.
+    /// Returns whether a triangle with this [signed area](crate::signed_area) is drawn.
     #[inline(always)]
     #[must_use]
     pub const fn retains(self, area: i64) -> bool {
@@ -44,13 +44,14 @@ impl CullMode {
 
 /// The weights of a source primitive's vertices at each vertex of a triangle that is part of it.
 ///
-/// A clipped triangle arrives as several triangles, a line or a point as two. Surfaces are shaded
-/// with weights in the submitted primitive, and these weights convert to them.
+/// A clipped triangle becomes several triangles, and a line or a point becomes two. Surfaces are
+/// shaded with weights in the submitted primitive, and these weights convert to those.
 pub type SourceWeights = [[f32; 3]; 3];
 
 /// A screen triangle with its vertices clockwise (y down), and the primitive to which it belongs.
 ///
-/// Aligned to a cache line, which it fills, because bins refer to triangles all over the buffer.
+/// It fills one cache line and is aligned to it, because bins refer to triangles all over the
+/// buffer.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub(crate) struct ScreenTriangle {
@@ -64,7 +65,7 @@ pub(crate) struct ScreenTriangle {
 const _: () = assert!(size_of::<ScreenTriangle>() == 64, "one cache line");
 
 impl ScreenTriangle {
-    /// The depth of the nearest vertex: no sample of the triangle is nearer.
+    /// Returns the depth of the nearest vertex: no sample of the triangle is nearer.
     #[inline(always)]
     pub(crate) fn nearest_depth(&self) -> f32 {
         let [p, q, r] = &self.vertices;
@@ -72,7 +73,7 @@ impl ScreenTriangle {
     }
 }
 
-/// How weights of a screen triangle's vertices convert to weights of its source primitive's
+/// The conversion from weights of a screen triangle's vertices to weights of its source primitive's
 /// vertices.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum WeightSource {
@@ -90,7 +91,8 @@ const SAFE_INV_W: core::ops::RangeInclusive<f32> = 1.0 / MAX_SAFE_INV_W..=MAX_SA
 /// 2⁴⁰.
 const MAX_SAFE_INV_W: f32 = 1_099_511_627_776.0;
 
-/// The vertices, with extreme 1/w scaled to 1: weights depend only on the ratios of 1/w.
+/// Returns the vertices, with 1/w scaled if it is extreme: weights depend only on the ratios of
+/// 1/w.
 #[inline(always)]
 pub(crate) fn normalize_inv_w(vertices: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
     let is_safe = |vertex: &ScreenVertex| SAFE_INV_W.contains(&vertex.inv_w());
@@ -100,10 +102,10 @@ pub(crate) fn normalize_inv_w(vertices: [ScreenVertex; 3]) -> [ScreenVertex; 3] 
     scale_inv_w_to_one(vertices)
 }
 
-/// The vertices with 1/w scaled to make the largest 1.
+/// Scales 1/w so that the largest value is 1.
 ///
-/// None becomes less than 2⁻⁸⁰, so a weight between two small ones still has a divisor. Out of
-/// line, because ordinary scenes never need it.
+/// No value becomes less than 2⁻⁸⁰, so a weight between two small values still has a divisor. Kept
+/// out of line, because ordinary scenes never need it.
 #[cold]
 fn scale_inv_w_to_one(vertices: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
     let [p, q, r] = vertices.map(|vertex| f64::from(vertex.inv_w()));
@@ -115,9 +117,11 @@ fn scale_inv_w_to_one(vertices: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
     })
 }
 
-/// A line as two triangles of a rectangle around it; `None` if its ends coincide.
+/// Converts a line to the two triangles of a rectangle around it, or returns `None` if its ends
+/// coincide.
 ///
-/// The ends are square and flush with the line's ends. Depth and 1/w are constant across the line.
+/// The ends of the rectangle are flush with the ends of the line. Depth and 1/w are constant across
+/// the line.
 pub(crate) fn triangulate_line(
     [a, b]: [ScreenVertex; 2],
     width: f64,
@@ -137,12 +141,12 @@ pub(crate) fn triangulate_line(
     [Some(([a0, b0, b1], [at_a, at_b, at_b])), Some(([a0, b1, a1], [at_a, at_b, at_a]))]
 }
 
-/// A point as two triangles of a square around it, with constant depth and 1/w.
+/// Converts a point to the two triangles of a square around it, with constant depth and 1/w.
 pub(crate) fn triangulate_point(
     center: ScreenVertex,
     size: f64,
 ) -> [([ScreenVertex; 3], SourceWeights); 2] {
-    // Half a side in grid steps.
+    // Half the side in grid steps.
     let half = 0.5 * size * f64::from(SUBPIXELS);
     let corner = |x: f64, y: f64| offset_vertex(center, x * half, y * half);
     let [nw, ne] = [corner(-1.0, -1.0), corner(1.0, -1.0)];
@@ -151,9 +155,9 @@ pub(crate) fn triangulate_point(
     [([nw, ne, se], weights), ([nw, se, sw], weights)]
 }
 
-/// A vertex moved by grid steps, rounded to the nearest step (halves up).
+/// Moves a vertex by grid steps, rounded to the nearest step (halves up).
 fn offset_vertex(vertex: ScreenVertex, dx: f64, dy: f64) -> ScreenVertex {
-    // Even for very wide lines, the vertices stay within the guard band.
+    // Keep the vertices within the guard band even for very wide lines.
     let shift = |from: i32, by: f64| {
         let moved = from.saturating_add((by + 0.5).floor() as i32);
         moved.clamp(*GRID_RANGE.start(), *GRID_RANGE.end())

@@ -10,11 +10,11 @@
 //! ```
 //!
 //! A sample is covered if none of the three edge functions is negative, and visible if it is also
-//! strictly nearer than the depth buffer. Because the comparison is strict and triangles come in
-//! submission order, the triangle submitted first wins depth ties.
+//! strictly nearer than the depth buffer. Because the comparison is strict and triangles are drawn
+//! in submission order, the triangle submitted first wins depth ties.
 //!
 //! Eight blocks of a row are classified at once by the edge functions at their corners. For
-//! triangles of a few blocks this does not pay, and they are drawn block by block.
+//! triangles of a few blocks this does not pay off, so they are drawn block by block.
 //!
 //! ```text
 //!   E(x, y) = A x + B y + C                 edge function, ≥ 0 inside (Pineda 1988), 32 bits
@@ -41,9 +41,9 @@ const FEW_BLOCKS: i32 = 4;
 
 /// Rasterizes an opaque triangle into all sample planes of a tile, with depth test and depth write.
 ///
-/// `start` gives the start values of the triangle's functions in a plane.
+/// `start` returns the start values of the triangle's functions in a plane.
 ///
-/// Every plane holds one sample of each pixel. Small triangles are drawn block by block in all
+/// Every plane contains one sample of each pixel. Small triangles are drawn block by block in all
 /// planes, large ones plane by plane along the rows of blocks.
 #[inline(always)]
 pub(crate) fn rasterize_triangle<S: Simd>(
@@ -54,7 +54,7 @@ pub(crate) fn rasterize_triangle<S: Simd>(
     triangle: u32,
 ) {
     let TriangleFunctions { x0, y0, x1, y1, max_depth, .. } = lanes.functions;
-    // The blocks under the bounding box.
+    // The blocks that the bounding box touches.
     let (columns, rows) = (x0 / 8..(x1 - 1) / 8 + 1, y0 / 8..(y1 - 1) / 8 + 1);
     if (columns.end - columns.start) * (rows.end - rows.start) > FEW_BLOCKS {
         for (sample, plane) in planes.iter_mut().enumerate() {
@@ -70,7 +70,7 @@ pub(crate) fn rasterize_triangle<S: Simd>(
         let columns = lanes.block_columns(simd, block);
         for (sample, plane) in planes.iter_mut().enumerate() {
             let start = start(sample);
-            // Hierarchical z, then the corners of the block against the edges.
+            // Test hierarchical z, then the corners of the block against the edges.
             if max_depth > plane.block_farthest[block.index] && !lanes.rejects_block(&start, block)
             {
                 plane.rasterize_partial_block(simd, lanes, &start, columns, triangle);
@@ -85,8 +85,8 @@ impl SamplePlane {
     /// Rasterizes the part of a large triangle that lies in one row of blocks.
     ///
     /// All eight blocks are classified and bounded by vector instructions; then only touched blocks
-    /// are visited, in the bit order of a mask. The bounds of the blocks are raised before their
-    /// samples are written, by depths that hold for the samples to come.
+    /// are visited, in the bit order of a mask. The bounds of a block are raised before its samples
+    /// are written, to depths that are valid for the new samples.
     #[inline(always)]
     fn rasterize_block_row<S: Simd>(
         &mut self,
@@ -104,8 +104,8 @@ impl SamplePlane {
         let coverage = lanes.classify_blocks(simd, start, row);
         let BlockDepths { min_depth, max_depth, is_unclamped } =
             lanes.block_depth_bounds(simd, start, row);
-        // Hierarchical z: touched blocks that are not completely hidden. Blocks that the triangle
-        // fills, and is completely in front of, need no depth test.
+        // Hierarchical z: touched blocks that are not completely hidden. A block needs no depth
+        // test if the triangle fills it and is completely in front of it.
         let touched = coverage.is_touched & max_depth.simd_gt(farthest);
         let full = touched & coverage.is_full & is_unclamped;
         let in_front = min_depth.simd_gt(nearest);
@@ -143,9 +143,9 @@ impl SamplePlane {
 
     /// Overwrites a block that the triangle fills and is completely in front of.
     ///
-    /// No coverage, no depth test and no clamping: a depth and an index are stored for each sample.
-    /// This is the fastest path, for a large triangle that is the first in a block or in front of
-    /// all earlier ones.
+    /// There is no coverage test, depth test or clamping: a depth and an index are stored for each
+    /// sample. This is the fastest path, for a large triangle that is the first in a block or in
+    /// front of all earlier ones.
     #[inline(always)]
     fn overwrite_block<S: Simd>(
         &mut self,
@@ -211,9 +211,9 @@ impl SamplePlane {
         }
     }
 
-    /// Depth test and depth write for eight samples of a row, starting at array index `first`.
+    /// Depth-tests and writes eight samples of a row, starting at array index `first`.
     ///
-    /// The test is strict: at equal depth the stored triangle, which was submitted earlier, stays.
+    /// The test is strict: at equal depth the stored triangle, which was submitted earlier, wins.
     #[inline(always)]
     fn depth_test_row<S: Simd>(
         &mut self,
@@ -225,7 +225,7 @@ impl SamplePlane {
     ) {
         let depths: &mut [f32] = &mut self.depth[first..first + BLOCK_SIDE];
         let old = f32x8::from_slice(simd, depths);
-        // Depth test. A depth tie fails the comparison: the triangle drawn first stays.
+        // Depth test. A depth tie fails the comparison: the triangle drawn first wins.
         let nearer = depth.simd_gt(old);
         let visible = covered.map_or(nearer, |covered| covered & nearer);
         // Both stores are unconditional: lanes that fail the test write back the stored value.
@@ -237,8 +237,8 @@ impl SamplePlane {
 
     /// Calls `each(array index, x, y, depth)` for every covered sample that passes the depth test.
     ///
-    /// Nothing is written here: it is for masked triangles, whose alpha test comes in between, and
-    /// for translucent ones. `compare` is the depth test.
+    /// This method writes nothing. It is for masked triangles, whose alpha test comes between depth
+    /// test and depth write, and for translucent triangles. `compare` is the depth test.
     ///
     /// `each` may write to the plane: the depth test of a row is done before its samples are
     /// visited, and no sample is visited twice.
@@ -286,9 +286,9 @@ impl SamplePlane {
         }
     }
 
-    /// The depth of the farthest sample of a block.
+    /// Returns the depth of the farthest sample of a block.
     ///
-    /// 64 depths: eight vectors are reduced to one, then eight lanes to one number.
+    /// There are 64 depths: eight vectors are reduced to one, then eight lanes to one number.
     #[inline(always)]
     fn farthest_in_block<S: Simd>(&self, simd: S, block: Block) -> f32 {
         let first = block.index * BLOCK_SIDE * BLOCK_SIDE;
@@ -301,9 +301,9 @@ impl SamplePlane {
         least.as_slice().iter().fold(f32::INFINITY, |a, &b| if b < a { b } else { a })
     }
 
-    /// Depth test and depth write for one sample, without a branch.
+    /// Depth-tests and writes one sample, without a branch.
     ///
-    /// The nearest bound of the block is raised with it; its farthest bound stays, which is safe.
+    /// The block's nearest bound is raised if necessary; its farthest bound stays, which is safe.
     #[inline(always)]
     pub(crate) fn depth_test_sample(&mut self, index: usize, depth: f32, triangle: u32) {
         let (old, old_triangle) = (self.depth[index], self.triangle[index]);
@@ -316,7 +316,7 @@ impl SamplePlane {
 
     /// Writes the depth and triangle of one sample without a test.
     ///
-    /// The nearest bound of the block is raised with it; its farthest bound stays, which is safe.
+    /// The block's nearest bound is raised if necessary; its farthest bound stays, which is safe.
     pub(crate) fn write_sample(&mut self, index: usize, depth: f32, triangle: u32) {
         self.depth[index] = depth;
         self.triangle[index] = triangle;
@@ -325,7 +325,8 @@ impl SamplePlane {
     }
 }
 
-/// The nearer of two depths, neither of them NaN: one comparison, where `f32::max` takes more.
+/// Returns the nearer of two depths, neither of them NaN. This takes one comparison; `f32::max`
+/// takes more.
 fn nearer_depth(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }

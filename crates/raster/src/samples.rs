@@ -57,13 +57,13 @@ impl Samples {
         }
     }
 
-    /// The number of samples per pixel.
+    /// Returns the number of samples per pixel.
     #[must_use]
     pub const fn count(self) -> usize {
         self.sixteenths().len()
     }
 
-    /// The offsets of the samples from the center of the pixel, in 1/16 pixel.
+    /// Returns the offsets of the samples from the center of the pixel, in 1/16 pixel.
     const fn sixteenths(self) -> &'static [(i32, i32)] {
         match self {
             Self::One => &ONE,
@@ -73,8 +73,8 @@ impl Samples {
         }
     }
 
-    /// The minimum and maximum offsets of a sample from the left or upper border of its pixel, in
-    /// grid steps.
+    /// Returns the minimum and maximum offsets of a sample from the left or upper border of its
+    /// pixel, in grid steps.
     pub(crate) fn offset_range(self) -> (i32, i32) {
         let all = self.sixteenths().iter().flat_map(|&(x, y)| [x, y]);
         let (least, greatest) =
@@ -82,7 +82,7 @@ impl Samples {
         (SUBPIXELS / 2 + least * (SUBPIXELS / 16), SUBPIXELS / 2 + greatest * (SUBPIXELS / 16))
     }
 
-    /// The offsets of all samples: see [`sample_offset`](Self::sample_offset).
+    /// Returns the offsets of all samples: see [`sample_offset`](Self::sample_offset).
     pub(crate) fn sample_offsets(self) -> impl Iterator<Item = (i64, i64)> {
         (0..self.count()).map(move |sample| self.sample_offset(sample))
     }
@@ -95,14 +95,14 @@ impl Samples {
         [x, y].map(|steps| steps as f32 / SUBPIXELS as f32)
     }
 
-    /// The offset of a sample from the upper left corner of its pixel, in grid steps.
+    /// Returns the offset of a sample from the upper left corner of its pixel, in grid steps.
     #[inline(always)]
     pub(crate) fn sample_offset(self, sample: usize) -> (i64, i64) {
         let (x, y) = grid_offset(self.sixteenths()[sample]);
         (i64::from(x), i64::from(y))
     }
 
-    /// The offsets of all samples from the upper left corner of their pixel, in grid steps.
+    /// Returns the offsets of all samples from the upper left corner of their pixel, in grid steps.
     #[inline(always)]
     pub(crate) fn grid_offsets(self) -> impl Iterator<Item = (i32, i32)> {
         self.sixteenths().iter().map(|sample| grid_offset(*sample))

@@ -3,7 +3,7 @@
 //! Coverage uses only integers. A vertex is rounded once to the nearest multiple of 1/256 pixel (8
 //! subpixel bits, as Direct3D requires and GPUs use), and from there on every edge function is
 //! exact. Vertices shared by triangles are snapped alike, so no gap can open between them. The
-//! price is an error of at most 1/512 pixel in the position of a vertex.
+//! price is an error of at most 1/512 pixel in each vertex coordinate.
 
 use core::num::NonZeroU32;
 use homog::{Point, Screen};
@@ -14,15 +14,17 @@ pub const SUBPIXEL_BITS: u32 = 8;
 pub const SUBPIXELS: i32 = 1 << SUBPIXEL_BITS;
 /// The minimum and maximum coordinates of a vertex in pixels. Geometry beyond them must be clipped.
 ///
-/// It leaves a guard band of 8192 pixels around a picture of [`MAX_SIDE`](crate::MAX_SIDE) (CL-4),
-/// so few triangles need clipping at the sides of the picture. No triangle is then wider or higher
-/// than 32768 pixels, and its edge functions change by less than 2³⁰ across a tile.
+/// This leaves a guard band of 8192 pixels around a picture with sides of
+/// [`MAX_SIDE`](crate::MAX_SIDE) (CL-4), so few triangles need clipping at the sides of the
+/// picture. No triangle is then wider or taller than 32768 pixels, and its edge functions change by
+/// less than 2³⁰ across a tile.
 pub const GUARD_BAND: core::ops::RangeInclusive<f64> = -8192.0..=24576.0;
 
 /// [`GUARD_BAND`] in grid steps.
 pub(crate) const GRID_RANGE: core::ops::RangeInclusive<i32> = -8192 * SUBPIXELS..=24576 * SUBPIXELS;
 
-/// The maximum magnitude of a depth: no step in the evaluation of a depth plane overflows.
+/// The maximum magnitude of a depth, chosen so that no step in the evaluation of a depth plane
+/// overflows.
 pub const MAX_DEPTH: f32 = 1_048_576.0;
 
 /// A vertex after perspective divide, viewport transform and snapping. It can always be drawn.
@@ -34,16 +36,16 @@ pub struct ScreenVertex {
     pub(crate) x: i32,
     pub(crate) y: i32,
     pub(crate) depth: f32,
-    /// The bits of 1/w. It is positive, so they are not all 0, and an `Option` takes no extra
+    /// The bits of 1/w. Since 1/w is positive, they are not all 0, and an `Option` takes no extra
     /// space.
     inv_w: NonZeroU32,
 }
 
 impl ScreenVertex {
-    /// A vertex on the grid.
+    /// Creates a vertex on the grid.
     ///
-    /// `None` if it cannot be drawn: it is outside [`GUARD_BAND`], its depth is beyond ±2²⁰ or NaN,
-    /// or 1/w is not positive and finite.
+    /// Returns `None` if the vertex cannot be drawn: it is outside [`GUARD_BAND`], its depth is
+    /// beyond ±2²⁰ or NaN, or 1/w is not positive and finite.
     #[inline]
     #[must_use]
     pub fn new(x: i32, y: i32, depth: f32, inv_w: f32) -> Option<Self> {
@@ -51,9 +53,9 @@ impl ScreenVertex {
         Self::new_if_drawable(on_grid, x, y, depth, inv_w)
     }
 
-    /// A vertex, if it is `on_grid` and otherwise drawable.
+    /// Creates a vertex if it is `on_grid` and otherwise drawable.
     ///
-    /// Branchless, so a loop over eight vertices compiles to vector instructions.
+    /// This is branchless, so a loop over eight vertices compiles to vector instructions.
     #[inline(always)]
     pub(crate) fn new_if_drawable(
         on_grid: bool,
@@ -71,35 +73,35 @@ impl ScreenVertex {
     /// Snaps a screen point (pixels, y down; z is the depth), given the clip-space w by which it
     /// was divided.
     ///
-    /// `None` if the point cannot be drawn: a coordinate is not finite or outside [`GUARD_BAND`],
-    /// the depth is beyond ±2²⁰, or w is not positive. Geometry clipped to the view volume with a
-    /// guard band can always be drawn.
+    /// Returns `None` if the point cannot be drawn: a coordinate is not finite or outside
+    /// [`GUARD_BAND`], the depth is beyond ±2²⁰, or w is not positive. Geometry clipped to the view
+    /// volume with a guard band can always be drawn.
     #[must_use]
     pub fn snap(point: Point<Screen>, w: f64) -> Option<Self> {
         let (x, y) = (snap_coordinate(point.x())?, snap_coordinate(point.y())?);
         Self::new(x, y, point.z() as f32, (1.0 / w) as f32)
     }
 
-    /// Grid steps from the left border of the picture.
+    /// Returns x in grid steps from the left border of the picture.
     #[must_use]
     pub const fn x(&self) -> i32 {
         self.x
     }
 
-    /// Grid steps from the top border of the picture.
+    /// Returns y in grid steps from the top border of the picture.
     #[must_use]
     pub const fn y(&self) -> i32 {
         self.y
     }
 
-    /// The depth: 1 at the near plane, 0 at the far plane; larger is nearer.
+    /// Returns the depth: 1 at the near plane, 0 at the far plane; larger is nearer.
     #[must_use]
     pub const fn depth(&self) -> f32 {
         self.depth
     }
 
-    /// One over the clip-space w, which makes interpolation perspective-correct (IN-2). 1 in
-    /// parallel projections.
+    /// Returns 1/w for the clip-space w, which makes interpolation perspective-correct (IN-2). It
+    /// is 1 in parallel projections.
     #[inline(always)]
     #[must_use]
     pub const fn inv_w(&self) -> f32 {
@@ -107,9 +109,9 @@ impl ScreenVertex {
     }
 }
 
-/// Fixed-point snapping: the nearest grid step, halves up; `None` outside the guard band.
+/// Returns the nearest grid step, with halves rounded up, or `None` outside the guard band.
 ///
-/// Halves go up on both sides of 0, so moving a picture by whole pixels moves its grid with it.
+/// Halves round up on both sides of 0, so moving a picture by whole pixels moves its grid with it.
 fn snap_coordinate(pixels: f64) -> Option<i32> {
     let step = || (pixels * f64::from(SUBPIXELS) + 0.5).floor() as i32;
     GUARD_BAND.contains(&pixels).then(step)
@@ -124,7 +126,7 @@ mod tests {
         let x_of = |x| ScreenVertex::snap(Point::new(x, 0.0, 0.5), 2.0).map(|v| v.x);
         assert_eq!(x_of(1.0), Some(256));
         assert_eq!(x_of(1.0 + 0.5 / 256.0), Some(257));
-        assert_eq!(x_of(-1.0 + 0.5 / 256.0), Some(-255), "halves go up on both sides of 0");
+        assert_eq!(x_of(-1.0 + 0.5 / 256.0), Some(-255), "halves round up on both sides of 0");
         assert_eq!(x_of(-1.0 - 0.4 / 256.0), Some(-256));
     }
 

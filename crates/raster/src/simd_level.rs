@@ -1,15 +1,15 @@
-//! SIMD dispatch: selects the vector instructions for drawing a frame at run time.
+//! SIMD dispatch: selects at run time the vector instructions for drawing a frame.
 //!
 //! There are two levels: the baseline for which the program was built (SSE2 on x86-64, NEON on ARM)
 //! and AVX2. Each hot loop is compiled once per level. The picture does not depend on the level:
 //! every operation is exact or correctly rounded (no fused multiply-add, no approximate
-//! reciprocal), so each lane has the bits of the scalar computation.
+//! reciprocal), so each lane has the same bits as the scalar computation.
 //!
 //! On x86, shading is compiled only for AVX2 ([`SimdLevel::run_wide_kernel`]); without it,
 //! fragments are shaded one by one.
 //!
 //! More levels were tried and rejected. SSE4.2 saves little over SSE2 here and adds a third to the
-//! compiled code. AVX-512 pays only for filling large triangles; shading, which is eight lanes
+//! compiled code. AVX-512 pays off only for filling large triangles; shading, which is eight lanes
 //! wide, takes a tenth to a third longer with it (`cargo xtask bench raster`).
 
 use fearless_simd::Level;
@@ -23,7 +23,7 @@ pub struct SimdLevel {
 }
 
 impl SimdLevel {
-    /// The fastest level of this processor, the default for frames.
+    /// Returns the fastest level that this processor supports, the default for frames.
     #[must_use]
     pub fn best() -> Self {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -33,13 +33,13 @@ impl SimdLevel {
         Self::baseline()
     }
 
-    /// The baseline level of every processor for which the program was built.
+    /// Returns the baseline level, which every processor that can run the program supports.
     #[must_use]
     pub const fn baseline() -> Self {
         Self { level: Level::baseline() }
     }
 
-    /// All levels that this processor supports: the baseline, and AVX2 if it is more than that.
+    /// Returns all levels that this processor supports: the baseline, and AVX2 if available.
     #[must_use]
     pub fn available() -> Vec<Self> {
         let baseline = Self::baseline();
@@ -52,8 +52,8 @@ impl SimdLevel {
 
     /// Runs a kernel compiled for these instructions.
     ///
-    /// Every kernel is compiled twice: for AVX2 and for the baseline. It is a function call, not
-    /// inlined, so large kernels such as shading are compiled once rather than in every loop that
+    /// Every kernel is compiled twice: for AVX2 and for the baseline. The call is not inlined, so
+    /// large kernels such as shading are compiled once per level rather than in every loop that
     /// runs them.
     #[inline(never)]
     pub fn run_kernel<K: Kernel>(self, kernel: K) -> K::Output {
@@ -67,11 +67,12 @@ impl SimdLevel {
         kernel.run()
     }
 
-    /// Runs a kernel if the processor has better instructions than the oldest of its kind: AVX2 on
-    /// x86, anything elsewhere. Otherwise returns `None`: there is no copy of the kernel for SSE2.
+    /// Runs a kernel that has no SSE2 copy. On x86 this requires AVX2; without it, the method
+    /// returns `None`. On other processors the kernel always runs.
     ///
-    /// This is for kernels so large that a second copy is not worth it for the few processors
-    /// without AVX2. Callers then continue fragment by fragment, with the same bits.
+    /// Use it for kernels so large that a second copy is not worthwhile for the few processors
+    /// without AVX2. If the result is `None`, callers continue fragment by fragment, with the same
+    /// bits.
     #[inline(always)]
     pub fn run_wide_kernel<K: Kernel>(self, kernel: K) -> Option<K::Output> {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -85,20 +86,20 @@ impl SimdLevel {
         Some(self.run_kernel(kernel))
     }
 
-    /// Runs part of a wide kernel as a separate function, with the instructions of the kernel.
+    /// Runs part of a wide kernel as a separate function that uses the kernel's instructions.
     ///
-    /// A kernel is one function with all its calls inlined, and LLVM's time for a function grows
-    /// faster than the function: divided into a dozen parts, shading compiles in half the time.
+    /// A kernel is one function with all its calls inlined, and LLVM's compile time grows faster
+    /// than the size of a function. Divided into a dozen parts, shading compiles in half the time.
     /// Call it only inside [`run_wide_kernel`](Self::run_wide_kernel).
     ///
     /// # Panics
-    /// Panics on x86 processors without AVX2, which run no wide kernels.
+    /// Panics on x86 processors without AVX2, which do not run wide kernels.
     #[inline(always)]
     pub fn run_part<R>(part: impl FnOnce() -> R) -> R {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         return match Level::new().as_avx2() {
             Some(avx2) => avx2.vectorize(part),
-            None => unreachable!("wide kernels run with AVX2"),
+            None => unreachable!("wide kernels run only with AVX2"),
         };
         #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
         run_apart(part)
@@ -109,7 +110,7 @@ impl SimdLevel {
     }
 }
 
-/// Runs part of a kernel, not inlined.
+/// Runs part of a kernel without inlining it.
 #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
 #[inline(never)]
 fn run_apart<R>(part: impl FnOnce() -> R) -> R {
@@ -124,7 +125,7 @@ pub trait Kernel {
     /// Runs the computation.
     ///
     /// Mark it and every function that it calls `#[inline(always)]`, and write it as plain loops
-    /// over lanes: only code inlined into the dispatched function gets its instructions.
+    /// over lanes: only code inlined into the dispatched function is compiled for its instructions.
     fn run(self) -> Self::Output;
 }
 

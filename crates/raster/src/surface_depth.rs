@@ -1,7 +1,7 @@
 //! Surface depths: the depth plane of the nearest surface at each pixel, for shadow maps and
 //! ambient occlusion.
 //!
-//! The slopes allow comparing depths away from the pixel center without a constant bias
+//! The slopes make it possible to compare depths away from the pixel center without a constant bias
 //! (receiver-plane depth).
 
 use crate::sample_plane::pixel_index;
@@ -16,8 +16,8 @@ pub struct SurfaceDepth {
     pub depth: f32,
     /// The change of depth per pixel to the right, on the surface's plane.
     ///
-    /// It is clamped to the range of the vertex depths, because beside a triangle smaller than a
-    /// pixel its plane is meaningless.
+    /// It is clamped to the range of the vertex depths, because the plane of a triangle smaller
+    /// than a pixel is meaningless outside the triangle.
     pub dx: f32,
     /// The change of depth per pixel down, clamped likewise.
     pub dy: f32,
@@ -30,16 +30,16 @@ impl SurfaceDepth {
 
 impl Frame {
     /// Finds the nearest opaque surface at the first sample of each pixel and writes its depth to
-    /// `target`: rows from the top, `width` × `height` of them.
+    /// `target`: `width` × `height` values, rows from the top.
     ///
-    /// Where there is no surface, the target keeps its value, such as [`SurfaceDepth::EMPTY`].
+    /// Pixels without a surface keep the target's value, such as [`SurfaceDepth::EMPTY`].
     ///
     /// The sample is at [`Samples::first_offset`](crate::Samples::first_offset) in each pixel; with
     /// one sample, it is the center. Depths are not extrapolated to another position: beyond the
     /// edge of a steep surface the error would be large.
     ///
-    /// Masked primitives count where they pass the alpha test; translucent ones do not count. Uses
-    /// up to `threads` threads; the result is the same for any number.
+    /// Masked primitives count where they pass the alpha test; translucent primitives do not count.
+    /// Uses up to `threads` threads; the result is the same for any number.
     pub fn surface_depths<S: Surface>(
         &self,
         surface: &S,
@@ -79,7 +79,7 @@ mod tests {
     use crate::{Fragment, Opacity, Samples, ScreenVertex};
     use homog::Point;
 
-    /// Keeps the left half.
+    /// A surface whose alpha test keeps the left half.
     struct Left;
 
     impl Surface for Left {
@@ -93,7 +93,7 @@ mod tests {
 
     fn sloped(cover: Opacity) -> Frame {
         let mut frame = Frame::new(100, 70, Samples::One).expect("a frame");
-        // Depth 0.1 + x / 200 + y / 400 over all of it.
+        // The depth is 0.1 + x / 200 + y / 400 everywhere.
         let corner = |x: f64, y: f64| {
             let depth = 0.1 + x / 200.0 + y / 400.0;
             ScreenVertex::snap(Point::new(x, y, depth), 1.0).expect("a corner")
@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn planes_are_those_of_the_triangles_for_any_number_of_threads() {
+    fn planes_match_the_triangles_for_any_number_of_threads() {
         let mut target = vec![SurfaceDepth::EMPTY; 7000];
         let mut other = target.clone();
         sloped(Opacity::Opaque).surface_depths(&Left, 1, &mut target);
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn holes_and_glass_are_not_seen() {
+    fn holes_and_translucent_surfaces_are_skipped() {
         let mut target = vec![SurfaceDepth::EMPTY; 7000];
         sloped(Opacity::Masked).surface_depths(&Left, 1, &mut target);
         assert!((0..7000).all(|at| (target[at].depth > 0.0) == (at % 100 < 50)));

@@ -7,11 +7,11 @@
 //! ```
 //!
 //! Triangles are binned in groups. Each group has its own bins and can be sorted by its own thread
-//! without locks. The bin of a tile is the concatenation of its bins in all groups. This is
-//! submission order, which decides at equal depth, for any number of threads.
+//! without locks. The bin of a tile is the concatenation of its bins in all groups. For any number
+//! of threads, this is submission order, which breaks depth ties.
 //!
-//! Binning takes two passes over the triangles of a group: time linear in triangles plus tiles plus
-//! entries, without comparing triangles.
+//! Binning makes two passes over the triangles of a group. Its time is linear in the number of
+//! triangles, tiles and entries, because triangles are never compared.
 
 use crate::parallel::for_each_parallel;
 use crate::tile_grid::TileGrid;
@@ -22,7 +22,7 @@ use homog::PixelRect;
 /// on filling them.
 const MIN_CHUNKS: usize = 4;
 
-/// For each tile that a region touches, row by row, the triangles whose bounds touch it.
+/// For each tile that a region touches, row by row, the triangles whose bounds touch the tile.
 #[derive(Debug, Default)]
 pub(crate) struct TileBins {
     /// The tiles that the region touches.
@@ -33,24 +33,25 @@ pub(crate) struct TileBins {
     used: usize,
 }
 
-/// The bins of a run of chunks, in compressed rows: all bins in one array, with the start of each.
+/// The bins of a run of chunks in compressed-row form: one array of all bins, and the start of each
+/// bin.
 #[derive(Debug, Default)]
 struct BinGroup {
-    /// The index in `triangles` at which the bin of each tile begins; one more at the end.
+    /// The index in `triangles` at which the bin of each tile begins, plus one entry for the end.
     bin_starts: Vec<u32>,
-    /// The index to which the next triangle of each tile is written, while they are sorted.
+    /// The index at which the next triangle of each tile is written during sorting.
     write_positions: Vec<u32>,
     /// The indices of the triangles, bin by bin.
     triangles: Vec<u32>,
 }
 
 impl TileBins {
-    /// Bins all triangles of a frame, reusing the memory from last time.
+    /// Bins all triangles of a frame, reusing memory from the previous call.
     ///
     /// A group has at least four times as many triangles as there are tiles, which keeps counting
-    /// and clearing bins cheap compared with sorting. Bounding rectangles decide, so a thin
-    /// diagonal triangle is also in bins that it only passes; there the rasterizer rejects it block
-    /// by block.
+    /// and clearing bins cheap compared with sorting. Triangles are binned by bounding rectangle,
+    /// so a thin diagonal triangle is also in the bins of tiles that it misses; there the
+    /// rasterizer rejects it block by block.
     pub(crate) fn bin_triangles(
         &mut self,
         triangles: &TriangleBuffer,
@@ -73,13 +74,13 @@ impl TileBins {
         });
     }
 
-    /// Appends the triangle indices of one tile, given its column and row in the picture.
+    /// Appends the triangle indices of the tile at a column and row of the picture.
     ///
-    /// The tile must be one of the grid.
+    /// The tile must be in the grid.
     pub(crate) fn append_tile_bin(&self, column: u32, row: u32, bin: &mut Vec<u32>) {
         let tile = self.grid.tile_index(column, row);
         for BinGroup { bin_starts, triangles, .. } in &self.groups[..self.used] {
-            // Group after group: submission order.
+            // Group after group, which is submission order.
             let (start, end) = (bin_starts[tile] as usize, bin_starts[tile + 1] as usize);
             bin.extend_from_slice(&triangles[start..end]);
         }
@@ -87,8 +88,8 @@ impl TileBins {
 }
 
 impl BinGroup {
-    /// Counting sort by tile: count, prefix sum, scatter. It is stable, so bins keep submission
-    /// order.
+    /// Sorts triangles by tile with a counting sort: count, prefix sum, scatter. It is stable, so
+    /// bins keep submission order.
     fn counting_sort<'a, I: Iterator<Item = (u32, &'a TriangleChunk)>>(
         &mut self,
         chunks: impl Fn() -> I,
@@ -103,7 +104,7 @@ impl BinGroup {
                 bin_starts[tile + 1] += 1;
             }
         }
-        // The prefix sum of the counts is the start of each bin.
+        // The prefix sums of the counts are the starts of the bins.
         let mut sum = 0;
         for start in bin_starts.iter_mut() {
             sum += *start;

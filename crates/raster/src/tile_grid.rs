@@ -10,22 +10,22 @@ use homog::PixelRect;
 
 /// The side of a tile in pixels.
 ///
-/// The depths and triangle indices of one sample plane then take 32 KiB and stay in the nearest
-/// caches while the tile is filled. A row of tiles has eight blocks of 8 pixels, one vector of
-/// eight lanes.
+/// The depths and triangle indices of one sample plane then take 32 KiB and stay in the fastest
+/// caches while the tile is filled. A row of blocks in a tile has eight blocks of 8 pixels, one
+/// vector of eight lanes.
 pub(crate) const TILE: u32 = 64;
 
-/// The columns of tiles that a region touches: the first, and one past the last.
+/// Returns the columns of tiles that a region touches: the first, and one past the last.
 pub(crate) fn tile_columns(region: PixelRect) -> (u32, u32) {
     (region.x / TILE, (region.x + region.width).div_ceil(TILE))
 }
 
-/// The rows of tiles that a region touches: the first, and one past the last.
+/// Returns the rows of tiles that a region touches: the first, and one past the last.
 pub(crate) fn tile_rows(region: PixelRect) -> (u32, u32) {
     (region.y / TILE, (region.y + region.height).div_ceil(TILE))
 }
 
-/// The tile in the given column and row, with the pixels that the region shows.
+/// Returns the tile in this column and row, with the pixels that the region shows.
 pub(crate) fn tile_rect(region: PixelRect, column: u32, row: u32) -> TileRect {
     let (x, y) = (column * TILE, row * TILE);
     let clamp_to_tile = |from: u32, size: u32, corner: u32| {
@@ -37,7 +37,7 @@ pub(crate) fn tile_rect(region: PixelRect, column: u32, row: u32) -> TileRect {
     TileRect { x, y, left, top, right, bottom }
 }
 
-/// The number of pixel rows that a region shows in a row of tiles.
+/// Returns the number of pixel rows that a region shows in a row of tiles.
 pub(crate) fn visible_rows(region: PixelRect, row: u32) -> usize {
     let TileRect { top, bottom, .. } = tile_rect(region, tile_columns(region).0, row);
     (bottom - top) as usize
@@ -57,7 +57,8 @@ pub(crate) struct TileRect {
 }
 
 impl TileRect {
-    /// Whether the region shows a pixel of the tile, relative to the tile's corner.
+    /// Returns whether the region shows a pixel of the tile; x and y are relative to the tile's
+    /// corner.
     pub(crate) fn is_visible(&self, x: usize, y: usize) -> bool {
         let within = |at: usize, from: u32, to: u32| (from as usize..to as usize).contains(&at);
         within(x, self.left, self.right) && within(y, self.top, self.bottom)
@@ -73,9 +74,9 @@ pub(crate) struct TileGrid {
     rows: (u32, u32),
 }
 
-/// The tiles that a triangle's bounds touch: the first and last of their columns and rows.
+/// The tiles that a triangle's bounds touch: the first and last column and row.
 ///
-/// Four bytes per triangle, stored separately: binning reads nothing else.
+/// It takes four bytes per triangle and is stored separately, because binning reads nothing else.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TileRange {
     columns: [u8; 2],
@@ -89,18 +90,19 @@ impl TileGrid {
         Self { columns: tile_columns(region), rows: tile_rows(region) }
     }
 
-    /// The number of tiles.
+    /// Returns the number of tiles.
     pub(crate) fn count(self) -> usize {
         ((self.columns.1 - self.columns.0) * (self.rows.1 - self.rows.0)) as usize
     }
 
-    /// The index of a tile of the grid, row by row.
+    /// Returns the index of a tile of the grid, row by row.
     #[inline(always)]
     pub(crate) fn tile_index(self, column: u32, row: u32) -> usize {
         ((row - self.rows.0) * (self.columns.1 - self.columns.0) + column - self.columns.0) as usize
     }
 
-    /// The tiles of the grid that a bounding rectangle touches; `None` if there are none.
+    /// Returns the tiles of the grid that a bounding rectangle touches, or `None` if it touches
+    /// none.
     ///
     /// The minimum and maximum coordinates are in grid steps of 1/256 pixel.
     #[inline(always)]
@@ -115,7 +117,7 @@ impl TileGrid {
         is_inside.then(|| TileRange { columns: bytes(columns), rows: bytes(rows) })
     }
 
-    /// The indices of some tiles of the grid, row by row.
+    /// Returns the indices of the tiles in a range, row by row.
     #[inline(always)]
     pub(crate) fn tile_indices(self, tiles: TileRange) -> impl Iterator<Item = usize> {
         let TileRange { columns: [left, right], rows: [top, bottom] } = tiles;
@@ -132,7 +134,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tiles_of_a_region_show_each_of_its_pixels_once() {
+    fn tiles_of_a_region_show_each_pixel_once() {
         for region in [
             PixelRect { x: 0, y: 0, width: 64, height: 64 },
             PixelRect { x: 63, y: 1, width: 2, height: 200 },

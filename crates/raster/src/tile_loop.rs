@@ -1,8 +1,8 @@
-//! The tile loop: every tile of a frame is filled with its triangles and passed on, in parallel.
+//! The tile loop: fills every tile of a frame with its triangles and passes it on, in parallel.
 //!
-//! Work is divided by rows of tiles. A row of tiles is a band of whole rows of the target, so bands
-//! are disjoint slices that threads can write without locks. Tiles are independent: a tile depends
-//! only on its own bin, so the result is the same for any number of threads.
+//! Work is divided by rows of tiles. A row of tiles is a band of whole target rows, so bands are
+//! disjoint slices that threads can write without locks. Tiles are independent: a tile depends only
+//! on its own bin, so the result is the same for any number of threads.
 
 use crate::buffer_pool::{DrawBuffers, ThreadBuffers};
 use crate::parallel::for_each_with_workers;
@@ -28,7 +28,8 @@ impl Frame {
     /// triangles.
     ///
     /// Uses up to `threads` threads. If `target` is too short, there are fewer or shorter bands.
-    /// The monitor is asked and notified once per band, about every 64 rows of pixels.
+    /// The monitor is notified and checked for cancellation once per band, that is, about every 64
+    /// pixel rows.
     pub(crate) fn for_each_tile<S: Surface, P: Send>(
         &self,
         surface: &S,
@@ -86,7 +87,7 @@ struct Band<'a, P> {
     pixels: &'a mut [P],
 }
 
-/// Iterator over the remaining bands of a region.
+/// An iterator over the remaining bands of a region.
 struct Bands<'a, P> {
     region: PixelRect,
     /// The next row of tiles, and one past the last.

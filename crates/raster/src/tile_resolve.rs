@@ -73,7 +73,7 @@ pub(crate) struct PixelRun<'a> {
 }
 
 impl PixelRun<'_> {
-    /// The first column of the block.
+    /// Returns the first column of the block.
     pub(crate) fn block_start(&self) -> u32 {
         self.lanes.start / LANES as u32 * LANES as u32
     }
@@ -177,7 +177,7 @@ impl<S: Surface> TileResolve<'_, S> {
         (differs == 0).then_some(first)
     }
 
-    /// The triangles of a run's pixels, sample by sample.
+    /// Returns the triangles of a run's pixels, sample by sample.
     ///
     /// `planes` provides the memory for the result: a frame has at most 16 planes.
     #[inline(always)]
@@ -396,7 +396,7 @@ impl<S: Surface> TileResolve<'_, S> {
     }
 }
 
-/// Whether the triangles of eight pixels are not all the same.
+/// Returns whether the triangles of eight pixels are not all the same.
 ///
 /// Uses exclusive or instead of comparisons: eight lanes form one vector, and there is only one
 /// branch.

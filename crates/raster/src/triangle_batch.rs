@@ -1,7 +1,7 @@
 //! Batched triangle setup: eight small triangles prepared for a tile at once.
 //!
-//! In fine meshes most of the work on a triangle is its setup. Triangles near the tile fit 32-bit
-//! arithmetic throughout, and eight of them are prepared by the same vector instructions. The
+//! In fine meshes most of the work on a triangle is its setup. For triangles near the tile, 32-bit
+//! arithmetic is enough throughout, and the same vector instructions prepare eight of them. The
 //! results match [`TriangleSetup`](crate::triangle_setup::TriangleSetup), bit for bit: edge
 //! functions are exact in both, and depth uses the same operations in the same order. Everything is
 //! a plain loop over eight lanes, which compiles to vector instructions in the dispatched function
@@ -9,10 +9,10 @@
 //!
 //! # Why eight at a time
 //!
-//! A triangle of a few pixels takes less time to fill than to set up: six differences for the edge
-//! functions, one division and eight products for the depth plane. One vector instruction does one
-//! such step for several triangles. Those that exceed the 32-bit range are set up individually, in
-//! 64 bits.
+//! A triangle of a few pixels takes less time to fill than to set up: setup needs six differences
+//! for the edge functions, and one division and eight products for the depth plane. One vector
+//! instruction does one such step for several triangles. Triangles that exceed the 32-bit range are
+//! set up individually, in 64 bits.
 
 use crate::primitive::ScreenTriangle;
 use crate::screen_vertex::{SUBPIXEL_BITS, SUBPIXELS};
@@ -23,7 +23,7 @@ use crate::triangle_setup::{SampleStart, TriangleFunctions};
 pub(crate) const BATCH_SIZE: usize = 8;
 /// The minimum and maximum coordinates of a small triangle, in grid steps from the tile's corner.
 ///
-/// An edge is then shorter than 2¹⁵ steps, and products of edges and coordinates fit 32 bits.
+/// An edge is then shorter than 2¹⁵ steps, and products of edges and coordinates fit in 32 bits.
 ///
 /// Two such products are added in E = A·x + B·y + C: each is below 2³⁰, so the sum is below 2³¹.
 const SMALL_RANGE: (i32, i32) = (-32 * SUBPIXELS, 95 * SUBPIXELS);
@@ -70,10 +70,10 @@ pub(crate) struct BatchStarts {
 }
 
 impl BatchStarts {
-    /// All zeros: values to overwrite.
+    /// All zeros, to be overwritten.
     pub(crate) const ZERO: Self = Self { edges: [[0; BATCH_SIZE]; 3], depth: [0.0; BATCH_SIZE] };
 
-    /// The start values of one of the triangles.
+    /// Returns the start values of one of the triangles.
     #[inline(always)]
     pub(crate) fn lane_start(&self, lane: usize) -> SampleStart {
         let [p, q, r] = &self.edges;
@@ -86,8 +86,8 @@ impl TriangleBatch {
     ///
     /// `offset_range` is the minimum and maximum offset of a sample from the borders of its pixel.
     ///
-    /// Lanes without a triangle may repeat another one. The work is the same for all lanes, whether
-    /// their triangle is small or not: a branch per lane would prevent vectorization.
+    /// Lanes without a triangle may repeat another triangle. The work is the same for all lanes,
+    /// whether their triangle is small or not: a branch per lane would prevent vectorization.
     #[inline(always)]
     pub(crate) fn new(
         triangles: [&ScreenTriangle; BATCH_SIZE],
@@ -106,7 +106,7 @@ impl TriangleBatch {
                 z[k][lane] = vertex.depth;
             }
         }
-        // Bounding boxes, and whether 32 bits are enough for the triangle.
+        // Bounding boxes, and whether 32 bits are enough for each triangle.
         let (min_x, max_x) = coordinate_extents(&x);
         let (min_y, max_y) = coordinate_extents(&y);
         let mut is_small = [false; BATCH_SIZE];
@@ -116,14 +116,14 @@ impl TriangleBatch {
         }
         // The bounding box in pixels, clipped to the tile.
         let bounds = pixel_bounds([min_x, min_y, max_x, max_y], tile, offset_range);
-        // (a, b) is the inner normal of each edge.
+        // (a, b) is the inward normal of each edge.
         let (a, b) = (edge_differences(&y, false), edge_differences(&x, true));
         // The depth plane: gradients per grid step in f64, steps per pixel rounded to f32 once. The
         // factor 256 is a power of two, so scaling adds no rounding error.
         let depth_gradient = depth_gradients(&x, &y, &z);
         let depth_step =
             depth_gradient.map(|steps| steps.map(|step| (step * f64::from(SUBPIXELS)) as f32));
-        // The range to which samples are clamped, and against which hierarchical z tests.
+        // The range to which sample depths are clamped and against which hierarchical z tests.
         let (min_depth, max_depth) = depth_extents(&z);
         Self {
             x,
@@ -140,24 +140,25 @@ impl TriangleBatch {
         }
     }
 
-    /// Whether the triangle was prepared; if not, it is too large for 32 bits.
+    /// Returns whether the triangle was prepared; if not, it is too large for 32 bits.
     #[inline(always)]
     pub(crate) const fn is_prepared(&self, lane: usize) -> bool {
         self.is_small[lane]
     }
 
-    /// Whether the triangle's bounds contain none of the tile's samples.
+    /// Returns whether the triangle's bounds contain none of the tile's samples.
     ///
-    /// Small triangles often fall between samples; they end here, before any block is visited.
+    /// Small triangles often fall between samples; this test drops them before any block is
+    /// visited.
     #[inline(always)]
     pub(crate) const fn is_outside(&self, lane: usize) -> bool {
         let [x0, y0, x1, y1] = &self.bounds;
         x0[lane] >= x1[lane] || y0[lane] >= y1[lane]
     }
 
-    /// The functions of one of the triangles.
+    /// Returns the functions of one of the triangles.
     ///
-    /// A transposition of one lane: eight triangles are prepared together but filled one by one.
+    /// This transposes one lane: eight triangles are prepared together but filled one by one.
     #[inline(always)]
     pub(crate) fn lane_functions(&self, lane: usize) -> TriangleFunctions {
         let Self { a, b, bounds: [x0, y0, x1, y1], depth_step: [dx, dy], .. } = self;
@@ -175,10 +176,11 @@ impl TriangleBatch {
         }
     }
 
-    /// The start values for the samples at `offset` (grid steps) from the upper left corners of
-    /// their pixels.
+    /// Returns the start values for the samples at `offset` (grid steps) from the upper left
+    /// corners of their pixels.
     ///
-    /// Called once per sample plane: the gradients stay, and only the first sample moves.
+    /// It is called once per sample plane: the gradients stay the same, and only the first sample
+    /// moves.
     #[inline(always)]
     pub(crate) fn sample_starts(&self, offset: (i64, i64)) -> BatchStarts {
         let Self { x, y, a, b, bounds: [x0, y0, _, _], depth_gradient: [dx, dy], .. } = self;
@@ -195,8 +197,7 @@ impl TriangleBatch {
                 let value = along.wrapping_add(b.wrapping_mul(down - y[k][lane]));
                 // Top-left bias: an edge that does not own its samples counts E = 0 as outside.
                 let is_top_left = (a > 0) | ((a == 0) & (b > 0));
-                // From 1/256 to whole steps, rounded down: within a plane all samples are equal
-                // modulo 256.
+                // Divide by 256, rounding down: within a plane, all values are equal modulo 256.
                 *edge = value.wrapping_sub(i32::from(!is_top_left)) >> SUBPIXEL_BITS;
             }
         }
@@ -211,9 +212,9 @@ impl TriangleBatch {
     }
 }
 
-/// The minimum and maximum coordinates of each triangle.
+/// Returns the minimum and maximum coordinates of each triangle.
 ///
-/// The bounding box along one axis, in grid steps from the tile's corner.
+/// They are its bounding box along one axis, in grid steps from the tile's corner.
 #[inline(always)]
 fn coordinate_extents([p, q, r]: &[Ints; 3]) -> (Ints, Ints) {
     let (mut low, mut high) = ([0; BATCH_SIZE], [0; BATCH_SIZE]);
@@ -224,10 +225,10 @@ fn coordinate_extents([p, q, r]: &[Ints; 3]) -> (Ints, Ints) {
     (low, high)
 }
 
-/// The pixels of the tile that may have a sample within the bounds: the x0, y0, x1 and y1 that
-/// [`TriangleSetup::new`](crate::triangle_setup::TriangleSetup::new) computes.
+/// Returns the pixels of the tile that may have a sample within the bounds: the x0, y0, x1 and y1
+/// that [`TriangleSetup::new`](crate::triangle_setup::TriangleSetup::new) computes.
 ///
-/// `extent` holds the minimum x and y, then the maximum x and y, in grid steps from the tile's
+/// `extent` contains the minimum x and y, then the maximum x and y, in grid steps from the tile's
 /// corner. Pixels are clamped to 0 and to the right and bottom of the visible part.
 #[inline(always)]
 fn pixel_bounds(extent: [Ints; 4], tile: TileRect, offset_range: (i32, i32)) -> [Ints; 4] {
@@ -242,14 +243,15 @@ fn pixel_bounds(extent: [Ints; 4], tile: TileRect, offset_range: (i32, i32)) -> 
     }
     for (high, end) in [(&mut x1, tile.right), (&mut y1, tile.bottom)] {
         for high in high {
-            // One past the last pixel whose first sample is not behind the bound.
+            // One past the last pixel whose first sample is not past the bound.
             *high = (((*high - least) >> SUBPIXEL_BITS) + 1).min(end as i32);
         }
     }
     [x0, y0, x1, y1]
 }
 
-/// The difference of the coordinates of each edge's ends: start − end, or end − start if `forward`.
+/// Returns the difference between the coordinates of each edge's ends: start − end, or end − start
+/// if `forward`.
 ///
 /// With y backward and x forward these are A and B of the edge function, as in
 /// [`EdgeFunction`](crate::edge_function::EdgeFunction).
@@ -266,9 +268,10 @@ fn edge_differences(c: &[Ints; 3], forward: bool) -> [Ints; 3] {
     differences
 }
 
-/// The change of depth per grid step to the right and down, computed as in `DepthPlane::new`.
+/// Returns the change of depth per grid step to the right and down, computed as in
+/// `DepthPlane::new`.
 ///
-/// Lanes with degenerate triangles would divide by 0; primitive assembly has dropped those.
+/// A degenerate triangle would cause a division by 0, but primitive assembly has dropped them all.
 #[inline(always)]
 fn depth_gradients(x: &[Ints; 3], y: &[Ints; 3], z: &[Floats; 3]) -> [Doubles; 2] {
     let mut gradients = [[0.0; BATCH_SIZE]; 2];
@@ -286,12 +289,12 @@ fn depth_gradients(x: &[Ints; 3], y: &[Ints; 3], z: &[Floats; 3]) -> [Doubles; 2
     gradients
 }
 
-/// The depths of the farthest and nearest vertices of each triangle.
+/// Returns the depths of the farthest and nearest vertices of each triangle.
 #[inline(always)]
 fn depth_extents([p, q, r]: &[Floats; 3]) -> (Floats, Floats) {
     let (mut least, mut greatest) = ([0.0; BATCH_SIZE], [0.0; BATCH_SIZE]);
     for lane in 0..BATCH_SIZE {
-        // Comparisons instead of `f32::min`: no depth is NaN, and each comparison is one
+        // Use comparisons instead of `f32::min`: no depth is NaN, and each comparison is one
         // instruction.
         let (low, high) = if p[lane] < q[lane] { (p[lane], q[lane]) } else { (q[lane], p[lane]) };
         least[lane] = if r[lane] < low { r[lane] } else { low };
@@ -337,7 +340,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(20_000))]
 
         #[test]
-        fn a_batch_has_the_bits_of_single_setups(triangle in triangle(), count in 0..4_usize) {
+        fn batches_match_single_setups_bit_for_bit(triangle in triangle(), count in 0..4_usize) {
             let tile = TileRect { x: 0, y: 0, left: 0, top: 0, right: 64, bottom: 56 };
             let samples = [Samples::One, Samples::Four, Samples::Eight, Samples::Sixteen][count];
             let batch = TriangleBatch::new([&triangle; BATCH_SIZE], tile, samples.offset_range());

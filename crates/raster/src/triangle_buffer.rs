@@ -1,30 +1,30 @@
 //! The triangle buffer: all triangles of a frame in submission order, in chunks of limited size.
 //!
-//! Each thread fills its own chunks, which are kept in the order of their source triangles: the
-//! order is the same for any number of threads. Chunks never move while the buffer grows, and keep
-//! their memory for the next picture.
+//! Each thread fills its own chunks, which are kept in the order of their source triangles, so the
+//! order is the same for any number of threads. Chunks never move while the buffer grows, and they
+//! keep their memory for the next picture.
 
 use crate::primitive::ScreenTriangle;
 use crate::tile_grid::TileRange;
 
-/// The maximum number of triangles in a chunk: 256 KiB.
+/// The maximum number of triangles in a chunk, which is then 256 KiB.
 pub(crate) const CHUNK_TRIANGLES: usize = 1 << CHUNK_BITS;
 const CHUNK_BITS: u32 = 12;
-/// A chunk with less space than this takes no more triangles of a mesh: its tail is not worth
-/// another pass through the loop that fills it.
+/// The minimum space for adding a mesh's triangles to a chunk. A smaller tail is not worth another
+/// pass through the loop that fills it.
 const MIN_FREE: usize = 512;
 
-/// Consecutive triangles, each with the tiles that it touches in a separate list: binning reads
-/// nothing else.
+/// Consecutive triangles. The tiles that each of them touches are in a separate list, because
+/// binning reads nothing else.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TriangleChunk {
     triangles: Vec<ScreenTriangle>,
-    /// As many entries as `triangles`.
+    /// One entry for each of the `triangles`.
     tiles: Vec<TileRange>,
 }
 
 impl TriangleChunk {
-    /// The tiles that each triangle touches.
+    /// Returns the tiles that each triangle touches.
     pub(crate) fn tiles(&self) -> &[TileRange] {
         &self.tiles
     }
@@ -58,20 +58,20 @@ pub(crate) struct TriangleBuffer {
 }
 
 impl TriangleBuffer {
-    /// The chunks in use, each with the index of its first triangle.
+    /// Returns the chunks in use, each with the index of its first triangle.
     pub(crate) fn chunks(&self) -> impl ExactSizeIterator<Item = (u32, &TriangleChunk)> {
         let numbered = self.chunks[..self.chunks_in_use].iter().enumerate();
         numbered.map(|(index, chunk)| ((index << CHUNK_BITS) as u32, chunk))
     }
 
-    /// The triangle with this index; `None` if there is none, as for the background.
+    /// Returns the triangle with this index, or `None` for the background and other unused indices.
     #[inline(always)]
     pub(crate) fn get(&self, index: u32) -> Option<&ScreenTriangle> {
         let chunk = self.chunks.get((index >> CHUNK_BITS) as usize)?;
         chunk.triangles.get(index as usize % CHUNK_TRIANGLES)
     }
 
-    /// The triangle with this index, which must exist.
+    /// Returns the triangle with this index, which must exist.
     #[inline(always)]
     pub(crate) fn triangle(&self, index: u32) -> &ScreenTriangle {
         &self.chunks[(index >> CHUNK_BITS) as usize].triangles[index as usize % CHUNK_TRIANGLES]
@@ -89,8 +89,8 @@ impl TriangleBuffer {
         self.open_chunk(1).push(triangle, tiles);
     }
 
-    /// The last chunk, or a new one if it is nearly full, and the number of triangles that still
-    /// fit.
+    /// Returns the last chunk, or a new one if it is nearly full, and the number of triangles that
+    /// still fit.
     pub(crate) fn open_with_space(&mut self) -> (&mut TriangleChunk, usize) {
         let chunk = self.open_chunk(MIN_FREE);
         let space = CHUNK_TRIANGLES - chunk.triangles.len();
@@ -105,7 +105,7 @@ impl TriangleBuffer {
         &mut self.chunks[first..self.chunks_in_use]
     }
 
-    /// Moves the empty chunks from `first` on behind the others, out of use.
+    /// Moves the empty chunks from index `first` on to the end, out of use.
     pub(crate) fn remove_empty_chunks(&mut self, first: usize) {
         let mut filled = first;
         for index in first..self.chunks_in_use {
@@ -118,12 +118,12 @@ impl TriangleBuffer {
         self.chunks_in_use = filled;
     }
 
-    /// The number of chunks in use.
+    /// Returns the number of chunks in use.
     pub(crate) fn chunks_in_use(&self) -> usize {
         self.chunks_in_use
     }
 
-    /// The last chunk, or a new one if it has no space for `count` more triangles.
+    /// Returns the last chunk, or a new one if it has no space for `count` more triangles.
     #[inline]
     fn open_chunk(&mut self, count: usize) -> &mut TriangleChunk {
         let is_full = |chunk: &TriangleChunk| chunk.triangles.len() + count > CHUNK_TRIANGLES;

@@ -1,11 +1,11 @@
-//! Triangle setup: the edge functions and depth plane of a triangle, prepared for one tile in 32
-//! bits.
+//! Triangle setup: the edge functions and depth plane of a triangle, prepared in 32 bits for one
+//! tile.
 //!
 //! Edge functions are exact in 64 bits ([`EdgeFunction`]), but vectors of 32-bit integers have
 //! twice as many lanes. Within a tile the samples of one plane are whole pixels apart, so all of
 //! them have the same value of E modulo 256, and E ≥ 0 holds if and only if ⌊E/256⌋ ≥ 0. The
-//! quotient changes by integers from pixel to pixel and fits 32 bits. If it is too large it is
-//! clamped to ±2³⁰: the change across a tile is smaller than that, so the sign, which is all that
+//! quotient changes by integers from pixel to pixel and fits in 32 bits. If it is too large, it is
+//! clamped to ±2³⁰. The change across a tile is smaller than that, so the sign, which is all that
 //! matters, stays correct.
 //!
 //! ```text
@@ -22,17 +22,17 @@ use crate::tile_grid::TileRect;
 /// A triangle in the coordinates of one tile, shared by all samples. Pixels are relative to the
 /// tile's corner.
 ///
-/// The changes per pixel are the numbers A and B themselves: a pixel is 256 grid steps, and E is
-/// divided by 256.
+/// The changes per pixel are the coefficients A and B themselves: a pixel is 256 grid steps, and E
+/// is divided by 256.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct TriangleFunctions {
     /// The change of E/256 per pixel to the right, for each edge.
     pub(crate) a: [i32; 3],
     /// The change of E/256 per pixel down, for each edge.
     pub(crate) b: [i32; 3],
-    /// The pixels that may have a sample within the triangle's bounds: [x0, x1) × [y0, y1), not
-    /// empty. Depth is relative to the pixel (x0, y0), which therefore must not depend on the
-    /// visible region.
+    /// The pixels that may have a sample within the triangle's bounds: [x0, x1) × [y0, y1), which
+    /// is not empty. Depth is relative to the pixel (x0, y0), which therefore must not depend on
+    /// the visible region.
     pub(crate) x0: i32,
     /// The first row of the bounds.
     pub(crate) y0: i32,
@@ -52,7 +52,7 @@ pub(crate) struct TriangleFunctions {
 
 /// A triangle prepared for one tile.
 ///
-/// It holds the exact functions, from which the start values for each sample plane are computed.
+/// It contains the exact functions, from which the start values of each sample plane are computed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TriangleSetup {
     /// The functions in 32 bits and `f32`, in the coordinates of the tile.
@@ -80,8 +80,8 @@ pub(crate) struct SampleStart {
 /// Depth is already z/w, which is linear in screen space, so it needs no perspective correction.
 ///
 /// Samples evaluate it as (z + dy·y) + dx·x, with x and y relative to the corner of the bounds
-/// within the tile, and clamp it to the depths of the vertices: the plane of a sliver is steep and
-/// meaningless beside the sliver.
+/// within the tile, and clamp it to the depths of the vertices: the plane of a sliver is steep, and
+/// meaningless outside the sliver.
 #[derive(Clone, Copy, Debug)]
 struct DepthPlane {
     /// The grid position of the first vertex.
@@ -95,7 +95,7 @@ struct DepthPlane {
 }
 
 impl TriangleSetup {
-    /// Prepares a triangle; `None` if its bounds contain none of the tile's samples.
+    /// Prepares a triangle, or returns `None` if its bounds contain none of the tile's samples.
     ///
     /// `offset_range` is the minimum and maximum offset of a sample from the borders of its pixel,
     /// in grid steps.
@@ -109,8 +109,8 @@ impl TriangleSetup {
         let (top, bottom) = (p.y.min(q.y).min(r.y), p.y.max(q.y).max(r.y));
         let origin = (tile.x as i32 * SUBPIXELS, tile.y as i32 * SUBPIXELS);
         let (least, greatest) = offset_range;
-        // The first pixel whose last sample is not before a bound, and the first whose first sample
-        // is past one.
+        // The first pixel whose last sample is not before the bound, and the first pixel whose
+        // first sample is past it.
         let first = |bound: i32, from: i32| (bound - from - greatest + 255) >> SUBPIXEL_BITS;
         let beyond = |bound: i32, from: i32| ((bound - from - least) >> SUBPIXEL_BITS) + 1;
         let (x0, y0) = (first(left, origin.0).max(0), first(top, origin.1).max(0));
@@ -121,7 +121,7 @@ impl TriangleSetup {
         }
         // Edge functions, with the top-left bias in C.
         let edges = [EdgeFunction::new(p, q), EdgeFunction::new(q, r), EdgeFunction::new(r, p)];
-        // The depth plane; its gradients are per grid step, and those of the samples are per pixel.
+        // The depth plane has gradients per grid step; the samples use gradients per pixel.
         let depth = DepthPlane::new(triangle);
         let functions = TriangleFunctions {
             a: edges.map(|edge| edge.a as i32),
@@ -139,29 +139,29 @@ impl TriangleSetup {
         Some(Self { functions, edges, origin, depth })
     }
 
-    /// The start values for the samples at `offset` (grid steps) from the upper left corners of
-    /// their pixels.
+    /// Returns the start values for the samples at `offset` (grid steps) from the upper left
+    /// corners of their pixels.
     ///
-    /// Exact for edges near the tile; for others only the sign is correct, and only the sign is
-    /// used.
+    /// The values are exact for edges near the tile. For other edges only the sign is correct, and
+    /// only the sign is used.
     pub(crate) fn sample_start(&self, offset: (i64, i64)) -> SampleStart {
         let limit = 1_i64 << 30;
         let (x, y) = (self.origin.0 + offset.0, self.origin.1 + offset.1);
         // The shift rounds down, even below 0: ⌊E/256⌋.
         let quotient =
             |edge: EdgeFunction| (edge.evaluate(x, y) >> SUBPIXEL_BITS).clamp(-limit, limit) as i32;
-        // Depth is relative to the corner of the bounds, not of the tile: offsets of samples within
-        // the triangle are then small, and so is the rounding of their products.
+        // Depth is relative to the corner of the bounds, not of the tile: the offsets of samples
+        // within the triangle are then small, and so are the rounding errors of their products.
         let pixels = |count: i32| i64::from(count) * i64::from(SUBPIXELS);
         let corner = (x + pixels(self.functions.x0), y + pixels(self.functions.y0));
         SampleStart { edges: self.edges.map(quotient), z: self.depth.depth_at(corner) as f32 }
     }
 }
 
-/// The change of a triangle's depth per pixel to the right and down, clamped to the range of its
-/// vertices' depths.
+/// Returns the change of a triangle's depth per pixel to the right and down, clamped to the range
+/// of its vertices' depths.
 ///
-/// The clamp bounds the error beside a sliver, whose plane may be arbitrarily steep.
+/// The clamp bounds the error next to a sliver, whose plane may be arbitrarily steep.
 pub(crate) fn clamped_depth_slopes(triangle: &ScreenTriangle) -> [f32; 2] {
     let plane = DepthPlane::new(triangle);
     let depths = triangle.vertices.map(|vertex| vertex.depth);
@@ -171,13 +171,14 @@ pub(crate) fn clamped_depth_slopes(triangle: &ScreenTriangle) -> [f32; 2] {
 }
 
 impl DepthPlane {
-    /// The plane through the vertices, by Cramer's rule. The triangle is not degenerate.
+    /// Computes the plane through the vertices by Cramer's rule. The triangle must not be
+    /// degenerate.
     fn new(triangle: &ScreenTriangle) -> Self {
         let [p, q, r] = triangle.vertices;
         let d = |a: i32, b: i32| f64::from(a) - f64::from(b);
         let (qx, qy, qz) = (d(q.x, p.x), d(q.y, p.y), f64::from(q.depth) - f64::from(p.depth));
         let (rx, ry, rz) = (d(r.x, p.x), d(r.y, p.y), f64::from(r.depth) - f64::from(p.depth));
-        // Twice the area has at most 48 bits: exact in f64, and not 0.
+        // Twice the area has at most 48 bits, so it is exact in f64, and it is not 0.
         let inv_area = 1.0 / (qx * ry - qy * rx);
         Self {
             origin: (i64::from(p.x), i64::from(p.y)),
@@ -187,7 +188,7 @@ impl DepthPlane {
         }
     }
 
-    /// The depth at a grid position.
+    /// Returns the depth at a grid position.
     fn depth_at(&self, position: (i64, i64)) -> f64 {
         let (x, y) = position;
         self.z + self.dx * (x - self.origin.0) as f64 + self.dy * (y - self.origin.1) as f64

@@ -282,7 +282,7 @@ mod tests {
         prop_oneof![8 => -3.0..3.0_f64, 1 => prop::sample::select(extreme.to_vec())]
     }
 
-    /// A matrix without zeros.
+    /// Returns a matrix without zeros.
     fn to_clip() -> Projective<homog::Model, Clip> {
         let columns = core::array::from_fn(|k| 0.37 * k as f64 - 2.9 + 1.0 / (k + 1) as f64);
         Projective::from_raw(DMat4::from_cols_array(&columns))

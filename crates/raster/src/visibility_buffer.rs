@@ -33,7 +33,8 @@ impl Surface for OpaqueSurface {
 impl Frame {
     /// Renders the visibility buffer: the nearest primitive of each pixel.
     ///
-    /// Masked primitives count as opaque, translucent ones as absent. Runs on the calling thread.
+    /// Masked primitives count as opaque, and translucent primitives are ignored. Runs on the
+    /// calling thread.
     #[must_use]
     pub fn visibility_buffer(&self) -> VisibilityBuffer {
         let PixelRect { x: left, y: top, width, .. } = self.region;
@@ -48,7 +49,7 @@ impl Frame {
     }
 
     /// Calls `each` with the fragment of the nearest primitive in each pixel that has one, tile by
-    /// tile: the fragments of the [`visibility_buffer`](Self::visibility_buffer).
+    /// tile. These are the fragments of the [`visibility_buffer`](Self::visibility_buffer).
     pub fn for_each_fragment(&self, mut each: impl FnMut(Fragment<'_>)) {
         self.for_each_visible_pixel(|x, y, _, triangle| {
             each(Fragment::new(triangle, &self.source_weights, x, y));
@@ -69,7 +70,7 @@ impl Frame {
             if bin.is_empty() {
                 continue;
             }
-            // Hidden-surface removal of the tile; then its visible samples are read back.
+            // Remove the hidden surfaces of the tile, then read back its visible samples.
             tile.rasterize_bin(self, rect, bin, &OpaqueSurface);
             for (x, y) in
                 (rect.top..rect.bottom).flat_map(|y| (rect.left..rect.right).map(move |x| (x, y)))

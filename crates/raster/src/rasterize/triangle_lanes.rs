@@ -1,4 +1,4 @@
-//! Eight lanes of a triangle's functions: coverage and depth of the blocks of a row, and of the
+//! A triangle's functions in eight lanes: coverage and depth of the blocks in a row, and of the
 //! pixels in a row of a block.
 
 use crate::sample_plane::{BLOCK_SIDE, BLOCKS_PER_ROW};
@@ -9,7 +9,7 @@ use fearless_simd::{Simd, f32x8, i32x8, mask32x8};
 /// A block of 8 × 8 pixels: its index in the tile and its upper left pixel.
 #[derive(Clone, Copy)]
 pub(super) struct Block {
-    /// The index of the block in the tile, row by row: 0 … 63.
+    /// The index of the block in the tile, row by row, from 0 to 63.
     pub(super) index: usize,
     /// The column of the upper left pixel in the tile.
     pub(super) x: i32,
@@ -18,27 +18,27 @@ pub(super) struct Block {
 }
 
 impl Block {
-    /// The block in a column and a row of blocks of the tile.
+    /// Returns the block in this column and row of the tile's blocks.
     #[inline(always)]
     pub(super) fn from_column_row(column: i32, row: i32) -> Self {
         Self { index: row as usize * BLOCKS_PER_ROW + column as usize, x: column * 8, y: row * 8 }
     }
 
-    /// The array index of the first pixel of one of the block's rows.
+    /// Returns the array index of the first pixel in a row of the block.
     #[inline(always)]
     pub(super) fn row_index(self, row: usize) -> usize {
         (self.index * BLOCK_SIDE + row) * BLOCK_SIDE
     }
 }
 
-/// A block, with the part of the depth that depends on its columns: dx·x for each of the eight.
+/// A block with the part of depth that depends on the column: dx·x for each of its eight columns.
 #[derive(Clone, Copy)]
 pub(super) struct BlockColumns<S: Simd> {
     pub(super) block: Block,
     pub(super) depths: f32x8<S>,
 }
 
-/// The blocks that a triangle's bounds touch, row by row.
+/// Returns the blocks that a triangle's bounds touch, row by row.
 #[inline(always)]
 pub(super) fn blocks_in_bounds(
     functions: &TriangleFunctions,
@@ -72,11 +72,11 @@ pub(super) struct BlockDepths<S: Simd> {
 /// A triangle's edge functions and depth plane for eight pixels of a row at once.
 pub(crate) struct TriangleLanes<S: Simd> {
     pub(super) functions: TriangleFunctions,
-    /// 0 … 7.
+    /// The integers 0 to 7.
     pub(super) lane_indices: i32x8<S>,
-    /// The change of each edge function from the first of eight pixels to each.
+    /// The change of each edge function from the first of eight pixels to each of them.
     pub(super) edge_steps: [i32x8<S>; 3],
-    /// 0.0 … 7.0.
+    /// The numbers 0.0 to 7.0.
     pub(super) lane_offsets: f32x8<S>,
     /// The change of depth per pixel to the right, in all lanes.
     pub(super) dx: f32x8<S>,
@@ -103,16 +103,16 @@ impl<S: Simd> TriangleLanes<S> {
         }
     }
 
-    /// Edge function k at a pixel: E₀ + a·x + b·y.
+    /// Evaluates edge function k at a pixel: E₀ + a·x + b·y.
     ///
-    /// In 32 bits: E₀ is clamped to ±2³⁰ and changes by less than 2³⁰ across a tile, so nothing
-    /// overflows and the sign is correct.
+    /// This uses 32 bits: E₀ is clamped to ±2³⁰ and changes by less than 2³⁰ across a tile, so
+    /// nothing overflows and the sign is correct.
     #[inline(always)]
     pub(super) fn edge_value(&self, k: usize, start: &SampleStart, x: i32, y: i32) -> i32 {
         start.edges[k] + self.functions.a[k] * x + self.functions.b[k] * y
     }
 
-    /// The edge functions at the eight pixels of a block's row.
+    /// Evaluates the edge functions at the eight pixels in a row of a block.
     #[inline(always)]
     pub(super) fn row_edge_values(
         &self,
@@ -128,8 +128,8 @@ impl<S: Simd> TriangleLanes<S> {
         [edge(0), edge(1), edge(2)]
     }
 
-    /// Whether an edge excludes the whole block: its function is negative even at the innermost
-    /// corner.
+    /// Returns whether an edge excludes the whole block, that is, its function is negative even at
+    /// the innermost corner.
     ///
     /// The maximum of a linear function over a square is at a corner, which the signs of A and B
     /// select: seven pixels to the right if A > 0, seven down if B > 0.
@@ -141,7 +141,7 @@ impl<S: Simd> TriangleLanes<S> {
         })
     }
 
-    /// The rows of a block that the triangle's bounds touch.
+    /// Returns the rows of a block that the triangle's bounds touch.
     #[inline(always)]
     pub(super) fn rows_in_block(&self, block: Block) -> core::ops::Range<usize> {
         let first = (self.functions.y0 - block.y).max(0) as usize;
@@ -175,17 +175,19 @@ impl<S: Simd> TriangleLanes<S> {
             outermost |= corner + i32x8::splat(simd, 7 * (a[k].min(0) + b[k].min(0)));
         }
         let zero = i32x8::splat(simd, 0);
-        // Blocks outside the bounding box: behind a sharp vertex, no single edge excludes them.
+        // Exclude blocks outside the bounding box: beyond a sharp vertex, no single edge excludes
+        // them.
         let after_first = self.lane_indices.simd_ge(i32x8::splat(simd, x0 / 8));
         let to_last = self.lane_indices.simd_le(i32x8::splat(simd, (x1 - 1) / 8));
         let is_full = outermost.simd_ge(zero);
         BlockCoverage { is_touched: innermost.simd_ge(zero) & after_first & to_last, is_full }
     }
 
-    /// Bounds of the depth in the eight blocks of a row: the depth at two opposite corners of each.
+    /// Computes bounds of the depth in the eight blocks of a row: the depth at two opposite corners
+    /// of each block.
     ///
-    /// Every operation in its evaluation is monotone, including rounding, so no sample in between
-    /// exceeds them.
+    /// Every operation in the evaluation of depth is monotonic, including rounding, so no sample in
+    /// between exceeds the bounds.
     #[inline(always)]
     pub(super) fn block_depth_bounds(
         &self,
@@ -195,7 +197,7 @@ impl<S: Simd> TriangleLanes<S> {
     ) -> BlockDepths<S> {
         let TriangleFunctions { x0, y0, dx, dy, .. } = self.functions;
         let at_row = |y: i32| start.z + dy * (row * 8 + y - y0) as f32;
-        // The corner in the direction in which depth falls, and the one in which it rises.
+        // The corner toward which depth decreases, and the corner toward which it increases.
         let (lower, upper) = if dy < 0.0 { (7, 0) } else { (0, 7) };
         let (left, right) = if dx < 0.0 { (7, 0) } else { (0, 7) };
         // The first column of each block.
@@ -213,7 +215,7 @@ impl<S: Simd> TriangleLanes<S> {
         }
     }
 
-    /// A block with the first term of its depth, dx·x; the second is
+    /// Returns a block with the first term of its depth, dx·x; the second term is
     /// [`row_depth`](Self::row_depth).
     #[inline(always)]
     pub(super) fn block_columns(&self, simd: S, block: Block) -> BlockColumns<S> {
@@ -221,9 +223,9 @@ impl<S: Simd> TriangleLanes<S> {
         BlockColumns { block, depths: self.dx * x }
     }
 
-    /// The second term of the depth in a block's row: z + dy·y.
+    /// Returns the second term of the depth in a row of a block: z + dy·y.
     ///
-    /// It is added to the first in this order everywhere, so a sample has the same bits on every
+    /// The terms are added in the same order everywhere, so a sample has the same bits on every
     /// path.
     #[inline(always)]
     pub(super) fn row_depth(
@@ -237,17 +239,18 @@ impl<S: Simd> TriangleLanes<S> {
         f32x8::splat(simd, start.z + self.functions.dy * y as f32)
     }
 
-    /// Depth clamped to the depths of the vertices.
+    /// Clamps a depth to the depths of the vertices.
     #[inline(always)]
     pub(super) fn clamp_depth(&self, depth: f32x8<S>) -> f32x8<S> {
         let depth = depth.simd_lt(self.min_depth).select(self.min_depth, depth);
         depth.simd_gt(self.max_depth).select(self.max_depth, depth)
     }
 
-    /// Whether the triangle's bounds contain the whole block, so its farthest sample may have come
-    /// nearer.
+    /// Returns whether the triangle's bounds contain the whole block, so that its farthest sample
+    /// may have come nearer.
     ///
-    /// Conservative: the triangle itself may miss a corner, and the bound is then computed in vain.
+    /// This is conservative: the triangle itself may miss a corner, and the bound is then computed
+    /// in vain.
     #[inline(always)]
     pub(super) fn bounds_contain(&self, block: Block) -> bool {
         let TriangleFunctions { x0, y0, x1, y1, .. } = self.functions;

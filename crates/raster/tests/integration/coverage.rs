@@ -1,4 +1,4 @@
-//! Coverage and visibility against the definitions, by brute force.
+//! Compares coverage and visibility with their definitions by brute force.
 
 use homog::Point;
 use proptest::prelude::*;
@@ -6,18 +6,20 @@ use raster::{Frame, Opacity, Samples, ScreenVertex};
 
 const SIDE: u32 = 24;
 
-/// A vertex on the grid of 1/256 pixel.
+/// Returns a vertex on the grid of 1/256 pixel.
 fn vertex(x: i32, y: i32) -> ScreenVertex {
     ScreenVertex::new(x, y, 0.5, 1.0).expect("on the grid")
 }
 
-/// Whether the triangle covers a sample, straight from RA-1: inside, or on the border and still
-/// inside after a step to the right and an infinitely smaller one down (y down).
+/// Returns whether the triangle covers a sample, straight from RA-1: the sample is inside, or on
+/// the border and still inside after a step to the right and an infinitely smaller step down (y
+/// down).
 fn covers(triangle: [ScreenVertex; 3], x: i64, y: i64) -> bool {
     let side = |a: ScreenVertex, b: ScreenVertex| {
         let (dx, dy) = (i64::from(b.x()) - i64::from(a.x()), i64::from(b.y()) - i64::from(a.y()));
         let here = dx * (y - i64::from(a.y())) - dy * (x - i64::from(a.x()));
-        // On the edge: the sign after the step to the right, or along it after the one down.
+        // On the edge, the sign after the step to the right decides; on a horizontal edge, the sign
+        // after the step down.
         here.signum() * 4 + (-dy).signum() * 2 + dx.signum()
     };
     let [p, q, r] = triangle;
@@ -31,8 +33,8 @@ fn covered(triangle: [ScreenVertex; 3]) -> Vec<bool> {
     frame.visibility_buffer().ids.iter().map(Option::is_some).collect()
 }
 
-/// Coordinates that meet pixel centers, half pixels and arbitrary grid steps alike, inside and
-/// outside the picture.
+/// Generates coordinates at pixel centers, half pixels and arbitrary grid steps, inside and outside
+/// the picture.
 fn coordinate() -> impl Strategy<Value = i32> {
     let far = SIDE as i32 * 256;
     prop_oneof![
@@ -51,7 +53,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(4000))]
 
     #[test]
-    fn coverage_is_the_definition(p in corner(), q in corner(), r in corner()) {
+    fn coverage_matches_the_definition(p in corner(), q in corner(), r in corner()) {
         for (at, covered) in covered([p, q, r]).into_iter().enumerate() {
             let (x, y) = (at as i64 % i64::from(SIDE), at as i64 / i64::from(SIDE));
             prop_assert_eq!(covered, covers([p, q, r], x * 256 + 128, y * 256 + 128), "pixel ({}, {})", x, y);
@@ -63,8 +65,8 @@ proptest! {
         center in corner(),
         rim in prop::collection::vec((-6000_i32..6000, 1_i32..6000), 3..9),
     ) {
-        // A rim sorted by angle around the center, without two corners in one direction: a fan
-        // without overlap.
+        // Sort the rim by angle around the center, with at most one corner in each direction, to
+        // make a fan without overlaps.
         let mut rim: Vec<(i32, i32)> = rim.into_iter().flat_map(|(x, y)| [(x, y), (-x, -y)]).collect();
         let upper = |&(x, y): &(i32, i32)| y < 0 || (y == 0 && x < 0);
         let cross = |a: &(i32, i32), b: &(i32, i32)| i64::from(a.0) * i64::from(b.1) - i64::from(a.1) * i64::from(b.0);
@@ -81,7 +83,7 @@ proptest! {
             }
         }
         prop_assert!(hits.iter().all(|&hits| hits <= 1), "{:?}", hits);
-        // Samples nearer to the center than every rim edge are inside the fan.
+        // Samples closer to the center than every rim edge are inside the fan.
         let reach = (0..rim.len()).map(|k| {
             let (a, b) = (rim[k], rim[(k + 1) % rim.len()]);
             let length = f64::from(b.0 - a.0).hypot_exact(f64::from(b.1 - a.1));
@@ -95,7 +97,7 @@ proptest! {
     }
 }
 
-/// √(x² + y²) of numbers whose squares neither over- nor underflow.
+/// Computes √(x² + y²) for numbers whose squares neither overflow nor underflow.
 trait Hypot {
     fn hypot_exact(self, other: f64) -> f64;
 }
@@ -107,8 +109,8 @@ impl Hypot for f64 {
 }
 
 #[test]
-fn a_strip_across_a_picture_of_16384_pixels_has_no_gaps_and_no_overlaps() {
-    // Slivers that meet the far corner of the largest picture; one row of it is looked at.
+fn slivers_across_a_16384_pixel_picture_have_no_gaps_or_overlaps() {
+    // Slivers that extend to the far corner of the largest picture, of which one row is checked.
     let width = raster::MAX_SIDE;
     let mut frame = Frame::new(width, 1, Samples::One).expect("one row");
     let (left, right) = (0, width as i32 * 256);
@@ -126,7 +128,7 @@ fn a_strip_across_a_picture_of_16384_pixels_has_no_gaps_and_no_overlaps() {
 }
 
 #[test]
-fn the_nearer_wins_and_at_equal_depth_the_first() {
+fn nearer_triangles_win_and_the_first_wins_at_equal_depth() {
     let square = |depth: f32| {
         let corner = |(x, y)| ScreenVertex::new(x * 256, y * 256, depth, 1.0);
         [(0, 0), (8, 0), (0, 8)].map(corner).map(|corner| corner.expect("on the grid"))
@@ -144,9 +146,9 @@ fn the_nearer_wins_and_at_equal_depth_the_first() {
 }
 
 #[test]
-fn c31_depth_is_that_of_the_plane_and_weights_that_of_the_projection() {
-    // Corners at different distances: in the middle of the screen the nearer corner counts for less
-    // than half of the edge.
+fn c31_depth_follows_the_plane_and_weights_follow_the_projection() {
+    // The corners are at different distances, so halfway along an edge on the screen the weights
+    // are not equal.
     let corner = |x: f64, y: f64, w: f64| {
         ScreenVertex::snap(Point::new(x, y, 1.0 / w), w).expect("within the grid")
     };
@@ -174,12 +176,12 @@ fn c31_depth_is_that_of_the_plane_and_weights_that_of_the_projection() {
     assert_eq!(
         checked,
         64 * 63 / 2,
-        "the centers on the long side belong to the other half of the square"
+        "pixel centers on the long side belong to the other half of the square"
     );
 }
 
 #[test]
-fn lines_and_points_are_rectangles_of_their_width() {
+fn lines_and_points_cover_rectangles_of_their_width() {
     let mut frame = Frame::new(16, 8, Samples::One).expect("a small frame");
     frame.add_line([vertex(2 * 256, 4 * 256), vertex(14 * 256, 4 * 256)], 2.0, 1, Opacity::Opaque);
     assert_eq!(frame.visibility_buffer().ids.iter().flatten().count(), 12 * 2);

@@ -28,7 +28,7 @@ fn frame(samples: Samples) -> Frame {
     Frame::new(SIDE, SIDE, samples).expect("a frame")
 }
 
-/// The ids that a depth function leaves, triangle after triangle, each drawn separately.
+/// Returns the ids that a depth function leaves when each triangle is drawn separately.
 fn expected_ids(triangles: &[Corners], compare: DepthCompare) -> Vec<Option<u32>> {
     let empty = match compare {
         DepthCompare::Less | DepthCompare::LessEqual => f32::INFINITY,
@@ -55,7 +55,7 @@ fn expected_ids(triangles: &[Corners], compare: DepthCompare) -> Vec<Option<u32>
 }
 
 fn corners() -> impl Strategy<Value = Corners> {
-    // Few depths, so that some are equal.
+    // Use only a few depths, so that some are equal.
     let corner = (-20.0..100.0_f64, -20.0..100.0_f64, 0..4_u32);
     let depth = prop::bool::ANY;
     ([corner.clone(), corner.clone(), corner], depth).prop_map(|(corners, is_level)| {
@@ -68,7 +68,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
-    fn each_depth_function_leaves_what_it_says(triangles in prop::collection::vec(corners(), 1..12)) {
+    fn depth_functions_leave_the_expected_ids(triangles in prop::collection::vec(corners(), 1..12)) {
         for compare in [
             DepthCompare::Greater,
             DepthCompare::GreaterEqual,
@@ -84,7 +84,7 @@ proptest! {
     }
 
     #[test]
-    fn two_passes_are_one(
+    fn two_passes_match_one_pass(
         first in prop::collection::vec(corners(), 1..8),
         second in prop::collection::vec(corners(), 1..8),
         samples in prop::sample::select(vec![Samples::One, Samples::Four, Samples::Sixteen]),
@@ -100,8 +100,8 @@ proptest! {
         let over = filled(over, &second, 1 + first.len() as u32);
         prop_assert_eq!(over.depth_buffer(&surface, 1), whole.depth_buffer(&surface, 3));
 
-        // The picture of the second pass over that of the first is that of both, where no pixel
-        // is divided among them.
+        // Drawing the second pass over the first gives the same picture as one pass, if no pixel is
+        // divided between them.
         if samples == Samples::One {
             let sky = [0.0, 0.0, 1.0, 1.0];
             let draw = |frame: &Frame| {
@@ -115,7 +115,7 @@ proptest! {
         }
     }
 
-    /// A depth-only pass, then one that shades what is at that very depth.
+    /// Runs a depth-only pass, then a pass that shades fragments at exactly that depth.
     #[test]
     fn a_depth_pre_pass_hides_nothing(triangles in prop::collection::vec(corners(), 1..10)) {
         let surface = surface_fn(|_| [1.0; 4]);
@@ -130,7 +130,7 @@ proptest! {
 }
 
 #[test]
-fn a_depth_buffer_of_another_size_is_refused() {
+fn depth_buffers_of_another_size_are_rejected() {
     let refused = DepthBuffer::from_depths(4, 4, vec![0.0; 15]);
     assert_eq!(refused, Err(RasterError::DepthCount { expected: 16, found: 15 }));
     let small = Arc::new(DepthBuffer::from_depths(4, 4, vec![0.5; 16]).expect("16 depths"));
@@ -140,7 +140,8 @@ fn a_depth_buffer_of_another_size_is_refused() {
     assert_eq!(error, Some(RasterError::DepthCount { expected: 64, found: 16 }));
 }
 
-/// A perspective with a field of view of 90 degrees, near 0.5, far 100, w > 0 ahead (PE-3).
+/// Returns a perspective projection with a 90-degree field of view, near 0.5, far 100, and w > 0 in
+/// front of the eye (PE-3).
 fn lens() -> Projective<View, homog::Clip> {
     let (near, far) = (-0.5, -100.0);
     Projective::from_rows([
@@ -162,7 +163,7 @@ fn a_floor_under_the_eye_covers_the_lower_half() {
     let mut floor = frame(Samples::One);
     floor.add_clipped_mesh(&screen, lens(), mesh);
     let buffer = floor.visibility_buffer();
-    // From the row at 1 below the eye, 99 ahead, downwards; the lowest row sees 1 ahead.
+    // The floor begins just below the horizon, 99 ahead; the bottom row sees it 1 ahead.
     for (index, id) in (0..).zip(&buffer.ids) {
         let (x, row) = (index % SIDE, index / SIDE);
         let expected = row > SIDE / 2 && (row >= SIDE / 2 + 8 || x.abs_diff(SIDE / 2) < 20);
@@ -172,13 +173,13 @@ fn a_floor_under_the_eye_covers_the_lower_half() {
             assert_eq!(*id, None, "pixel {x}, {row}");
         }
     }
-    // Its weights are those of the whole triangle: z, interpolated, fits the depth.
+    // Weights refer to the whole triangle: interpolated z matches the distance.
     floor.for_each_fragment(|fragment| {
         let z: f32 = fragment.interpolate([9.0, 9.0, -99.0_f32]);
         let below = (f64::from(fragment.y) + 0.5 - 40.0) / 40.0;
         assert!((f64::from(z) + 1.0 / below).abs() < 2e-3 / (below * below), "{z} at {below}");
     });
-    // Front faces are counterclockwise seen from above.
+    // Seen from above, front faces are counterclockwise.
     for (cull, is_drawn) in [(CullMode::Clockwise, true), (CullMode::CounterClockwise, false)] {
         let mut floor = frame(Samples::One);
         floor.add_clipped_mesh(&screen, lens(), mesh.with_culling(cull));
@@ -187,9 +188,9 @@ fn a_floor_under_the_eye_covers_the_lower_half() {
     }
 }
 
-/// Vertices that are nowhere give nothing, and no panic.
+/// Invalid vertices are skipped without a panic.
 #[test]
-fn positions_that_are_not_finite_are_left_out() {
+fn nonfinite_positions_are_skipped() {
     let screen = ScreenProjection::new(
         &Viewport::image_for(SIDE, SIDE, ClipRange::CHAPTER).expect("pixels"),
     );
@@ -201,7 +202,7 @@ fn positions_that_are_not_finite_are_left_out() {
         drawn.add_clipped_mesh(&screen, lens(), mesh);
         let ids = drawn.visibility_buffer().ids;
         assert!(ids.contains(&Some(1)), "{odd}");
-        assert!(!ids.contains(&Some(2)), "a vertex that is not there");
+        assert!(!ids.contains(&Some(2)), "triangle with a missing vertex");
         assert!(odd == f32::MAX || !ids.contains(&Some(0)), "{odd}");
     }
 }
@@ -216,7 +217,7 @@ impl Monitor for Progress {
 }
 
 #[test]
-fn a_monitor_is_notified_at_the_end() {
+fn monitors_are_notified_at_the_end() {
     let progress = Arc::new(Progress::default());
     let monitor: Arc<dyn Monitor> = Arc::clone(&progress) as _;
     let drawn = Frame::new(64, 640, Samples::One).expect("a frame").with_monitor(monitor);

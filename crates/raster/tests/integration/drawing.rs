@@ -10,7 +10,7 @@ fn vertex(x: f64, y: f64, depth: f64) -> ScreenVertex {
     ScreenVertex::snap(homog::Point::new(x, y, depth), 1.0).expect("within the grid")
 }
 
-/// Adds a rectangle as two triangles of one name.
+/// Adds a rectangle as two triangles with the same id.
 fn rectangle(frame: &mut Frame, [x0, y0, x1, y1]: [f64; 4], depth: f64, id: u32, cover: Opacity) {
     let [a, b] = [vertex(x0, y0, depth), vertex(x1, y0, depth)];
     let [c, d] = [vertex(x1, y1, depth), vertex(x0, y1, depth)];
@@ -18,7 +18,7 @@ fn rectangle(frame: &mut Frame, [x0, y0, x1, y1]: [f64; 4], depth: f64, id: u32,
     frame.add_triangle([a, c, d], id, cover);
 }
 
-/// Colours by name, and a mask that keeps every other column.
+/// Colors by id, with a mask that keeps every other column.
 struct Colors(Vec<[f32; 4]>);
 
 impl Surface for Colors {
@@ -52,7 +52,7 @@ fn a_pixel_is_the_mean_of_its_samples() {
     }
 }
 
-/// Colors by id, of which the first two are one smooth surface.
+/// Colors by id; the first two ids form one smooth surface.
 struct Continuous(Colors);
 
 impl Surface for Continuous {
@@ -68,12 +68,12 @@ impl Surface for Continuous {
 }
 
 #[test]
-fn neighbors_in_one_surface_share_a_color_where_they_face_the_same_way() {
+fn neighbors_in_one_surface_share_a_color_if_they_face_the_same_way() {
     let mut frame = Frame::new(3, 1, Samples::Four).expect("a small frame");
     rectangle(&mut frame, [0.0, 0.0, 0.5, 1.0], 0.5, 0, Opacity::Opaque);
     rectangle(&mut frame, [0.5, 0.0, 1.5, 1.0], 0.5, 1, Opacity::Opaque);
     rectangle(&mut frame, [1.5, 0.0, 2.5, 1.0], 0.5, 2, Opacity::Opaque);
-    // The same on the right, but seen from behind: the last pixel is half of it.
+    // On the right, the same surface seen from behind covers half of the last pixel.
     let [a, b] = [vertex(2.5, 0.0, 0.5), vertex(9.0, 0.0, 0.5)];
     let [c, d] = [vertex(9.0, 1.0, 0.5), vertex(2.5, 1.0, 0.5)];
     frame.add_triangle([a, c, b], 0, Opacity::Opaque);
@@ -82,13 +82,13 @@ fn neighbors_in_one_surface_share_a_color_where_they_face_the_same_way() {
     let mut target = [CLEAR; 3];
     frame.draw(&Continuous(Colors(colors)), CLEAR, 1, &mut target, |color| color);
     let half = [0.5, 0.0, 0.5, 1.0];
-    // Red and blue are one surface in the first pixel, and in the others they are not.
+    // Red and blue are one surface in the first pixel but not in the others.
     assert!(target[0] == RED || target[0] == BLUE, "{target:?}");
     assert_eq!(target[1..], [BLUE, half], "{target:?}");
 }
 
 #[test]
-fn neighbouring_triangles_show_nothing_of_the_background_between_them() {
+fn the_background_never_shows_between_adjacent_triangles() {
     let mut frame = Frame::new(40, 40, Samples::Eight).expect("a small frame");
     let at = |i: i32, j: i32| {
         let wobble = f64::from((i * 7 + j * 13) % 5) * 0.37;
@@ -104,8 +104,9 @@ fn neighbouring_triangles_show_nothing_of_the_background_between_them() {
 }
 
 #[test]
-fn layers_are_blended_from_the_farthest_to_the_nearest_whatever_their_order() {
-    // Premultiplied halves of red and blue over white; the solid square hides the layer behind it.
+fn layers_are_blended_back_to_front_in_any_submission_order() {
+    // Half-transparent red and blue, premultiplied, over white; the opaque rectangle hides the
+    // layer behind it.
     let colors = [[0.5, 0.0, 0.0, 0.5], [0.0, 0.0, 0.5, 0.5], [0.0, 1.0, 0.0, 1.0]];
     let white = [1.0; 4];
     let mut pictures = Vec::new();
@@ -118,7 +119,7 @@ fn layers_are_blended_from_the_farthest_to_the_nearest_whatever_their_order() {
             }
             rectangle(&mut frame, [0.0, 0.0, 2.0, 4.0], 0.5, 2, Opacity::Opaque);
             let picture = draw(&frame, &colors, white, 1);
-            // Blue over red over white; blue over green where the square hides the red.
+            // Blue over red over white; blue over green where the rectangle hides the red.
             assert_eq!(picture[3], [0.5, 0.25, 0.75, 1.0]);
             assert_eq!(picture[0], [0.0, 0.5, 0.5, 1.0]);
             pictures.push(picture);
@@ -128,7 +129,7 @@ fn layers_are_blended_from_the_farthest_to_the_nearest_whatever_their_order() {
 }
 
 #[test]
-fn a_masked_surface_is_absent_where_it_is_not_kept_and_hides_where_it_is() {
+fn masked_surfaces_hide_only_where_they_pass_the_alpha_test() {
     let mut frame = Frame::new(4, 1, Samples::One).expect("a small frame");
     rectangle(&mut frame, [0.0, 0.0, 4.0, 1.0], 0.75, 0, Opacity::Masked);
     rectangle(&mut frame, [0.0, 0.0, 4.0, 1.0], 0.5, 1, Opacity::Opaque);
@@ -136,7 +137,7 @@ fn a_masked_surface_is_absent_where_it_is_not_kept_and_hides_where_it_is() {
 }
 
 #[test]
-fn neither_threads_nor_instructions_change_a_bit() {
+fn threads_and_simd_levels_do_not_change_a_bit() {
     let mut frame = Frame::new(200, 333, Samples::Four).expect("a frame of several tiles");
     let colors = crowd(&mut frame);
     let once = draw(&frame, &colors, CLEAR, 1);
@@ -151,7 +152,7 @@ fn neither_threads_nor_instructions_change_a_bit() {
 }
 
 #[test]
-fn parts_have_the_pixels_of_the_whole() {
+fn regions_match_the_full_picture() {
     let mut whole = Frame::new(200, 333, Samples::Four).expect("a frame of several tiles");
     let colors = crowd(&mut whole);
     let picture = draw(&whole, &colors, CLEAR, 1);
@@ -174,7 +175,7 @@ fn parts_have_the_pixels_of_the_whole() {
 }
 
 /// Adds two hundred triangles, a third of them translucent and a third masked, and returns their
-/// colours.
+/// colors.
 fn crowd(frame: &mut Frame) -> Vec<[f32; 4]> {
     let colors: Vec<[f32; 4]> =
         (0..200_u32).map(|n| [n as f32 / 200.0, 0.3, 1.0 - n as f32 / 300.0, 0.8]).collect();
@@ -194,14 +195,14 @@ fn crowd(frame: &mut Frame) -> Vec<[f32; 4]> {
 }
 
 #[test]
-fn sizes_out_of_range_are_refused() {
+fn sizes_out_of_range_are_rejected() {
     for (width, height) in [(0, 5), (5, 0), (MAX_SIDE + 1, 1), (1, u32::MAX)] {
-        let error = Frame::new(width, height, Samples::One).expect_err("refused");
+        let error = Frame::new(width, height, Samples::One).expect_err("an invalid size");
         assert_eq!(error, RasterError::Size { x: 0, y: 0, width, height });
         assert!(error.to_string().contains(&format!("{width} x {height}")), "{error}");
     }
     let beyond = PixelRect { x: MAX_SIDE, y: 3, width: 1, height: 1 };
-    let error = Frame::for_region(beyond, Samples::One).expect_err("refused");
+    let error = Frame::for_region(beyond, Samples::One).expect_err("an invalid size");
     assert_eq!(error, RasterError::Size { x: MAX_SIDE, y: 3, width: 1, height: 1 });
 }
 
@@ -225,7 +226,7 @@ fn points_without_a_screen_vertex_are_not_drawn() {
     let triangles = [[0, 2, 1], [0, 2, 7], [u32::MAX, 0, 2]];
     frame.add_mesh(&vertices, &triangles, 0, Opacity::Opaque, CullMode::Nothing);
     assert!(draw(&frame, &[RED; 7], CLEAR, 1).iter().all(|&color| color == CLEAR));
-    // However wide, a line is drawn within the grid.
+    // A line of any width is drawn within the grid.
     for width in [1e12, f64::INFINITY, f64::NAN, -3.0] {
         frame.add_line([good, vertex(5.0, 3.0, 0.5)], width, 0, Opacity::Opaque);
     }
@@ -233,7 +234,7 @@ fn points_without_a_screen_vertex_are_not_drawn() {
 }
 
 #[test]
-fn a_mesh_keeps_the_side_that_is_asked_for() {
+fn meshes_are_culled_by_winding() {
     let corners = [vertex(0.0, 0.0, 0.5), vertex(8.0, 0.0, 0.5), vertex(0.0, 8.0, 0.5)].map(Some);
     let seen = |cull: CullMode| {
         let mut frame = Frame::new(8, 8, Samples::One).expect("a small frame");
@@ -244,10 +245,10 @@ fn a_mesh_keeps_the_side_that_is_asked_for() {
     assert_eq!(seen(CullMode::Clockwise), Some(6));
 }
 
-/// Found by the fuzzer: 1/w times the area of a triangle may be too large for an `f32`, and it may
+/// Found by the fuzzer: 1/w times the area of a triangle may be too large for an `f32`, or it may
 /// be 0.
 #[test]
-fn weights_are_finite_and_whole_for_every_w() {
+fn weights_are_finite_and_add_up_to_1_for_every_w() {
     let corners = [(0.25, 7.75), (7.5, 6.5), (3.0, 0.5)];
     let weights = |ws: [f64; 3]| {
         let mut frame = Frame::new(8, 8, Samples::One).expect("a small frame");
@@ -280,9 +281,9 @@ fn weights_are_finite_and_whole_for_every_w() {
     }
 }
 
-/// C2: lines hide no more than their own pixels, and triangles hide what is behind them.
+/// C2: lines hide only their own pixels, and triangles hide everything behind them.
 #[test]
-fn c2_near_lines_do_not_hide_far_ones_and_near_triangles_do() {
+fn c2_wireframes_hide_only_their_own_pixels_and_triangles_hide_more() {
     let line = |frame: &mut Frame, ends: [[f64; 2]; 2], depth: f64, id: u32| {
         let ends = ends.map(|[x, y]| vertex(x, y, depth));
         frame.add_line(ends, 1.0, id, Opacity::Opaque);
@@ -296,7 +297,7 @@ fn c2_near_lines_do_not_hide_far_ones_and_near_triangles_do() {
     line(&mut alone, far_line, 0.2, 0);
     let whole = pixels_of(&alone, 0);
     assert_eq!(whole, (2..14).map(|x| 8 * 16 + x).collect::<Vec<usize>>());
-    // The outline of a square before it takes the two pixels that it crosses.
+    // The outline of a square in front of the line hides the two pixels where it crosses.
     let corners = [[4.5, 4.5], [11.5, 4.5], [11.5, 11.5], [4.5, 11.5]];
     let mut wireframe = alone.clone();
     for side in 0..4 {
@@ -306,7 +307,8 @@ fn c2_near_lines_do_not_hide_far_ones_and_near_triangles_do() {
     let left: Vec<usize> = whole.iter().copied().filter(|at| !crossed.contains(at)).collect();
     assert_eq!(pixels_of(&wireframe, 0), left);
     assert!(crossed.iter().all(|at| pixels_of(&wireframe, 1).contains(at)));
-    // The square itself takes all between them: the centers from 4.5 to, without, 11.5.
+    // The square itself hides all pixels between them: the centers from 4.5 up to, but not
+    // including, 11.5.
     let mut solid = alone.clone();
     rectangle(&mut solid, [4.5, 4.5, 11.5, 11.5], 0.8, 2, Opacity::Opaque);
     let outside = |at: &usize| !(4..11).contains(&(at % 16));

@@ -1,12 +1,12 @@
-//! Frames that are filled and drawn again and again: by any number of threads, and without asking
-//! for memory anew.
+//! Frames that are filled and drawn repeatedly, with any number of threads and without new
+//! allocations.
 
 use homog::Point;
 use raster::{CullMode, Fragment, Frame, Opacity, Samples, ScreenVertex, Surface};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
-/// Counts shaded pixels, and requests the end at the first one.
+/// Counts shaded pixels and requests cancellation at the first one.
 #[derive(Default)]
 struct Impatient {
     shaded: AtomicU32,
@@ -26,7 +26,7 @@ impl Surface for Impatient {
 }
 
 #[test]
-fn no_row_of_tiles_is_begun_once_drawing_is_to_stop() {
+fn canceled_drawing_starts_no_further_row_of_tiles() {
     let surface = Impatient::default();
     let frame = Frame::new(64, 1024, Samples::One).expect("a frame");
     let mut frame = frame.with_monitor(Arc::<AtomicBool>::clone(&surface.stop));
@@ -36,12 +36,15 @@ fn no_row_of_tiles_is_begun_once_drawing_is_to_stop() {
     let mut pixels = vec![[0.0_f32; 4]; 64 * 1024];
     frame.draw(&surface, [0.0; 4], 1, &mut pixels, |color: [f32; 4]| color);
     let shaded = surface.shaded.into_inner();
-    assert!(shaded > 0 && shaded <= 64 * 128, "{shaded} pixels of one row of tiles");
+    assert!(
+        shaded > 0 && shaded <= 64 * 128,
+        "{shaded} pixels are shaded, expected one row of tiles"
+    );
 }
 
 const SIZE: (u32, u32) = (200, 150);
 
-/// Half a lattice, and half transparent.
+/// A lattice that covers half of the pixels, half transparent.
 struct Lattice;
 
 impl Surface for Lattice {
@@ -55,8 +58,7 @@ impl Surface for Lattice {
     }
 }
 
-/// A net of `side` × `side` quads over the whole picture, one corner of each up or down, each row a
-/// vertex longer than needed.
+/// Returns a net of `side` × `side` quads of varying depth over the whole picture.
 fn net(side: u32) -> (Vec<Option<ScreenVertex>>, Vec<[u32; 3]>) {
     let place = |k: u32, length: u32| f64::from(k) / f64::from(side) * f64::from(length);
     let vertices = (0..=side).flat_map(|j| (0..=side).map(move |i| (i, j))).map(|(i, j)| {
@@ -76,14 +78,14 @@ fn draw(frame: &Frame, threads: usize, pixels: &mut [[u32; 4]]) {
 }
 
 #[test]
-fn threads_change_neither_a_mesh_nor_its_picture() {
+fn threads_do_not_change_a_mesh_or_its_picture() {
     let (vertices, triangles) = net(180);
     for cull in [CullMode::Nothing, CullMode::Clockwise] {
         let mut first: Option<Vec<[u32; 4]>> = None;
         for threads in 1..=3 {
             let frame = Frame::new(SIZE.0, SIZE.1, Samples::Four).expect("a small frame");
             let mut frame = frame.with_threads(threads);
-            // Before and behind a large mesh, which begins a chunk of its own.
+            // Add small meshes before and after a large mesh, which begins a separate chunk.
             frame.add_mesh(&vertices, &triangles[..100], 70_000, Opacity::Opaque, cull);
             frame.add_mesh(&vertices, &triangles, 0, Opacity::Opaque, cull);
             frame.add_mesh(&vertices, &triangles[100..300], 80_000, Opacity::Translucent, cull);
@@ -95,7 +97,7 @@ fn threads_change_neither_a_mesh_nor_its_picture() {
 }
 
 #[test]
-fn a_second_frame_allocates_nothing() {
+fn redrawing_a_frame_allocates_nothing() {
     let (vertices, triangles) = net(40);
     let mut pixels = vec![[0; 4]; (SIZE.0 * SIZE.1) as usize];
     for samples in [Samples::One, Samples::Four] {
@@ -108,7 +110,7 @@ fn a_second_frame_allocates_nothing() {
             draw(&frame, 1, &mut pixels);
         };
         let first = allocation_counter::measure(&mut fill_and_draw);
-        assert!(first.count_total > 0, "the allocations are counted");
+        assert!(first.count_total > 0, "the first drawing should allocate");
         let second = allocation_counter::measure(&mut fill_and_draw);
         assert_eq!(second.count_total, 0, "{samples:?}");
     }

@@ -1,4 +1,4 @@
-//! Front fragments and overdraw, against frames of one primitive each.
+//! Compares front fragments and overdraw with frames of one primitive each.
 
 use homog::Point;
 use raster::{Fragment, Frame, Opacity, Samples, ScreenVertex, Surface};
@@ -17,7 +17,7 @@ impl Surface for Holed {
     }
 }
 
-/// Many triangles through each other, each of another depth at each corner.
+/// Returns many intersecting triangles with a random depth at each corner.
 fn triangles() -> Vec<[ScreenVertex; 3]> {
     let mut state = 12_345_u32;
     let mut random = |most: f64| {
@@ -43,7 +43,8 @@ fn cover_of(id: u32) -> Opacity {
     [Opacity::Opaque, Opacity::Masked, Opacity::Translucent][id as usize % 3]
 }
 
-/// For each pixel the primitives that cover its center, with their depths, each drawn separately.
+/// Returns, for each pixel, the primitives that cover its center and their depths; each is drawn
+/// separately.
 fn covering() -> Vec<Vec<(u32, f32)>> {
     let mut all = vec![Vec::new(); (SIZE[0] * SIZE[1]) as usize];
     for (id, corners) in (0..).zip(triangles()) {
@@ -60,7 +61,7 @@ fn covering() -> Vec<Vec<(u32, f32)>> {
 }
 
 #[test]
-fn the_nearest_of_all_covers_is_found_for_any_number_of_threads() {
+fn front_fragments_are_the_nearest_for_any_number_of_threads() {
     let given: Vec<_> = (0..).zip(triangles()).map(|(id, c)| (c, id, cover_of(id))).collect();
     let frame = frame(&given);
     for threads in 1..=3 {
@@ -78,10 +79,10 @@ fn the_nearest_of_all_covers_is_found_for_any_number_of_threads() {
 }
 
 #[test]
-fn layers_are_counted_whatever_hides_them() {
+fn overdraw_counts_hidden_layers() {
     let translucent = |(id, corners)| (corners, id, Opacity::Translucent);
     let frame = frame(&(0..).zip(triangles()).map(translucent).collect::<Vec<_>>());
-    /// Keeps what is not masked, and what the holes leave of the rest.
+    /// Applies the holes only to masked primitives.
     struct Kept;
     impl Surface for Kept {
         fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
@@ -94,6 +95,6 @@ fn layers_are_counted_whatever_hides_them() {
     let mut counts = vec![0; (SIZE[0] * SIZE[1]) as usize];
     frame.count_overdraw(&Kept, 2, &mut counts);
     let due: Vec<u32> = covering().iter().map(|pixel| pixel.len() as u32).collect();
-    assert!(due.iter().any(|count| *count > 8), "they overlap");
+    assert!(due.iter().any(|count| *count > 8), "the triangles overlap too little");
     assert_eq!(counts, due);
 }

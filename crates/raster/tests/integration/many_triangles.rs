@@ -1,21 +1,21 @@
-//! A million triangles, most of them such as nobody would draw, against the definition of coverage
-//! and of visibility.
+//! Compares a million triangles, most of them unusual, with the definition of coverage and
+//! visibility.
 //!
-//! Pictures of forty triangles each; for every sample it is found by brute force, in integers,
-//! which of them cover it, and the nearest must be the one that is seen. Each triangle has one
-//! depth, so that nothing is rounded.
+//! Each picture contains forty triangles. For every sample, brute force in integers determines
+//! which of them cover it, and the nearest of these must be visible. Each triangle has a constant
+//! depth, so nothing is rounded.
 
 use raster::{Frame, Opacity, Samples, ScreenVertex, SimdLevel};
 
-/// The pictures that are drawn, and the triangles of each.
+/// The number of pictures; below, the number of triangles in each.
 const PICTURES: usize = 25_000;
 const TRIANGLES: usize = 40;
-/// The side of a picture: one tile and a part of the next.
+/// The side of a picture: one tile and part of the next.
 const SIDE: u32 = 72;
-/// The pixels that are looked at: a window over the border of two tiles.
+/// The pixels that are checked: a window across the border between two tiles.
 const WINDOW: std::ops::Range<u32> = 56..72;
 
-/// Numbers without rhyme that are the same everywhere (Knuth's constants).
+/// Pseudorandom numbers that are the same everywhere (Knuth's constants).
 struct Dice(u64);
 
 impl Dice {
@@ -25,8 +25,8 @@ impl Dice {
         ((self.0 >> 33) % end as u64) as i32
     }
 
-    /// A triangle around the window: of a size between a grid step and the whole guard band, and
-    /// often without an area, with corners on samples, or with sides along the axes.
+    /// Returns a triangle near the window. Its size is between a grid step and the whole guard
+    /// band. Often it is degenerate, has corners on samples, or has sides along the axes.
     fn triangle(&mut self) -> [[i32; 2]; 3] {
         let size = 1 << self.below(22);
         let center = [0, 1].map(|_| (52 * 256) + self.below(24 * 256));
@@ -45,7 +45,7 @@ impl Dice {
     }
 }
 
-/// Whether a triangle covers a sample at grid position (x, y): RA-1, in 64 bits.
+/// Returns whether a triangle covers a sample at grid position (x, y), using RA-1 in 64 bits.
 fn covers(mut corners: [[i32; 2]; 3], x: i32, y: i32) -> bool {
     let side = |[ax, ay]: [i32; 2], [bx, by]: [i32; 2], x: i32, y: i32| {
         let (dx, dy) = (i64::from(bx) - i64::from(ax), i64::from(by) - i64::from(ay));
@@ -66,7 +66,7 @@ fn covers(mut corners: [[i32; 2]; 3], x: i32, y: i32) -> bool {
 }
 
 #[test]
-fn a_million_triangles_cover_what_the_definition_says() {
+fn a_million_triangles_match_the_definition_of_coverage() {
     let mut dice = Dice(1);
     let instructions = SimdLevel::available();
     let mut covered = 0_u64;
@@ -77,14 +77,16 @@ fn a_million_triangles_cover_what_the_definition_says() {
         let mut frame = frame.with_simd_level(instructions[picture % instructions.len()]);
         for (id, (corners, depth)) in (0..).zip(&triangles) {
             let vertex = |[x, y]: [i32; 2]| ScreenVertex::new(x, y, *depth, 1.0);
-            let [Some(p), Some(q), Some(r)] = corners.map(vertex) else { panic!("off the grid") };
+            let [Some(p), Some(q), Some(r)] = corners.map(vertex) else {
+                panic!("vertex off the grid")
+            };
             frame.add_triangle([p, q, r], id, Opacity::Opaque);
         }
         let seen = frame.visibility_buffer();
         for (y, x) in WINDOW.flat_map(|y| WINDOW.map(move |x| (y, x))) {
             let at = [x, y].map(|c| c as i32 * 256 + 128);
             let covering = (0..).zip(&triangles).filter(|(_, (c, _))| covers(*c, at[0], at[1]));
-            // The nearest; of those at the same depth, the first.
+            // The nearest triangle wins; at equal depth, the first.
             let nearest = covering.max_by(|(m, (_, a)), (n, (_, b))| a.total_cmp(b).then(n.cmp(m)));
             let expected: Option<u32> = nearest.map(|(id, _)| id);
             let found = seen.ids[(y * SIDE + x) as usize];
@@ -93,5 +95,5 @@ fn a_million_triangles_cover_what_the_definition_says() {
         }
     }
     let share = covered as f64 / (PICTURES * WINDOW.len() * WINDOW.len()) as f64;
-    assert!((0.3..0.999).contains(&share), "the pictures are a test of something: {share}");
+    assert!((0.3..0.999).contains(&share), "unsuitable share of covered samples: {share}");
 }
