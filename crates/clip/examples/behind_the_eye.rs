@@ -1,8 +1,8 @@
 //! Why clipping comes before the divide: a rail that runs from in front of the camera to behind it.
 //!
-//! Run it with `cargo run -p alberti-clip --example behind_the_eye`. It prints the images of the
-//! ends of the rail, divided immediately and clipped first, and draws both pictures.
-#![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
+//! Run it with `cargo run -p alberti-clip --example behind_the_eye`. It prints both ends of the
+//! rail in clip space and draws two pictures: one divides immediately, the other clips first.
+#![allow(clippy::print_stdout, reason = "the example prints its pictures")]
 
 use clip::{Volume, clip_segment};
 use homog::{Clip, HPoint, Ndc, Point, Projective, View};
@@ -30,7 +30,7 @@ fn main() {
     if let (Some(p), Some(q)) = (ahead.divide(), behind.divide()) {
         draw(p, q);
     }
-    println!("clipped first: the floor comes towards the viewer and leaves the picture");
+    println!("clipped first: the floor comes toward the viewer and leaves the picture");
     let Some(visible) = clip_segment(ahead, behind, &Volume::CHAPTER) else {
         println!("nothing is visible");
         return;
@@ -40,7 +40,7 @@ fn main() {
     }
     if let Some(plane) = visible.exit {
         println!(
-            "it leaves through the {plane} plane, {:.1} % of the way along",
+            "it leaves through the {plane} plane, {:.1}% of the way along",
             visible.t1 * 100.0
         );
     }

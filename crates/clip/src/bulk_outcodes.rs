@@ -1,7 +1,8 @@
 //! Arrays of points: projection and outcodes in one pass.
 //!
-//! Most meshes are completely visible or completely hidden. [`OutcodeSummary`] decides with two
-//! comparisons. For the others, the outcodes of the corners sort the triangles before any clipping:
+//! Most meshes are completely visible or completely hidden. [`OutcodeSummary`] detects both cases
+//! with two comparisons. For other meshes, the outcodes of the corners sort the triangles before
+//! any clipping:
 //!
 //! ```
 //! use clip::{OutcodeSummary, Outcode, Volume};
@@ -36,13 +37,13 @@ pub struct OutcodeSummary {
 impl OutcodeSummary {
     const EMPTY: Self = Self { count: 0, any_outside: Outcode::INSIDE, all_outside: Outcode::ALL };
 
-    /// Returns whether every point is inside, and with them everything between them.
+    /// Returns whether every point is inside, and so is everything between them.
     #[must_use]
     pub fn is_inside(&self) -> bool {
         self.any_outside.is_inside()
     }
 
-    /// Returns whether all points are outside of one plane, and with them everything between them.
+    /// Returns whether all points are outside of one plane, and so is everything between them.
     #[must_use]
     pub fn is_outside(&self) -> bool {
         !self.all_outside.is_inside()
@@ -60,7 +61,7 @@ impl OutcodeSummary {
 }
 
 impl Volume {
-    /// The outcodes of many points. Extra elements of the longer slice are ignored.
+    /// Computes the outcodes of many points. Extra elements of the longer slice are ignored.
     pub fn compute_outcodes(
         &self,
         points: &[HPoint<Clip>],
@@ -92,11 +93,11 @@ impl Volume {
         summary.finish()
     }
 
-    /// Projects many positions in f32: half the memory, about seven digits. Use it for previews and
-    /// bounds; where pixels depend on the result, use [`Self::project_positions`].
+    /// Projects many positions in f32, with half the memory and about seven digits. Use it for
+    /// previews and bounds; where pixels depend on the result, use [`Self::project_positions`].
     ///
-    /// Every coordinate is ((x·m₀ + y·m₁) + z·m₂) + m₃ in this order, so the bits are the same on
-    /// every machine.
+    /// Every coordinate is ((x·m₀ + y·m₁) + z·m₂) + m₃, added in this order, so the bits are the
+    /// same on every machine.
     pub fn project_positions_f32<S: Space>(
         &self,
         source_to_clip: Projective<S, Clip>,
@@ -141,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn arrays_agree_with_single_points() {
+    fn arrays_match_single_points() {
         let positions: [[f32; 3]; 64] = core::array::from_fn(|i| {
             [i as f32 * 0.11 - 3.0, (i % 7) as f32 * 0.4 - 1.0, (i % 5) as f32 - 2.0]
         });
@@ -167,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn slices_of_different_lengths_go_as_far_as_the_shortest() {
+    fn only_the_length_of_the_shortest_slice_is_processed() {
         let mut points = [HPoint::new(0.0, 0.0, 0.0, 0.0); 2];
         let summary = Volume::OPENGL.project_positions(
             wide(),

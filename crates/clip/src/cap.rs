@@ -16,12 +16,12 @@ use alloc::vec::Vec;
 use homog::{Plane, Point, Space};
 
 impl<S: Space> Outline<S> {
-    /// The triangles of the cut face, seen from the removed side: counterclockwise there, with the
-    /// normal of the plane pointing away from the viewer.
+    /// Returns the triangles of the cut face. They are counterclockwise seen from the removed side,
+    /// where the normal of the plane points away from the viewer.
     ///
-    /// Even-odd rule: areas within an odd number of loops are filled, in either direction. Loops
-    /// that cross each other, which never happens for a solid, are covered only in part. The time
-    /// grows with the square of the number of points.
+    /// Areas within an odd number of loops are filled, whatever the direction of the loops
+    /// (even-odd rule). Loops that cross each other, which never happens for a solid, are covered
+    /// only in part. The time grows with the square of the number of points.
     ///
     /// ```
     /// use clip::Outline;
@@ -67,7 +67,7 @@ impl PlanarPoints {
         Self { points: loops.iter().flatten().map(place).collect() }
     }
 
-    /// Twice the signed area of a triangle: positive if its corners are counterclockwise.
+    /// Returns twice the signed area of a triangle: positive if its corners are counterclockwise.
     fn signed_area(&self, [a, b, c]: [usize; 3]) -> f64 {
         let [a, b, c] = [a, b, c].map(|i| self.points[i]);
         (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
@@ -88,7 +88,8 @@ impl PlanarPoints {
         })
     }
 
-    /// One counterclockwise ring for each outline that is not a hole, joined with its holes.
+    /// Returns one counterclockwise ring for each outline that is not a hole, joined with its
+    /// holes.
     fn outer_rings<S: Space>(&self, loops: &[Vec<Point<S>>]) -> Vec<VertexRing> {
         let mut start = 0;
         let numbered = loops.iter().map(|points| {
@@ -142,9 +143,9 @@ impl PlanarPoints {
         outline
     }
 
-    /// The index in the outline of a corner visible from a point inside. Going right from the
-    /// point, it is the nearer end of the first edge met, or a corner that blocks the view of that
-    /// end.
+    /// Returns the index in the outline of a corner visible from a point inside. A ray from the
+    /// point to the right meets a first edge; the corner is the right end of that edge or a corner
+    /// that blocks the view of that end.
     fn find_bridge(&self, outline: &[usize], point: usize) -> Option<usize> {
         let [x, y] = self.points[point];
         let mut nearest: Option<(f64, usize)> = None;
@@ -164,8 +165,9 @@ impl PlanarPoints {
         Some(self.blocking_vertex(outline, point, meets, end).unwrap_or(end))
     }
 
-    /// Of the corners within the triangle from the point to the edge and to the end of that edge,
-    /// the one at the smallest angle from straight right.
+    /// Returns the corner at the smallest angle from straight right, among the corners within the
+    /// triangle formed by the point, the point where the ray meets the edge, and the end of that
+    /// edge.
     fn blocking_vertex(
         &self,
         outline: &[usize],
@@ -196,7 +198,7 @@ impl PlanarPoints {
         let (mut at, mut refused) = (0, 0);
         while ring.len() > 2 {
             at %= ring.len();
-            // After a whole round without an ear, only flat corners are left, or the loops crossed.
+            // After a full round without an ear, only flat corners are left, or the loops cross.
             let stuck = refused > ring.len();
             let ear = ring_corner(&ring, at);
             if stuck || self.is_ear(&ring, ear) {
@@ -224,12 +226,12 @@ impl PlanarPoints {
     }
 }
 
-/// The edges of a ring, as indices of their points.
+/// Returns the edges of a ring, as indices of their points.
 fn ring_edges(ring: &[usize]) -> impl Iterator<Item = (usize, usize)> {
     ring.iter().copied().zip(ring.iter().copied().cycle().skip(1))
 }
 
-/// A corner with the points before and after it.
+/// Returns a corner with the points before and after it.
 fn ring_corner(ring: &[usize], at: usize) -> [usize; 3] {
     let count = ring.len();
     [ring[(at + count - 1) % count], ring[at], ring[(at + 1) % count]]

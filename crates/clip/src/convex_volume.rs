@@ -1,16 +1,17 @@
-//! Convex volumes with any planes in any space: clipping to a room, a light cone, a camera view.
+//! Convex volumes with any planes in any space, for clipping to a room, a light cone or a camera
+//! view.
 //!
-//! [`Volume`](crate::Volume) is the table of the pipeline: in clip space, with at most sixteen
-//! planes and without allocation. This one starts without planes, accepts any number of them, and
-//! carries attributes along.
+//! [`Volume`](crate::Volume) is the plane table of the pipeline: it is in clip space, has at most
+//! sixteen planes and never allocates. A [`ConvexVolume`] starts without planes, accepts any number
+//! of them, and carries attributes along.
 
 use crate::VolumeError;
 use crate::sutherland_hodgman::{RingStep, clip_ring};
 use alloc::vec::Vec;
 use homog::{Bounds, Clip, ClipRange, HPoint, Interpolate, Plane, Point, Projective, Space};
 
-/// The intersection of half-spaces of space `S`: the points where no plane is negative. The
-/// boundary belongs to it.
+/// An intersection of half-spaces in space `S`: the points where no plane is negative. The boundary
+/// belongs to it.
 ///
 /// ```
 /// use clip::ConvexVolume;
@@ -42,13 +43,13 @@ impl<S: Space> Default for ConvexVolume<S> {
 }
 
 impl<S: Space> ConvexVolume<S> {
-    /// All of space: no planes.
+    /// Creates a volume without planes, which is all of space.
     #[must_use]
     pub const fn new() -> Self {
         Self { planes: Vec::new() }
     }
 
-    /// The volume on the positive side of one more plane.
+    /// Returns the part of this volume on the positive side of another plane.
     ///
     /// # Errors
     /// Returns [`VolumeError::NoPlane`] if the coefficients are not finite or all zero.
@@ -63,7 +64,7 @@ impl<S: Space> ConvexVolume<S> {
         Ok(self)
     }
 
-    /// The volume of a box.
+    /// Creates the volume of a box.
     #[must_use]
     pub fn from_bounds(bounds: Bounds<S>) -> Self {
         let ([x0, y0, z0], [x1, y1, z1]) =
@@ -79,10 +80,10 @@ impl<S: Space> ConvexVolume<S> {
         Self { planes: planes.to_vec() }
     }
 
-    /// The part of space that a projection shows: the six planes of its frustum in clip-space order
-    /// (left, right, bottom, top, near, far; Gribb and Hartmann, 2001).
+    /// Creates the part of space that a projection shows, with the six planes of its frustum in
+    /// clip-space order (left, right, bottom, top, near, far; Gribb and Hartmann, 2001).
     ///
-    /// A far plane at infinity is omitted, and so is one that only rounding keeps finite.
+    /// A far plane at infinity is omitted, and so is a far plane that only rounding keeps finite.
     ///
     /// ```
     /// use clip::ConvexVolume;
@@ -131,7 +132,8 @@ impl<S: Space> ConvexVolume<S> {
         Ok(volume)
     }
 
-    /// The planes in the order in which they were added; the largest coefficient of each is ±1.
+    /// Returns the planes in the order in which they were added, scaled to make the largest
+    /// coefficient of each ±1.
     #[must_use]
     pub fn planes(&self) -> &[Plane<S>] {
         &self.planes
@@ -144,19 +146,20 @@ impl<S: Space> ConvexVolume<S> {
         point.is_finite() && self.planes.iter().all(|plane| plane.evaluate(point) >= 0.0)
     }
 
-    /// Returns false if a box is certainly outside: completely on the negative side of one plane.
-    /// This is the test for frustum culling.
+    /// Returns false if a box is certainly outside, that is, completely on the negative side of one
+    /// plane. This is the test for frustum culling.
     #[must_use]
     pub fn may_touch(&self, bounds: Bounds<S>) -> bool {
         let corners = bounds.corners();
         self.planes.iter().all(|plane| corners.iter().any(|corner| plane.evaluate(*corner) >= 0.0))
     }
 
-    /// The part of a convex polygon that is inside: its corners with their attributes, in the same
-    /// order (CL-3; Sutherland and Hodgman, 1974). Corners are points or homogeneous points.
+    /// Returns the part of a convex polygon that is inside: its corners with their attributes, in
+    /// the same order (CL-3; Sutherland and Hodgman, 1974). Corners are points or homogeneous
+    /// points.
     ///
-    /// Empty if nothing is left or a corner is not finite. Corners that are inside keep their exact
-    /// bits, and an edge shared by two polygons is cut at the same bits in both.
+    /// The result is empty if nothing is left or a corner is not finite. Corners that are inside
+    /// keep their exact bits, and an edge shared by two polygons is cut at the same bits in both.
     #[must_use]
     pub fn clip_polygon<P, A>(&self, polygon: &[(P, A)]) -> Vec<(P, A)>
     where
@@ -191,8 +194,9 @@ impl<S: Space> ConvexVolume<S> {
         ring
     }
 
-    /// The part of a segment that is inside: the fractions at which it enters and leaves, or 0 and
-    /// 1 if its ends are inside (Cyrus and Beck, 1978). `None` if nothing is inside.
+    /// Returns the part of a segment that is inside, as the fractions at which it enters and
+    /// leaves, or 0 and 1 where its ends are inside (Cyrus and Beck, 1978). Returns `None` if
+    /// nothing is inside.
     #[must_use]
     pub fn clip_segment(&self, ends: [impl Into<HPoint<S>>; 2]) -> Option<[f64; 2]> {
         let [p, q] = ends.map(Into::into);
@@ -213,10 +217,11 @@ impl<S: Space> ConvexVolume<S> {
     }
 }
 
-/// Plain points, without attributes, work too.
+/// Plain points without attributes also work.
 impl<S: Space> ConvexVolume<S> {
-    /// The part of a triangle that is inside, as a polygon: [`clip_polygon`](Self::clip_polygon)
-    /// with the weights of the triangle's corners as attributes.
+    /// Returns the part of a triangle that is inside, as a polygon. This is
+    /// [`clip_polygon`](Self::clip_polygon) with the weights of the triangle's corners as
+    /// attributes.
     #[must_use]
     pub fn clip_triangle(&self, [a, b, c]: [Point<S>; 3]) -> Vec<(Point<S>, [f64; 3])> {
         self.clip_polygon(&[(a, [1.0, 0.0, 0.0]), (b, [0.0, 1.0, 0.0]), (c, [0.0, 0.0, 1.0])])
@@ -232,7 +237,7 @@ mod tests {
     type Room = ConvexVolume<World>;
 
     #[test]
-    fn a_volume_without_planes_keeps_everything_and_bad_planes_are_refused() {
+    fn volumes_without_planes_keep_everything_and_bad_planes_are_rejected() {
         let triangle = [[0.0; 3], [9.0, 0.0, 0.0], [0.0, 1e30, 0.0]].map(Point::<World>::from);
         let whole = Room::new().clip_triangle(triangle);
         assert_eq!(whole.iter().map(|(p, _)| *p).collect::<Vec<_>>(), triangle);
@@ -242,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hundred_planes_of_a_ball_cut_a_square_to_a_disc() {
+    fn a_hundred_planes_around_a_circle_cut_a_square_to_a_disc() {
         let mut ball = Room::new();
         for step in 0..100 {
             let (s, c) = libm::sincos(f64::from(step) * core::f64::consts::TAU / 100.0);
@@ -275,9 +280,9 @@ mod tests {
         assert!(cube.may_touch(Bounds::from_points(corners).expect("a box")));
     }
 
-    /// In homogeneous coordinates it cuts like the pipeline's own volume.
+    /// With homogeneous coordinates, the result matches the pipeline's volume.
     #[test]
-    fn clip_space_is_one_space_among_others() {
+    fn convex_volumes_in_clip_space_match_the_clip_volume() {
         let mut volume = ConvexVolume::<Clip>::new();
         for index in crate::PlaneIndex::BOX {
             volume = volume.with_plane(Volume::CHAPTER.plane(index).expect("six")).expect("one");

@@ -1,10 +1,10 @@
 //! Clipping in homogeneous space, before the divide.
 //!
 //! Clipping reduces a shape to the part inside a volume. Here it happens before the divide by w,
-//! because the divide is where things go wrong: it moves points behind the eye to positions in
-//! front of it. In clip space the volume is a wedge, |x| ≤ w and likewise for y and z, and the
-//! picture is the line w = 1. The divide moves every point along its line through the origin to w =
-//! 1, including points with w < 0:
+//! because dividing first goes wrong: it moves points behind the eye to positions in front of it.
+//! In clip space the volume is a wedge, |x| ≤ w and likewise for y and z, and the picture is the
+//! line w = 1. The divide moves every point along its line through the origin to w = 1, including
+//! points with w < 0:
 //!
 //! ```text
 //!                 w
@@ -24,7 +24,7 @@
 //! | shape | function | result |
 //! | --- | --- | --- |
 //! | a point | [`clip_point`], [`Volume::outcode`] | inside or not, planes it is outside of |
-//! | many points | [`Volume::project_positions`] | outcodes; whether all are in or all out |
+//! | many points | [`Volume::project_positions`] | outcodes; whether all are inside or all outside |
 //! | a segment | [`clip_segment`] | its ends with their fractions, and the clipping planes |
 //! | a polyline | [`clip_polyline`] | unbroken runs |
 //! | a triangle | [`clip_triangle`] | a convex polygon with weights, without allocation |
@@ -34,12 +34,11 @@
 //!
 //! A [`Volume`] is a table of planes: the canonical volume of any convention, with or without a far
 //! plane, with a guard band, or with user planes. Fractions and weights carry attributes along; no
-//! perspective correction is needed at this stage. Neighbors cut a shared edge at the same bits.
-//! Nothing here panics, and no result is infinite or NaN.
+//! perspective correction is needed at this stage. Neighbors are cut at the same bits along a
+//! shared edge. Nothing here panics, and no result is infinite or NaN.
 //!
 //! # Example
-//! A floor tile under the camera: one corner is in front of it, the others are beside and behind
-//! it.
+//! A floor tile under the camera has one corner in front of it and the others beside and behind it.
 //! ```
 //! use clip::{PlaneOutcome, PlaneIndex, Volume, clip_triangle};
 //! use homog::{Clip, Point, Projective, View};
@@ -92,7 +91,7 @@ mod volume;
 
 pub use bulk_outcodes::OutcodeSummary;
 pub use convex_volume::ConvexVolume;
-/// The types of points, maps and spaces, re-exported to save a second dependency.
+/// Point, map and space types, re-exported so that callers need no second dependency.
 pub use homog;
 pub use outcode::{MAX_PLANES, Outcode, PlaneIndex};
 pub use outline::Outline;

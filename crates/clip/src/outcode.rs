@@ -13,7 +13,7 @@
 use core::fmt;
 use core::ops::{BitAnd, BitOr, BitOrAssign};
 
-/// The largest number of planes of a volume: the six of the box and ten more.
+/// The maximum number of planes in a volume: the six of the box and ten more.
 pub const MAX_PLANES: usize = 16;
 
 /// The index of a plane in its volume: six named planes, then the user planes.
@@ -37,19 +37,19 @@ impl PlaneIndex {
     pub const BOX: [Self; 6] =
         [Self::LEFT, Self::RIGHT, Self::BOTTOM, Self::TOP, Self::NEAR, Self::FAR];
 
-    /// The `n`-th user plane, from 0; `None` beyond the capacity of a volume.
+    /// Returns the `n`-th user plane, counted from 0, or `None` beyond the capacity of a volume.
     #[must_use]
     pub fn added(n: usize) -> Option<Self> {
         Self::new(n.checked_add(Self::BOX.len())?)
     }
 
-    /// The plane with this number; `None` unless it is below [`MAX_PLANES`].
+    /// Returns the plane with this number, or `None` unless it is below [`MAX_PLANES`].
     #[must_use]
     pub fn new(index: usize) -> Option<Self> {
         u8::try_from(index).ok().filter(|_| index < MAX_PLANES).map(Self)
     }
 
-    /// The number of the plane, from 0.
+    /// Returns the number of the plane, counted from 0.
     #[must_use]
     pub const fn index(self) -> usize {
         self.0 as usize
@@ -71,18 +71,18 @@ impl fmt::Display for PlaneIndex {
 pub struct Outcode(u16);
 
 impl Outcode {
-    /// No plane: the point is inside.
+    /// No planes: the point is inside.
     pub const INSIDE: Self = Self(0);
-    /// Every plane.
+    /// All planes.
     pub const ALL: Self = Self(u16::MAX);
 
-    /// The set with these bits: bit i represents plane i.
+    /// Creates the set with these bits: bit i represents plane i.
     #[must_use]
     pub const fn from_bits(bits: u16) -> Self {
         Self(bits)
     }
 
-    /// One bit per plane: bit i represents plane i.
+    /// Returns one bit per plane: bit i represents plane i.
     #[must_use]
     pub const fn bits(self) -> u16 {
         self.0
@@ -100,13 +100,13 @@ impl Outcode {
         self.0 >> plane.0 & 1 == 1
     }
 
-    /// The set with `plane` added.
+    /// Returns the set with `plane` added.
     #[must_use]
     pub const fn with_plane(self, plane: PlaneIndex) -> Self {
         Self(self.0 | 1 << plane.0)
     }
 
-    /// The set with `plane` removed.
+    /// Returns the set with `plane` removed.
     #[must_use]
     pub const fn without_plane(self, plane: PlaneIndex) -> Self {
         Self(self.0 & !(1 << plane.0))
@@ -119,15 +119,15 @@ impl Outcode {
         outcodes.iter().all(|code| code.is_inside())
     }
 
-    /// The planes that all of these points are outside of, `a & b & …`. If there is one, nothing
-    /// between the points is inside.
+    /// Returns the planes that all of these points are outside of, `a & b & …`. If there is such a
+    /// plane, nothing between the points is inside.
     #[must_use]
     pub fn trivially_rejects(outcodes: &[Self]) -> Self {
         let all = outcodes.iter().copied().reduce(|a, b| a & b);
         all.unwrap_or_default()
     }
 
-    /// The planes of the set, in order.
+    /// Returns the planes of the set, in order.
     pub fn planes(self) -> impl Iterator<Item = PlaneIndex> + Clone {
         let mut rest = self.0;
         core::iter::from_fn(move || {
@@ -161,7 +161,7 @@ impl BitOrAssign for Outcode {
 }
 
 impl fmt::Display for Outcode {
-    /// The names of the planes joined by `+`, or `inside` if there are none.
+    /// Writes the names of the planes joined by `+`, or `inside` if the set is empty.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.is_inside() {
             return f.pad("inside");
@@ -179,7 +179,7 @@ mod tests {
     use std::string::ToString;
 
     #[test]
-    fn sets_hold_what_was_put_in_and_print_their_names() {
+    fn sets_contain_added_planes_and_print_their_names() {
         let code = Outcode::INSIDE.with_plane(PlaneIndex::LEFT).with_plane(PlaneIndex::FAR);
         assert_eq!(code.bits(), 0b10_0001);
         assert_eq!(code.to_string(), "left+far");
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn acceptance_and_rejection() {
+    fn trivial_acceptance_and_rejection() {
         let [a, b] = [0b01, 0b11].map(Outcode::from_bits);
         assert_eq!(Outcode::trivially_rejects(&[a, b]), a);
         assert!(Outcode::trivially_rejects(&[a, Outcode::INSIDE]).is_inside());

@@ -11,7 +11,8 @@ pub struct Outline<S: Space> {
     /// plane, outer loops are counterclockwise and holes clockwise, provided that the triangles of
     /// the surface are counterclockwise seen from outside.
     pub loops: Vec<Vec<Point<S>>>,
-    /// Chains that do not close because the surface has a boundary. Empty for closed surfaces.
+    /// Chains that do not close because the surface has a boundary. There are none for closed
+    /// surfaces.
     pub open: Vec<Vec<Point<S>>>,
 }
 
@@ -70,7 +71,7 @@ fn point_key<S: Space>(point: Point<S>) -> PointKey {
 
 struct EdgeChains<'a, S: Space> {
     edges: &'a [[Point<S>; 2]],
-    /// The edges at a point, with those that start there first.
+    /// The edges at a point, starting with the edges that start there.
     at: BTreeMap<PointKey, Vec<usize>>,
     used: Vec<bool>,
 }
@@ -86,13 +87,13 @@ impl<'a, S: Space> EdgeChains<'a, S> {
         Self { edges, at, used: edges.iter().map(|[a, b]| a == b).collect() }
     }
 
-    /// The longest chain that contains this edge, up to the point where it closes.
+    /// Returns the longest chain that contains this edge, up to the point where it closes.
     fn take_chain(&mut self, first: usize) -> Vec<Point<S>> {
         self.used[first] = true;
         let mut chain = self.edges[first].to_vec();
         self.extend_chain(&mut chain);
         if chain.first() != chain.last() {
-            // It did not close, so it may continue at its other end.
+            // The chain did not close, so it may continue at its other end.
             chain.reverse();
             self.extend_chain(&mut chain);
             chain.reverse();
@@ -108,7 +109,7 @@ impl<'a, S: Space> EdgeChains<'a, S> {
         }
     }
 
-    /// The other end of an unused edge at this point.
+    /// Takes an unused edge at this point and returns its other end.
     fn take_next_edge(&mut self, point: Point<S>) -> Option<Point<S>> {
         let edges = self.at.get(&point_key(point))?;
         let next = *edges.iter().find(|&&edge| !self.used[edge])?;
@@ -129,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn scattered_edges_find_together() {
+    fn scattered_edges_are_joined() {
         let two_squares =
             edges(&[(0, 1), (10, 14), (5, 4), (14, 15), (1, 5), (11, 10), (4, 0), (15, 11)]);
         let outline = Outline::from_edges(&two_squares);
@@ -138,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn edges_that_run_the_wrong_way_are_turned() {
+    fn reversed_edges_are_turned_around() {
         let outline = Outline::from_edges(&edges(&[(0, 1), (5, 1), (4, 5), (0, 4)]));
         assert_eq!((outline.loops.len(), outline.open.len()), (1, 0));
     }
@@ -153,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn there_and_back_is_not_a_loop() {
+    fn two_opposite_edges_are_not_a_loop() {
         let outline = Outline::from_edges(&edges(&[(0, 1), (1, 0)]));
         assert_eq!(outline, Outline { loops: Vec::new(), open: Vec::new() });
     }

@@ -9,7 +9,7 @@ pub enum PlaneOutcome {
     Accepted,
     /// The plane removed a part.
     Clipped,
-    /// The plane removed everything that was left at its turn.
+    /// The plane removed everything that was left when it was applied.
     Rejected,
 }
 
@@ -19,13 +19,13 @@ pub enum PlaneOutcome {
 pub struct PlaneOutcomes {
     /// The planes that removed a part.
     pub clipped: Outcode,
-    /// The planes that removed everything that was left. If several did, only those with the whole
-    /// shape outside are named; otherwise, the one after which nothing remained.
+    /// The planes that rejected the shape: every plane that has the whole shape outside or, if
+    /// there is no such plane, those after which nothing remained.
     pub rejected: Outcode,
 }
 
 impl PlaneOutcomes {
-    /// The effect of this plane.
+    /// Returns the effect of this plane.
     #[must_use]
     pub fn outcome_of(self, plane: PlaneIndex) -> PlaneOutcome {
         if self.rejected.contains(plane) {

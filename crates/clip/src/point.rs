@@ -3,11 +3,11 @@
 use crate::Volume;
 use homog::{Clip, HPoint};
 
-/// The point itself if it is inside the volume or on its boundary; `None` otherwise, and if it is
-/// not finite or not a point.
+/// Returns the point itself if it is inside the volume or on its boundary. Otherwise returns
+/// `None`, also if the point is not finite or is the zero vector.
 ///
-/// The test comes before the divide. Afterward it would be too late: a point behind the eye divides
-/// into the cube like a visible one.
+/// The test comes before the divide. Afterward it would be too late: dividing can move a point
+/// behind the eye into the cube, where it looks visible.
 ///
 /// ```
 /// use clip::{Volume, clip_point};

@@ -20,14 +20,14 @@ pub struct ClippedConvex {
 }
 
 impl ClippedConvex {
-    /// The vertices, not divided, in source order; none if nothing is left.
+    /// Returns the vertices, not divided, in source order, or an empty slice if nothing is left.
     #[must_use]
     pub fn points(&self) -> &[HPoint<Clip>] {
         &self.points
     }
 
-    /// The weights of the source vertices in vertex `i`; they sum to 1. `None` if there is no such
-    /// vertex.
+    /// Returns the weights of the source vertices in vertex `i`, which sum to 1, or `None` if there
+    /// is no such vertex.
     #[must_use]
     pub fn weights(&self, i: usize) -> Option<&[f64]> {
         self.weights.chunks_exact(self.sources.max(1)).nth(i)
@@ -39,7 +39,7 @@ impl ClippedConvex {
         self.points.is_empty()
     }
 
-    /// The polygon as a fan of triangles around its first vertex, as vertex indices.
+    /// Returns the polygon as a fan of triangles around its first vertex, as vertex indices.
     pub fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + use<> {
         (2..self.points.len()).map(|i| [0, i - 1, i])
     }
@@ -49,11 +49,11 @@ impl ClippedConvex {
     }
 }
 
-/// The part of a convex polygon inside a volume (CL-3; Sutherland and Hodgman, 1974).
+/// Returns the part of a convex polygon inside a volume (CL-3; Sutherland and Hodgman, 1974).
 ///
-/// Every vertex of the result comes with its weights in the source, for interpolating any
-/// attribute. A polygon with fewer than three vertices, or with one that is not finite, gives
-/// nothing. Split concave polygons into convex ones first: their separate parts would come out
+/// Every vertex of the result comes with its source weights, for interpolating any attribute. If a
+/// polygon has fewer than three vertices, or a vertex that is not finite, the result is empty.
+/// Split concave polygons into convex polygons first: otherwise, separate parts would come out
 /// joined by a seam along the boundary.
 ///
 /// ```
@@ -157,7 +157,7 @@ mod tests {
     use crate::{PlaneIndex, clip_triangle};
 
     #[test]
-    fn triangles_come_out_like_those_of_clip_triangle() {
+    fn triangles_match_clip_triangle() {
         let corners = [[-2.0, -1.5, 0.3, 1.0], [3.0, 0.0, -4.0, 1.5], [0.5, 2.0, 0.2, -0.5]]
             .map(HPoint::from);
         let (general, special) =
@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn a_polygon_around_everything_becomes_the_square_itself() {
+    fn a_polygon_around_the_volume_becomes_its_square() {
         let ring: Vec<HPoint<Clip>> = (0..16)
             .map(|i| libm::sincos(f64::from(i) * core::f64::consts::PI / 8.0))
             .map(|(s, c)| HPoint::new(5.0 * c, 5.0 * s, 0.25, 1.0))
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn bad_polygons_give_nothing() {
+    fn invalid_polygons_give_empty_results() {
         let p = HPoint::new(0.0, 0.0, 0.0, 1.0);
         let nan = HPoint::new(f64::NAN, 0.0, 0.0, 1.0);
         for polygon in [&[][..], &[p], &[p, p], &[p, p, nan]] {

@@ -17,7 +17,8 @@ pub struct PolylinePoint {
     pub t: f64,
 }
 
-/// The parts of a polyline inside a volume, in order, each an unbroken run of at least two points.
+/// Returns the parts of a polyline inside a volume, in order. Each part is an unbroken run of at
+/// least two points.
 ///
 /// While the line stays inside, the run continues, so dash patterns and joins can follow it. A
 /// closed line repeats its first point as its last; if that point is inside, the first and last
@@ -65,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn points_that_are_not_finite_break_the_line_and_short_lines_have_no_parts() {
+    fn nonfinite_points_break_the_line_and_short_lines_have_no_parts() {
         let mut line = [(-0.5, 0.0), (0.0, 0.5), (0.5, 0.0), (0.0, 0.0), (0.1, 0.0)]
             .map(|(x, y)| HPoint::new(x, y, 0.0, 1.0));
         line[2] = HPoint::new(f64::NAN, 0.0, 0.0, 1.0);

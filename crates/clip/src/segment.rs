@@ -25,7 +25,7 @@ use homog::{Clip, HPoint};
 pub struct ClippedSegment {
     /// The first point that is inside.
     pub start: HPoint<Clip>,
-    /// The last point that is inside. It equals `start` if only a point is left.
+    /// The last point that is inside. It equals `start` if only one point is left.
     pub end: HPoint<Clip>,
     /// The fraction at `start` of the way from p to q. Use it to interpolate attributes of the
     /// ends; no further correction is needed.
@@ -39,7 +39,8 @@ pub struct ClippedSegment {
 }
 
 impl ClippedSegment {
-    /// Returns whether only a point is left: the segment touches the volume, or has no length.
+    /// Returns whether only one point is left: the segment only touches the volume or has no
+    /// length.
     #[must_use]
     pub fn is_point(&self) -> bool {
         self.start == self.end
@@ -57,8 +58,8 @@ impl ClippedSegment {
     }
 }
 
-/// The part of the segment from `p` to `q` inside a volume; `None` if there is none or an end is
-/// not finite.
+/// Returns the part of the segment from `p` to `q` inside a volume, or `None` if nothing is inside
+/// or an end is not finite.
 ///
 /// Clipping comes before the divide, so segments that cross w = 0, start behind the eye or end at
 /// infinity are handled correctly.
@@ -82,10 +83,10 @@ pub fn clip_segment(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Option
     VisibleSpan::new(p, q, volume).ok()?.end_points(p, q, volume)
 }
 
-/// The effect of each plane on the segment from `p` to `q`: why it is clipped or rejected.
+/// Returns the effect of each plane on the segment from `p` to `q`: why it is clipped or rejected.
 ///
-/// A segment that passes a corner of the volume is rejected by two planes: it leaves through one
-/// before it enters through the other.
+/// A segment that passes outside a corner of the volume is rejected by two planes: it leaves
+/// through one before it enters through the other.
 #[must_use]
 pub fn segment_outcomes(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> PlaneOutcomes {
     match VisibleSpan::new(p, q, volume) {
@@ -94,7 +95,7 @@ pub fn segment_outcomes(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Pl
     }
 }
 
-/// A total order of finite points.
+/// Compares finite points in a total order.
 fn compare_points(p: DVec4, q: DVec4) -> Ordering {
     let mut pairs = p.to_array().into_iter().zip(q.to_array());
     pairs.find_map(|(a, b)| Some(a.total_cmp(&b)).filter(|o| o.is_ne())).unwrap_or(Ordering::Equal)
@@ -109,7 +110,7 @@ struct PlaneCrossing {
 }
 
 impl PlaneCrossing {
-    /// The point, given the end inside the plane and the end outside.
+    /// Returns the crossing point, given the end inside the plane and the end outside.
     fn crossing_point(
         self,
         inner: HPoint<Clip>,
@@ -128,7 +129,7 @@ impl PlaneCrossing {
     }
 }
 
-/// The last entry and the first exit.
+/// The span between the last entry and the first exit.
 #[derive(Clone, Copy, Default)]
 struct VisibleSpan {
     enter: Option<PlaneCrossing>,
@@ -136,7 +137,7 @@ struct VisibleSpan {
 }
 
 impl VisibleSpan {
-    /// The span inside the volume, or the planes that reject it.
+    /// Returns the span inside the volume, or the planes that reject the segment.
     fn new(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Result<Self, Outcode> {
         let (p_outside, q_outside) = (volume.outcode(p), volume.outcode(q));
         let rejected = p_outside & q_outside;

@@ -9,14 +9,14 @@
 //! ```
 //!
 //! A crossing is always computed from the end nearer to the plane, where the blend is most
-//! accurate. Two polygons that share an edge walk it in opposite directions, so both get the same
-//! bits this way.
+//! accurate. Two polygons that share an edge walk it in opposite directions, so this gives both the
+//! same bits.
 
 use glam::DVec4;
 
 /// A vertex of the ring after clipping to a plane.
 pub(crate) enum RingStep {
-    /// The vertex with this number stays.
+    /// The vertex with this number is kept.
     Keep(usize),
     /// The plane crosses an edge at fraction `t` of the way between two vertices, t ≤ ½.
     Cross { from: usize, to: usize, t: f64 },
@@ -31,7 +31,7 @@ pub(crate) fn clip_ring(distances: &[f64], mut emit: impl FnMut(RingStep)) {
         if a >= 0.0 {
             emit(RingStep::Keep(start));
         }
-        // An inner end on the plane is the crossing itself and stays anyway.
+        // An inner end on the plane is the crossing itself and is kept anyway.
         if a > 0.0 && b < 0.0 {
             emit(ring_crossing((start, a), (end, b)));
         } else if a < 0.0 && b > 0.0 {
@@ -54,7 +54,7 @@ pub(crate) enum EdgeFraction {
     FromOuter(f64),
 }
 
-/// The crossing of an edge with ends at these distances, `inner` ≥ 0 and `outer` < 0.
+/// Returns the crossing of an edge whose ends are at these distances, `inner` ≥ 0 and `outer` < 0.
 pub(crate) fn crossing_fraction(inner: f64, outer: f64) -> EdgeFraction {
     if inner <= -outer {
         EdgeFraction::FromInner(inner / (inner - outer))
@@ -63,15 +63,15 @@ pub(crate) fn crossing_fraction(inner: f64, outer: f64) -> EdgeFraction {
     }
 }
 
-/// A power of two that keeps sums and differences of these coordinates from overflowing: 1 unless
-/// they are huge.
+/// Returns a power of two that keeps sums and differences of these coordinates from overflowing: 1
+/// unless they are huge.
 pub(crate) fn safe_scale<'a>(points: impl IntoIterator<Item = &'a DVec4>) -> f64 {
     const HUGE: f64 = 1e290;
     let is_huge = points.into_iter().any(|p| p.abs().max_element() > HUGE);
     if is_huge { SCALE_DOWN } else { 1.0 }
 }
 
-/// Undoes the scale. If rounding exceeds the largest number, the result is that number.
+/// Undoes the scale. If rounding exceeds the largest finite number, the result is that number.
 pub(crate) fn unscaled(point: DVec4, scale: f64) -> DVec4 {
     (point / scale).clamp(DVec4::MIN, DVec4::MAX)
 }

@@ -1,4 +1,4 @@
-//! Triangles (CL-3): the clipped part is a convex polygon, given as a fan of triangles.
+//! Triangles (CL-3): the clipped part is a convex polygon, available as a fan of triangles.
 //!
 //! ```text
 //!            ╱╲                        each plane takes a corner and leaves two:
@@ -53,9 +53,9 @@ pub struct ClippedPolygon {
     pub outcomes: PlaneOutcomes,
 }
 
-/// Most triangles are kept whole; their copies need no room for the clipped vertices.
+/// Most triangles stay whole, and copying them need not copy space for clipped vertices.
 #[derive(Clone, Copy, Debug)]
-#[expect(clippy::large_enum_variant, reason = "on the stack, and no allocation is the point")]
+#[expect(clippy::large_enum_variant, reason = "stays on the stack to avoid allocation")]
 enum PolygonVertices {
     Empty,
     Unclipped([ClipVertex; 3]),
@@ -63,7 +63,7 @@ enum PolygonVertices {
 }
 
 impl ClippedPolygon {
-    /// The vertices in the order of the triangle; none if nothing is left.
+    /// Returns the vertices in the order of the triangle, or an empty slice if nothing is left.
     #[must_use]
     pub fn vertices(&self) -> &[ClipVertex] {
         match &self.ring {
@@ -85,7 +85,7 @@ impl ClippedPolygon {
         matches!(self.ring, PolygonVertices::Unclipped(_))
     }
 
-    /// The polygon as a fan of triangles around its first vertex.
+    /// Returns the polygon as a fan of triangles around its first vertex.
     pub fn triangles(&self) -> impl Iterator<Item = [ClipVertex; 3]> {
         let vertices = self.vertices();
         vertices.windows(2).skip(1).map(|edge| [vertices[0], edge[0], edge[1]])
@@ -96,7 +96,7 @@ impl ClippedPolygon {
     }
 }
 
-/// The part of a triangle inside a volume (CL-3; Sutherland and Hodgman, 1974).
+/// Returns the part of a triangle inside a volume (CL-3; Sutherland and Hodgman, 1974).
 ///
 /// Clipping happens in homogeneous space, before the divide, so triangles that pass behind the eye
 /// or have vertices at infinity are handled correctly. Nothing is allocated. The result is empty if
@@ -144,8 +144,9 @@ fn source_vertices([a, b, c]: [HPoint<Clip>; 3]) -> [ClipVertex; 3] {
     ]
 }
 
-/// Every plane is tested against every vertex, even where the outcodes of this triangle would allow
-/// skipping it. The result for an edge then depends only on the edge, and a neighbor decides alike.
+/// Clips a triangle to all planes. Every plane is tested against every vertex, even if the outcodes
+/// of this triangle would allow skipping it. The result for an edge then depends only on the edge
+/// and is the same for a neighbor.
 fn clip_by_planes(triangle: [HPoint<Clip>; 3], volume: &Volume) -> ClippedPolygon {
     let (mut one, mut other) = (VertexBuffer::default(), VertexBuffer::default());
     let (mut ring, mut rest) = (&mut one, &mut other);
@@ -178,7 +179,7 @@ fn clip_by_planes(triangle: [HPoint<Clip>; 3], volume: &Volume) -> ClippedPolygo
     ClippedPolygon { ring, outcomes: fates }
 }
 
-/// Puts the ring clipped to a plane into `rest`; false if it is unchanged.
+/// Writes the ring clipped to a plane into `rest`; returns false if the ring is unchanged.
 fn clip_by_plane(
     volume: &Volume,
     index: PlaneIndex,
@@ -236,8 +237,8 @@ impl VertexBuffer {
         &mut self.vertices[..self.count]
     }
 
-    /// Rounding may make a ring slightly concave. Only then could it outgrow its storage, and it
-    /// loses a vertex on a line.
+    /// Appends a vertex if there is space. Rounding may make a ring slightly concave. Only then
+    /// could it outgrow its storage, and it then loses a vertex on a line.
     fn push(&mut self, vertex: ClipVertex) {
         if let Some(place) = self.vertices.get_mut(self.count) {
             *place = vertex;

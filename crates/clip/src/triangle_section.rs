@@ -1,4 +1,4 @@
-//! Section cuts: a solid cut open by a plane, with the outline of the cut face.
+//! Section cuts: cutting a solid open with a plane, and the outline of the cut face.
 //!
 //! ```text
 //!          ╱╲                   plane ──────────────      what is left        the cap
@@ -29,7 +29,7 @@ pub struct SectionVertex<S: Space> {
     pub weights: [f64; 3],
 }
 
-/// The part of a triangle on the positive side of a plane, and its edge on the plane.
+/// The part of a triangle on the positive side of a plane and its edge on the plane.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct CutTriangle<S: Space> {
     vertices: [SectionVertex<S>; 4],
@@ -38,31 +38,32 @@ pub struct CutTriangle<S: Space> {
 }
 
 impl<S: Space> CutTriangle<S> {
-    /// The vertices of the remaining part, in the order of the triangle: none, three or four.
+    /// Returns the vertices of the remaining part, in the order of the triangle. There are zero,
+    /// three or four.
     #[must_use]
     pub fn vertices(&self) -> &[SectionVertex<S>] {
         &self.vertices[..self.count]
     }
 
-    /// The part as a fan of triangles.
+    /// Returns the remaining part as a fan of triangles.
     pub fn triangles(&self) -> impl Iterator<Item = [SectionVertex<S>; 3]> {
         let vertices = self.vertices();
         vertices.windows(2).skip(1).map(|edge| [vertices[0], edge[0], edge[1]])
     }
 
-    /// The edge that the plane cuts into the triangle, directed to continue the boundary of the
-    /// remaining part. `None` if the plane does not cut it.
+    /// Returns the edge that the plane cuts into the triangle, directed to continue the boundary of
+    /// the remaining part, or `None` if the plane does not cut the triangle.
     #[must_use]
     pub const fn edge(&self) -> Option<[Point<S>; 2]> {
         self.edge
     }
 }
 
-/// Cuts a triangle with a plane and keeps the positive side, to which the normal of the plane
+/// Cuts a triangle with a plane and keeps the positive side, toward which the plane's normal
 /// points.
 ///
-/// A triangle with a corner that is not finite, or too far away for a finite distance from the
-/// plane, gives nothing.
+/// The result is empty if a corner is not finite or is too far away for its distance from the plane
+/// to be finite.
 ///
 /// ```
 /// use clip::cut_triangle;
@@ -93,7 +94,7 @@ pub fn cut_triangle<S: Space>(triangle: [Point<S>; 3], plane: Plane<S>) -> CutTr
         };
         left.count += 1;
     });
-    // Between points near the largest numbers, even a blend can overflow.
+    // For points near the largest numbers, even a blend can overflow.
     let finite = left.vertices().iter().all(|vertex| vertex.point.is_finite());
     if !finite || left.count < 3 {
         left.count = 0;
@@ -107,7 +108,8 @@ fn lerp_vertices<S: Space>(a: &SectionVertex<S>, b: &SectionVertex<S>, t: f64) -
     SectionVertex { point: a.point.lerp(b.point, t), weights }
 }
 
-/// The edge from where the boundary of the triangle leaves the inside to where it returns.
+/// Returns the edge from the point where the boundary of the triangle leaves the inside to the
+/// point where it returns.
 fn cut_edge<S: Space>(corners: [Point<S>; 3], distances: [f64; 3]) -> Option<[Point<S>; 2]> {
     let (mut leaves, mut returns) = (None, None);
     for i in 0..3 {
@@ -123,11 +125,11 @@ fn cut_edge<S: Space>(corners: [Point<S>; 3], distances: [f64; 3]) -> Option<[Po
     edge.filter(|[from, to]| from != to && from.is_finite() && to.is_finite())
 }
 
-/// The crossing of an edge with the plane, with the bits of the clipped vertex. An inner end on the
-/// plane is the crossing itself.
+/// Returns the crossing of an edge with the plane, with the same bits as the clipped vertex. An
+/// inner end on the plane is the crossing itself.
 fn edge_crossing<S: Space>(inner: (Point<S>, f64), outer: (Point<S>, f64)) -> Point<S> {
     if inner.1 == 0.0 {
-        return inner.0; // The way to the outer end may be too long to be a number.
+        return inner.0; // The vector to the outer end may overflow.
     }
     match crossing_fraction(inner.1, outer.1) {
         EdgeFraction::FromInner(t) => inner.0.lerp(outer.0, t),

@@ -29,12 +29,12 @@ pub enum VolumeError {
         /// The coefficients (a, b, c, d).
         coefficients: [f64; 4],
     },
-    /// All slots for planes are taken.
-    #[error("a volume holds at most {MAX_PLANES} planes: six for the box and ten more")]
+    /// All plane slots are in use.
+    #[error("too many planes: a volume has at most {MAX_PLANES}, six for the box and ten more")]
     TooManyPlanes,
     /// A guard band factor is out of range.
     #[error(
-        "guard band factor {name} = {value} is not allowed: it must be from 1 to {max}",
+        "guard band factor {name} = {value} is out of range: it must be from 1 to {max}",
         max = Volume::MAX_GUARD_BAND
     )]
     GuardBand {
@@ -69,14 +69,15 @@ impl Volume {
     /// z in [0, 1] with near at 0: used by Direct3D, Vulkan, Metal and WebGPU (CL-1, D3D-1 to
     /// D3D-6).
     pub const ZERO_ONE: Self = Self::canonical(ClipRange::ZERO_ONE);
-    /// z in [0, 1] with near at 1: the same for reversed depth (RV-1).
+    /// z in [0, 1] with near at 1: the same APIs with reversed depth (RV-1).
     pub const ZERO_ONE_REVERSED: Self = Self::canonical(ClipRange::ZERO_ONE.reversed());
     /// The widest guard band; beyond it, plane equations would lose too many digits.
     pub const MAX_GUARD_BAND: f64 = 1_048_576.0;
 
-    /// The canonical volume of a clip range: a [`ClipRange`] or a `projection::Convention`.
+    /// Returns the canonical volume of a clip range, which is a [`ClipRange`] or a
+    /// `projection::Convention`.
     ///
-    /// y runs from −w to w for either direction of up, so only depths matter here.
+    /// y runs from −w to w whether it points up or down, so only depths matter here.
     ///
     /// ```
     /// use clip::Volume;
@@ -89,7 +90,7 @@ impl Volume {
     }
 
     const fn canonical(range: ClipRange) -> Self {
-        // The side of one depth that contains the other; 0 − x, to keep −0 out of the table.
+        // The side of one depth that contains the other; 0 − x keeps −0 out of the table.
         let (near, far) = (range.near_depth(), range.far_depth());
         let side = if far < near { -1.0 } else { 1.0 };
         let near = DVec4::new(0.0, 0.0, side, 0.0 - side * near);
@@ -104,27 +105,28 @@ impl Volume {
         Self { planes, active_planes: Outcode::from_bits(BOX_BITS) }
     }
 
-    /// This volume without its near plane, for geometry that may begin anywhere in front of the
-    /// eye. The side planes keep w from going below 0, and their cuts have w > 0 except at the eye
-    /// itself.
+    /// Returns this volume without its near plane, for geometry that may begin anywhere in front of
+    /// the eye. The side planes keep w from going below 0, and their cuts have w > 0 except at the
+    /// eye itself.
     #[must_use]
     pub fn without_near(mut self) -> Self {
         self.active_planes = self.active_planes.without_plane(PlaneIndex::NEAR);
         self
     }
 
-    /// This volume without its far plane, for projections that reach infinity (IF-1 to IF-3).
+    /// Returns this volume without its far plane, for projections that extend to infinity (IF-1 to
+    /// IF-3).
     #[must_use]
     pub fn without_far(mut self) -> Self {
         self.active_planes = self.active_planes.without_plane(PlaneIndex::FAR);
         self
     }
 
-    /// This volume with its sides moved out to |x| ≤ `kx` w and |y| ≤ `ky` w (CL-4).
+    /// Returns this volume with its sides moved out to |x| ≤ `kx` w and |y| ≤ `ky` w (CL-4).
     ///
-    /// Triangles that leave the image but not the band need no clipping there; the rasterizer's
-    /// bounding box takes care of them. With a band of k, screen coordinates reach up to k times
-    /// half the image size from the center.
+    /// Triangles that extend beyond the image but not beyond the band need no clipping there; the
+    /// rasterizer's bounding box handles them. With a band factor of k, screen coordinates are up
+    /// to k times half the image size from the center.
     ///
     /// # Errors
     /// Returns [`VolumeError::GuardBand`] unless both factors are from 1 to
@@ -141,13 +143,13 @@ impl Volume {
         Ok(self)
     }
 
-    /// This volume with one more plane; the negative side of the plane is outside.
+    /// Returns this volume with one more plane; the negative side of the plane is outside.
     ///
     /// Use [`homog::Projective::transform_plane`] for a plane in world space.
     ///
     /// # Errors
-    /// Returns [`VolumeError::NoPlane`] if the plane does not have two sides,
-    /// [`VolumeError::TooManyPlanes`] if there is no room.
+    /// Returns [`VolumeError::NoPlane`] if the coefficients are not finite or all zero, and
+    /// [`VolumeError::TooManyPlanes`] if all plane slots are in use.
     pub fn with_plane(mut self, plane: Plane<Clip>) -> Result<Self, VolumeError> {
         let largest = plane.raw().abs().max_element();
         if !plane.raw().is_finite() || largest == 0.0 {
@@ -161,34 +163,35 @@ impl Volume {
         Ok(self)
     }
 
-    /// The planes of the volume.
+    /// Returns the planes of the volume.
     #[must_use]
     pub const fn active_planes(&self) -> Outcode {
         self.active_planes
     }
 
-    /// The plane with this index, scaled to make its largest coefficient 1 (or the guard band
-    /// factor); `None` if the volume has no such plane.
+    /// Returns the plane with this index, scaled to make its largest coefficient 1 (or the guard
+    /// band factor), or `None` if the volume has no such plane.
     #[must_use]
     pub fn plane(&self, index: PlaneIndex) -> Option<Plane<Clip>> {
         let present = self.active_planes.contains(index);
         present.then(|| Plane::from_raw(self.planes[index.index()]))
     }
 
-    /// The planes a point is outside of (CL-1). A point that is not finite is outside of all.
+    /// Returns the planes that a point is outside of (CL-1). A point that is not finite is outside
+    /// of all planes.
     #[inline]
     #[must_use]
     pub fn outcode(&self, point: HPoint<Clip>) -> Outcode {
         let raw = point.raw();
-        // Most points of most pictures are inside, which is the fastest test.
+        // Most points of most pictures are inside, so this fast test comes first.
         if self.active_planes.bits() & !BOX_BITS == 0 && self.is_in_box(raw) {
             return Outcode::INSIDE;
         }
         if raw.is_finite() { self.full_outcode(raw) } else { self.active_planes }
     }
 
-    /// Returns whether a point is certainly finite and inside the six planes of the box, present or
-    /// not.
+    /// Returns whether a point is certainly finite and inside the six planes of the box, whether or
+    /// not the volume has them.
     #[inline]
     fn is_in_box(&self, point: DVec4) -> bool {
         /// Beyond this, the limits of x and y may not be finite.
@@ -202,8 +205,9 @@ impl Volume {
             & (point.w < SAFE)
     }
 
-    /// The outcode of a finite point. The sums for the box are the ones in [`Self::plane_distance`]
-    /// without the zero coefficients; their sign is correct even on overflow.
+    /// Returns the outcode of a finite point. The sums for the box are the same as in
+    /// [`Self::plane_distance`], but without the zero coefficients; their sign is correct even on
+    /// overflow.
     #[inline]
     fn full_outcode(&self, point: DVec4) -> Outcode {
         let [kx, ky] = [self.planes[0].w * point.w, self.planes[2].w * point.w];
@@ -242,13 +246,14 @@ impl Volume {
         point.w() > 0.0 && self.outcode(point).is_inside()
     }
 
-    /// The signed distance inside a plane, in the plane's own measure; negative outside.
+    /// Returns the signed distance from a plane in the plane's units: positive inside, negative
+    /// outside.
     pub(crate) fn plane_distance(&self, index: PlaneIndex, point: DVec4) -> f64 {
         self.planes[index.index()].dot(point)
     }
 
     /// Moves a computed crossing exactly onto its plane, if the plane is one of the box. User
-    /// planes are usually oblique and have no coordinate that could be set.
+    /// planes are usually oblique, so no single coordinate could be set.
     pub(crate) fn snap_to_plane(&self, index: PlaneIndex, mut point: DVec4) -> DVec4 {
         if index <= PlaneIndex::FAR {
             let (axis, plane) = (index.index() / 2, self.planes[index.index()]);
@@ -266,7 +271,7 @@ impl Volume {
 }
 
 impl fmt::Display for Volume {
-    /// One line per plane: its name and its coefficients.
+    /// Writes one line per plane, with its name and coefficients.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.active_planes.planes().try_for_each(|index| {
             let row = self.planes[index.index()];
@@ -287,7 +292,7 @@ mod tests {
     }
 
     #[test]
-    fn conventions_differ_in_the_depth_rows_only() {
+    fn conventions_differ_only_in_the_depth_rows() {
         let behind_far_low_none = [
             [0.0, 0.0, -2.0, 1.0],
             [0.0, 0.0, -0.5, 1.0],
@@ -320,14 +325,14 @@ mod tests {
     }
 
     #[test]
-    fn a_depth_below_0_counts_however_huge_the_rest_is() {
+    fn negative_depth_is_outside_however_large_the_other_coordinates() {
         let behind = HPoint::new(0.0, f64::MAX, -3e-310, f64::MAX);
         assert_eq!(Volume::ZERO_ONE.outcode(behind).bits(), 1 << 4);
         assert_eq!(Volume::ZERO_ONE.outcode(HPoint::new(0.0, f64::MAX, 0.0, 1e159)).bits(), 1 << 3);
     }
 
     #[test]
-    fn bands_and_planes_are_checked() {
+    fn guard_bands_and_planes_are_validated() {
         let band = Volume::CHAPTER.with_guard_band(8.0, 2.0).expect("allowed");
         assert_eq!(band.outcode(HPoint::new(7.0, 3.0, 0.0, 1.0)).bits(), 1 << 3);
         for k in [0.5, -1.0, 1e9, f64::NAN, f64::INFINITY] {
@@ -336,7 +341,7 @@ mod tests {
         let through_the_middle = Plane::from_raw(DVec4::new(1e300, 0.0, 0.0, 0.0));
         let mut volume = Volume::CHAPTER;
         for _ in 0..10 {
-            volume = volume.with_plane(through_the_middle).expect("there is room");
+            volume = volume.with_plane(through_the_middle).expect("a free slot");
         }
         assert_eq!(volume.outcode(HPoint::new(-0.5, 0.0, 0.0, 1.0)).bits(), 0xffc0);
         assert_eq!(volume.with_plane(through_the_middle), Err(VolumeError::TooManyPlanes));

@@ -1,7 +1,7 @@
-//! Clipping as the sources have it, with their misprints and traps.
+//! Clipping as the sources describe it, with their misprints and pitfalls.
 //!
-//! The projection is the chapter's, in its form with w > 0 (PE-3), for n = −1, f = −9 and the
-//! window [−1, 1]²: w = −z, and near maps to depth 1, far to −1.
+//! The projection is the chapter's projection in its form with w > 0 (PE-3), for n = −1, f = −9 and
+//! the window [−1, 1]²: w = −z, near maps to depth 1, and far maps to −1.
 
 use clip::{PlaneIndex, Volume, clip_point, clip_segment, clip_triangle};
 use glam::{DMat4, DVec4};
@@ -20,35 +20,36 @@ fn seen(x: f64, y: f64, z: f64) -> HPoint<Clip> {
     view_to_clip().transform_point(Point::new(x, y, z))
 }
 
-/// M28, C54: clipping is against −w ≤ x, y, z ≤ w, before the division. In a cube after it a point
-/// behind the eye looks visible.
+/// M28, C54: clipping is against −w ≤ x, y, z ≤ w, before the division. In the cube after the
+/// division, a point behind the eye looks visible.
 #[test]
 fn misprint_m28_the_cube_exists_only_after_the_division() {
     let behind = seen(0.1, 0.1, 5.0);
     let divided = behind.divide().expect("w is not 0");
     assert!(divided.x().abs() <= 1.0 && divided.y().abs() <= 1.0);
     assert!(behind.w() < 0.0 && clip_point(behind, &Volume::CHAPTER).is_none());
-    // Conversely a visible point need not lie in a cube before the division.
+    // Conversely, a visible point need not be in the cube before the division.
     let ahead = seen(4.0, 0.0, -8.0);
     assert!(ahead.x() > 1.0 && clip_point(ahead, &Volume::CHAPTER).is_some());
 }
 
-/// C36, PL-2: a segment through the plane of the eye is torn by the divide. Drawn between the
-/// divided ends it covers just what is not visible; clipped first it ends where it leaves the view.
+/// C36, PL-2: a segment through the plane of the eye is torn apart by the divide. Drawn between its
+/// divided ends, it covers exactly the part that is not visible; clipped first, it ends where it
+/// leaves the view.
 #[test]
 fn a_segment_that_passes_the_eye_ends_at_the_border_of_the_view() {
-    // On the floor, from three metres ahead to three metres behind.
+    // On the floor, from three meters ahead to three meters behind.
     let (ahead, behind) = (seen(0.5, -1.0, -3.0), seen(0.5, -1.0, 3.0));
     let [p, q] = [ahead, behind].map(|end| end.divide().expect("w is not 0"));
-    assert!(p.y() < 0.0 && q.y() > 0.0, "undivided floor, divided sky: {p:?} {q:?}");
+    assert!(p.y() < 0.0 && q.y() > 0.0, "floor before the eye plane, sky behind it: {p:?} {q:?}");
     let visible = clip_segment(ahead, behind, &Volume::CHAPTER).expect("it starts in view");
     let end = visible.end.divide().expect("in view");
     assert_eq!((visible.start, visible.enter), (ahead, None));
     assert_eq!((end.y(), visible.exit), (-1.0, Some(PlaneIndex::BOTTOM)));
 }
 
-/// C36: z = ±ε. Just ahead of the eye and just behind it the images are at opposite ends of the
-/// picture.
+/// C36: z = ±ε. The images of points just in front of the eye and just behind it are at opposite
+/// ends of the picture.
 #[test]
 fn points_on_both_sides_of_the_eye_are_far_apart_in_the_picture() {
     let [ahead, behind] =
@@ -57,10 +58,10 @@ fn points_on_both_sides_of_the_eye_are_far_apart_in_the_picture() {
     assert!(clip_segment(seen(0.5, 0.5, -1e-9), seen(0.5, 0.5, 1e-9), &Volume::CHAPTER).is_none());
 }
 
-/// C31, C47: clipping in four dimensions and in the picture agree: the cut point divides to where
-/// the image leaves the square.
+/// C31, C47: clipping in four dimensions agrees with clipping in the picture: after the divide, the
+/// cut point is where the image leaves the square.
 #[test]
-fn the_cut_before_the_division_is_the_cut_after_it() {
+fn cuts_before_and_after_the_division_agree() {
     let (p, q) = (seen(0.0, 0.0, -2.0), seen(6.0, 2.0, -4.0));
     let end = clip_segment(p, q, &Volume::CHAPTER).expect("it starts in view").end;
     let [a, b, end] = [p, q, end].map(|point| point.divide().expect("ahead"));
@@ -68,9 +69,9 @@ fn the_cut_before_the_division_is_the_cut_after_it() {
     assert!((a.lerp(b, s) - end).length() < 1e-15, "{end:?}");
 }
 
-/// C89: one clipper serves parallel and perspective projection alike.
+/// C89: one clipper serves both parallel and perspective projections.
 #[test]
-fn boxes_and_frusta_go_through_the_same_clipper() {
+fn boxes_and_frusta_use_the_same_clipper() {
     let parallel = Projective::<View, Clip>::from_raw(DMat4::from_cols(
         DVec4::X,
         DVec4::Y,
@@ -89,29 +90,28 @@ fn boxes_and_frusta_go_through_the_same_clipper() {
     }
 }
 
-/// A plane of the camera's space becomes one of clip space, and cuts there as it would have cut
-/// here.
+/// A plane in camera space becomes a plane in clip space and cuts at the same point there.
 #[test]
 fn planes_can_be_added_from_any_space() {
     let here = Plane::<View>::through(Point::new(0.25, 0.0, 0.0), Normal::new(-1.0, 0.0, 0.0));
     let there = view_to_clip().transform_plane(here).expect("regular");
-    let volume = Volume::CHAPTER.with_plane(there).expect("there is room");
+    let volume = Volume::CHAPTER.with_plane(there).expect("a free slot");
     let left = clip_segment(seen(-0.5, 0.0, -2.0), seen(1.5, 0.0, -2.0), &volume).expect("in view");
     assert_eq!(left.exit, PlaneIndex::added(0));
     assert!((left.t1 - 0.375).abs() < 1e-15, "{}", left.t1);
 }
 
-/// CL-1: the signs of M_per make w negative for what is visible. Taken as it is, everything seen
-/// would be clipped away.
+/// CL-1: the signs of M_per make w negative for visible points. Without a sign change, everything
+/// visible would be clipped away.
 #[test]
-fn the_raw_sign_of_m_per_must_be_turned_first() {
+fn the_sign_of_m_per_must_be_flipped_before_clipping() {
     let raw = HPoint::<Clip>::from_raw(-seen(0.5, 0.5, -2.0).raw());
     assert!(clip_point(raw, &Volume::CHAPTER).is_none());
     assert!(clip_point(HPoint::from_raw(-raw.raw()), &Volume::CHAPTER).is_some());
 }
 
-/// CL-1: points at infinity are directions. A line that runs to its vanishing point is visible up
-/// to the far plane, or all the way if there is none.
+/// CL-1: points at infinity are directions. A line that extends to its vanishing point is visible
+/// up to the far plane, or all the way if there is no far plane.
 #[test]
 fn lines_to_infinity_end_at_the_far_plane_or_their_vanishing_point() {
     let ahead = view_to_clip().transform_direction(-homog::Vector::Z);
@@ -122,9 +122,10 @@ fn lines_to_infinity_end_at_the_far_plane_or_their_vanishing_point() {
     assert_eq!((endless.end, endless.exit), (ahead, None));
 }
 
-/// Rounding may carry a crossing beyond the largest number, where the border at k w is near it.
+/// Rounding may carry a crossing beyond the largest finite number if the border at k w is close to
+/// it.
 #[test]
-fn cuts_among_the_largest_numbers_are_finite() {
+fn cuts_near_the_largest_numbers_are_finite() {
     let volume = Volume::CHAPTER.with_guard_band(9.167_783_980_303_91, 1.0).expect("allowed");
     let max = f64::MAX;
     let corners =

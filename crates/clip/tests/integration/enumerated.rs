@@ -1,6 +1,6 @@
-//! Every small case there is: all triangles and segments with coordinates from five values, two of
-//! them on the borders, two outside and one in the middle, so that every way of touching, crossing
-//! and missing occurs.
+//! All small cases: triangles and segments with coordinates from five values. Two of the values are
+//! on the borders, two are outside and one is in the middle, so every way of touching, crossing and
+//! missing occurs.
 //!
 //! ```text
 //!    −2  −1   0   1   2
@@ -12,7 +12,7 @@ use homog::{Clip, HPoint};
 
 const VALUES: [f64; 5] = [-2.0, -1.0, 0.0, 1.0, 2.0];
 
-/// The `n`-th of all combinations of `K` values.
+/// Returns the `n`-th of all combinations of `K` values.
 fn combination<const K: usize>(mut n: usize) -> [f64; K] {
     core::array::from_fn(|_| {
         let value = VALUES[n % 5];
@@ -30,9 +30,9 @@ fn signed_area(ring: &[[f64; 2]]) -> f64 {
     ring.iter().zip(next).map(|(a, b)| (a[0] * b[1] - a[1] * b[0]) / 2.0).sum()
 }
 
-/// The area of a triangle's part in [−1, 1]², found in another way: by integrating the length of
-/// its horizontal cuts, which is linear between the heights where something happens. It is exact on
-/// trapezoids, so that the midpoint rule is.
+/// Returns the area of the part of a triangle in [−1, 1]², computed independently by integrating
+/// the length of its horizontal cuts. The length is linear between consecutive heights of corners
+/// and crossings, so the midpoint rule is exact.
 fn area_by_cuts(corners: [[f64; 2]; 3]) -> f64 {
     let edges = [0, 1, 2].map(|i| (corners[i], corners[(i + 1) % 3]));
     let mut heights: Vec<f64> = vec![-1.0, 1.0];
@@ -58,7 +58,7 @@ fn cut_length(edges: &[([f64; 2], [f64; 2]); 3], y: f64) -> f64 {
 }
 
 #[test]
-fn all_flat_triangles_keep_the_area_that_integration_finds() {
+fn areas_of_all_flat_triangles_match_integration() {
     let mut by_corners = [0; 8];
     for n in 0..5_usize.pow(6) {
         let [ax, ay, bx, by, cx, cy] = combination(n);
@@ -68,15 +68,21 @@ fn all_flat_triangles_keep_the_area_that_integration_finds() {
         by_corners[ring.len()] += 1;
         let corners = [[ax, ay], [bx, by], [cx, cy]];
         let (area, expected) = (signed_area(&ring), area_by_cuts(corners));
-        assert!((area.abs() - expected).abs() < 1e-14, "{corners:?}: {area}, not {expected}");
-        assert!(area * signed_area(&corners) >= 0.0, "{corners:?} turned over");
+        assert!(
+            (area.abs() - expected).abs() < 1e-14,
+            "{corners:?}: area {area}, expected {expected}"
+        );
+        assert!(area * signed_area(&corners) >= 0.0, "{corners:?} changed its winding");
     }
     assert_eq!(by_corners[1] + by_corners[2], 0);
-    assert!(by_corners[3..7].iter().all(|&count| count > 0), "up to hexagons: {by_corners:?}");
+    assert!(
+        by_corners[3..7].iter().all(|&count| count > 0),
+        "expected triangles to hexagons: {by_corners:?}"
+    );
 }
 
 #[test]
-fn all_triangles_with_one_corner_anywhere_in_four_dimensions_are_sound() {
+fn triangles_with_one_corner_anywhere_in_4d_give_valid_polygons() {
     for n in 0..5_usize.pow(8) {
         let [ax, ay, bx, by, x, y, z, w] = combination(n);
         let corners = [
@@ -99,10 +105,10 @@ fn all_triangles_with_one_corner_anywhere_in_four_dimensions_are_sound() {
     }
 }
 
-/// A segment is inside where all six tests hold; between two crossings nothing changes, so that the
-/// middles of the stretches between them tell all.
+/// A segment is inside where all six tests pass. Nothing changes between two crossings, so testing
+/// the midpoint of each stretch is enough.
 #[test]
-fn all_segments_agree_with_looking_at_every_stretch() {
+fn all_segments_match_tests_of_every_stretch() {
     for n in 0..5_usize.pow(8) {
         let [px, py, pz, pw, qx, qy, qz, qw] = combination(n);
         let (p, q) = (HPoint::<Clip>::new(px, py, pz, pw), HPoint::new(qx, qy, qz, qw));
@@ -118,14 +124,16 @@ fn all_segments_agree_with_looking_at_every_stretch() {
                     "{p:?} {q:?}: {left:?}"
                 );
             }
-            // A touch in one point has no stretch, and neither has a segment without length.
+            // A segment that touches at one point has no visible stretch, and neither does a
+            // segment of length 0.
             (Some(left), ..) => assert!(left.t0 == left.t1 || p == q, "{p:?} {q:?}: {left:?}"),
             (None, first, _) => assert_eq!(first, None, "{p:?} {q:?}"),
         }
     }
 }
 
-/// The fractions at which a segment crosses one of the six planes, with both ends, in order.
+/// Returns, in order, the fractions at which a segment crosses one of the six planes, including
+/// both ends.
 fn crossings(p: HPoint<Clip>, q: HPoint<Clip>) -> Vec<f64> {
     let sides = |p: HPoint<Clip>| [p.x(), p.y(), p.z()].map(|c| [p.w() + c, p.w() - c]).concat();
     let crossing = |(a, b): (f64, f64)| (a * b < 0.0).then(|| a / (a - b));

@@ -1,10 +1,10 @@
-//! Items of the sources that the chapter's cases and the laws leave out, each against its formula.
+//! Compares items from the sources that the other tests do not cover with their formulas.
 
 use clip::{Outcode, PlaneIndex, Volume, clip_segment};
 use glam::{DMat4, DVec4};
 use homog::{Clip, HPoint, Point, Projective, View};
 
-/// Points beyond one border only, with near at +1 as the chapter has it.
+/// Points beyond only one border, with near at +1 as in the chapter.
 const BEYOND: [([f64; 3], PlaneIndex, &str); 6] = [
     ([-1.5, 0.0, 0.0], PlaneIndex::LEFT, "left"),
     ([1.5, 0.0, 0.0], PlaneIndex::RIGHT, "right"),
@@ -18,8 +18,8 @@ fn at(p: [f64; 3], w: f64) -> HPoint<Clip> {
     HPoint::new(p[0] * w, p[1] * w, p[2] * w, w)
 }
 
-/// C4, C7, C85: six planes with names bound the volume, and a point tells by itself which of them
-/// it is beyond, for any w.
+/// C4, C7, C85: six named planes bound the volume, and the coordinates of a point determine which
+/// of them it is beyond, for any w.
 #[test]
 fn the_canonical_volume_has_six_named_planes() {
     let volume = Volume::CHAPTER;
@@ -32,18 +32,22 @@ fn the_canonical_volume_has_six_named_planes() {
         }
         for corner in 0..8_u8 {
             let sign = |bit: u8| if corner & bit == 0 { -1.0 } else { 1.0 };
-            assert!(volume.contains(at([sign(1), sign(2), sign(4)], w)), "borders are inside");
+            assert!(
+                volume.contains(at([sign(1), sign(2), sign(4)], w)),
+                "borders should be inside"
+            );
         }
     }
 }
 
-/// How far inside of a side of the canonical frustum a place is, in the side's own measure.
+/// The signed distance of a point from a side of the canonical frustum, in the side's units;
+/// positive inside.
 type Side = fn([f64; 3]) -> f64;
 
-/// C87: in the canonical frustum the sides are x = ±z and y = ±z, and clipping there, before depth
-/// is mapped, cuts at the same places: t = d/(d − d′) with d the distance from a side.
+/// C87: in the canonical frustum the sides are x = ±z and y = ±z. Clipping there, before depth is
+/// mapped, cuts at the same points: t = d/(d − d′), where d is the distance from a side.
 #[test]
-fn clipping_in_the_canonical_frustum_cuts_at_the_same_places() {
+fn clipping_in_the_canonical_frustum_cuts_at_the_same_points() {
     let (near, far) = (0.25, 1.0);
     let depth = DMat4::from_cols(
         DVec4::X,

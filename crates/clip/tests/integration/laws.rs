@@ -1,9 +1,8 @@
-//! Laws of clipping, on random shapes: nothing is lost, nothing is invented, nothing depends on the
-//! order of things.
+//! Laws of clipping, tested on random shapes: nothing is lost, nothing is added, and the order of
+//! planes and vertices does not matter.
 //!
-//! The shapes cross w = 0, lie behind the eye, touch borders and reach far out: coordinates are
-//! drawn from a few small integers as often as from a range, so that ties and degenerate shapes are
-//! common.
+//! The shapes cross w = 0, are behind the eye, touch borders and extend far out. Coordinates are
+//! often small integers, so ties and degenerate shapes are common.
 
 use clip::{
     ClipVertex, PlaneIndex, PlaneOutcome, Volume, clip_convex, clip_point, clip_polyline,
@@ -26,13 +25,13 @@ fn anywhere() -> impl Strategy<Value = HPoint<Clip>> {
     [coordinate(), coordinate(), coordinate(), coordinate()].prop_map(HPoint::from)
 }
 
-/// Neither huge nor tiny, so that sums of weights keep their digits.
+/// Generates points that are neither huge nor tiny, so that sums of weights stay accurate.
 fn moderate() -> impl Strategy<Value = HPoint<Clip>> {
     let near = || prop_oneof![2 => -3.0..3.0, 1 => (-3..=3).prop_map(f64::from)];
     [near(), near(), near(), near()].prop_map(HPoint::from)
 }
 
-/// A place of the affine world, w = 1, of moderate size: for laws that measure.
+/// Generates affine points (w = 1) of moderate size, for laws that measure areas and lengths.
 fn place() -> impl Strategy<Value = HPoint<Clip>> {
     [-3.0..3.0, -3.0..3.0, -3.0..3.0].prop_map(|[x, y, z]| HPoint::new(x, y, z, 1.0))
 }
@@ -49,7 +48,7 @@ fn volume() -> impl Strategy<Value = Volume> {
     prop_oneof![4 => prop::sample::select(conventions.to_vec()), 1 => open]
 }
 
-/// The part of the triangle a polygon covers, measured in weights.
+/// Returns the fraction of the triangle that a polygon covers, measured in weights.
 fn fraction(polygon: &[ClipVertex]) -> f64 {
     let next = polygon.iter().cycle().skip(1);
     let cross = |(p, q): (&ClipVertex, &ClipVertex)| {
@@ -66,7 +65,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(512))]
 
     #[test]
-    fn what_is_left_is_inside_and_divides(corners in [anywhere(), anywhere(), anywhere()], volume in volume()) {
+    fn clipped_triangles_are_inside_and_can_be_divided(corners in [anywhere(), anywhere(), anywhere()], volume in volume()) {
         let left = clip_triangle(corners, &volume);
         prop_assert!(left.is_empty() || left.vertices().len() >= 3);
         for vertex in left.vertices() {
@@ -77,7 +76,7 @@ proptest! {
     }
 
     #[test]
-    fn weights_sum_to_one_and_give_back_the_vertex(corners in [place(), place(), place()]) {
+    fn weights_sum_to_one_and_reproduce_the_vertex(corners in [place(), place(), place()]) {
         for vertex in clip_triangle(corners, &Volume::CHAPTER).vertices() {
             let [a, b, c] = vertex.weights;
             prop_assert!((a + b + c - 1.0).abs() < 1e-14);
@@ -87,15 +86,15 @@ proptest! {
         }
     }
 
-    /// D8: an edge shared by two triangles is cut at the same bits, whichever way it runs and
-    /// whatever else they do.
+    /// D8: an edge shared by two triangles is cut at the same bits in both, whatever its direction
+    /// and the rest of the triangles.
     #[test]
     fn shared_edges_are_watertight(
         edge in [moderate(), moderate()],
         others in [moderate(), moderate()],
         cuts in prop::collection::vec(plane(), 0..3),
     ) {
-        let add = |volume: Volume, plane| volume.with_plane(plane).expect("there is room");
+        let add = |volume: Volume, plane| volume.with_plane(plane).expect("a free slot");
         let volume = cuts.into_iter().fold(Volume::CHAPTER, add);
         let [p, q] = edge;
         let on_the_edge = |corners, third: usize| {
@@ -113,14 +112,14 @@ proptest! {
     }
 
     #[test]
-    fn turning_a_triangle_turns_what_is_left(corners in [place(), place(), place()]) {
+    fn vertex_order_does_not_change_the_clipped_area(corners in [place(), place(), place()]) {
         let [a, b, c] = corners;
         let areas = [[a, b, c], [b, c, a], [a, c, b]].map(|t| fraction(clip_triangle(t, &Volume::CHAPTER).vertices()));
         prop_assert!((areas[0] - areas[1]).abs() < 1e-12 && (areas[0] - areas[2]).abs() < 1e-12);
     }
 
     #[test]
-    fn clipping_twice_is_clipping_once(corners in [anywhere(), anywhere(), anywhere()], volume in volume()) {
+    fn clipping_is_idempotent(corners in [anywhere(), anywhere(), anywhere()], volume in volume()) {
         let once = clip_triangle(corners, &volume);
         for piece in once.triangles() {
             let again = clip_triangle(piece.map(|vertex| vertex.point), &volume);
@@ -129,15 +128,15 @@ proptest! {
         }
     }
 
-    /// Area is conserved: the two sides of a plane make up the whole.
+    /// Area is conserved: the parts on both sides of a plane add up to the whole.
     #[test]
-    fn both_sides_of_a_plane_make_the_whole(corners in [moderate(), moderate(), moderate()], cut in plane()) {
+    fn both_sides_of_a_plane_add_up_to_the_whole(corners in [moderate(), moderate(), moderate()], cut in plane()) {
         let all = fraction(clip_triangle(corners, &Volume::CHAPTER).vertices());
         let sides = [cut, Plane::from_raw(-cut.raw())].map(|side| {
-            let volume = Volume::CHAPTER.with_plane(side).expect("there is room");
+            let volume = Volume::CHAPTER.with_plane(side).expect("a free slot");
             fraction(clip_triangle(corners, &volume).vertices())
         });
-        prop_assert!((sides[0] + sides[1] - all).abs() < 1e-9, "{sides:?} do not make {all}");
+        prop_assert!((sides[0] + sides[1] - all).abs() < 1e-9, "{sides:?} do not add up to {all}");
     }
 
     #[test]
@@ -146,7 +145,7 @@ proptest! {
         cuts in [plane(), plane(), plane()],
     ) {
         let area = |order: [usize; 3]| {
-            let add = |volume: Volume, i: usize| volume.with_plane(cuts[i]).expect("there is room");
+            let add = |volume: Volume, i: usize| volume.with_plane(cuts[i]).expect("a free slot");
             fraction(clip_triangle(corners, &order.into_iter().fold(Volume::CHAPTER, add)).vertices())
         };
         let first = area([0, 1, 2]);
@@ -156,7 +155,7 @@ proptest! {
     }
 
     #[test]
-    fn a_larger_volume_leaves_more(corners in [anywhere(), anywhere(), anywhere()], k in 1.0..16.0) {
+    fn larger_volumes_keep_more(corners in [anywhere(), anywhere(), anywhere()], k in 1.0..16.0) {
         let band = Volume::CHAPTER.with_guard_band(k, k).expect("allowed");
         let [small, large] = [Volume::CHAPTER, band].map(|volume| fraction(clip_triangle(corners, &volume).vertices()));
         prop_assert!(small <= large + 1e-12);
@@ -164,7 +163,7 @@ proptest! {
 
     /// The guard band changes which triangles are passed on, not the visible part.
     #[test]
-    fn clipping_to_the_band_first_changes_nothing_inside(corners in [place(), place(), place()], k in 1.0..16.0) {
+    fn clipping_to_the_band_first_keeps_the_visible_area(corners in [place(), place(), place()], k in 1.0..16.0) {
         let band = Volume::CHAPTER.with_guard_band(k, k).expect("allowed");
         let direct = fraction(clip_triangle(corners, &Volume::CHAPTER).vertices());
         let ndc_area = |triangle: [HPoint<Clip>; 3]| {
@@ -180,7 +179,7 @@ proptest! {
     }
 
     #[test]
-    fn segments_are_the_same_from_both_ends(p in anywhere(), q in anywhere(), volume in volume()) {
+    fn segments_are_clipped_alike_from_both_ends(p in anywhere(), q in anywhere(), volume in volume()) {
         let (there, back) = (clip_segment(p, q, &volume), clip_segment(q, p, &volume));
         prop_assert_eq!(there.is_some(), back.is_some());
         if let (Some(there), Some(back)) = (there, back) {
@@ -191,18 +190,17 @@ proptest! {
     }
 
     #[test]
-    fn segments_stay_inside_and_once_is_enough(p in anywhere(), q in anywhere(), volume in volume()) {
+    fn clipped_segments_are_inside_and_clipping_is_idempotent(p in anywhere(), q in anywhere(), volume in volume()) {
         let Some(left) = clip_segment(p, q, &volume) else { return Ok(()) };
         prop_assert!(0.0 <= left.t0 && left.t0 <= left.t1 && left.t1 <= 1.0);
         prop_assert!(volume.contains(left.start) && volume.contains(left.end), "{left:?}");
-        let again = clip_segment(left.start, left.end, &volume).expect("it is inside");
+        let again = clip_segment(left.start, left.end, &volume).expect("inside");
         prop_assert_eq!((again.t0, again.t1, again.enter, again.exit), (0.0, 1.0, None, None));
     }
 
-    /// Length is conserved: what lies before, inside and behind makes up the whole, and nothing
-    /// before or behind is inside.
+    /// Nothing is lost: a point of a segment is inside exactly if it is between the cuts.
     #[test]
-    fn points_of_a_segment_are_inside_exactly_between_its_cuts(p in place(), q in place(), t in 0.0..1.0) {
+    fn points_of_segments_are_inside_exactly_between_the_cuts(p in place(), q in place(), t in 0.0..1.0) {
         let inside = clip_point(p.lerp(q, t), &Volume::CHAPTER).is_some();
         match clip_segment(p, q, &Volume::CHAPTER) {
             Some(left) if (t - left.t0).abs() > 1e-9 && (t - left.t1).abs() > 1e-9 => {
@@ -214,7 +212,7 @@ proptest! {
     }
 
     #[test]
-    fn fates_name_the_planes_that_acted(p in place(), q in place()) {
+    fn outcomes_name_the_planes_that_clipped(p in place(), q in place()) {
         let fates = segment_outcomes(p, q, &Volume::CHAPTER);
         match clip_segment(p, q, &Volume::CHAPTER) {
             Some(left) => {
@@ -227,9 +225,9 @@ proptest! {
         }
     }
 
-    /// A neighbour of the volume, moved by one plane at a time, is rejected by that plane.
+    /// A triangle moved completely beyond one plane is rejected by that plane.
     #[test]
-    fn a_shape_behind_one_plane_is_rejected_by_it(
+    fn shapes_beyond_one_plane_are_rejected_by_it(
         corners in [place(), place(), place()],
         axis in 0..3_usize,
         low: bool,
@@ -239,14 +237,14 @@ proptest! {
             raw[axis] = if low { -1.5 - raw[axis].abs() } else { 1.5 + raw[axis].abs() };
             HPoint::from_raw(raw)
         });
-        let index = PlaneIndex::new(2 * axis + usize::from(!low)).expect("one of the box");
+        let index = PlaneIndex::new(2 * axis + usize::from(!low)).expect("a plane of the box");
         let left = clip_triangle(moved, &Volume::OPENGL);
         prop_assert!(left.is_empty());
         prop_assert_eq!(left.outcomes.outcome_of(index), PlaneOutcome::Rejected);
     }
 
     #[test]
-    fn polylines_are_their_segments(points in prop::collection::vec(anywhere(), 0..12)) {
+    fn polylines_match_their_segments(points in prop::collection::vec(anywhere(), 0..12)) {
         let volume = Volume::CHAPTER;
         let runs = clip_polyline(&points, &volume);
         let pieces = runs.iter().flat_map(|run| run.windows(2)).map(|ends| (bits(ends[0].point), bits(ends[1].point)));
@@ -258,7 +256,7 @@ proptest! {
     }
 
     #[test]
-    fn convex_polygons_are_their_fans(center in place(), radius in 0.1..4.0, sides in 3..12_usize) {
+    fn convex_polygons_match_their_fans(center in place(), radius in 0.1..4.0, sides in 3..12_usize) {
         let corner = |i: usize| libm::sincos(i as f64 * core::f64::consts::TAU / sides as f64);
         let ring: Vec<HPoint<Clip>> = (0..sides)
             .map(corner)

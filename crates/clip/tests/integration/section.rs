@@ -1,7 +1,7 @@
-//! Section cuts of closed solids: the outline closes, nothing of the volume is lost, the cap fills
+//! Section cuts of closed solids: the outline closes, the volume is conserved, and the cap fills
 //! the outline.
 //!
-//! The solids are a cube, a sphere in facets, and a ring whose cuts have holes or come in two
+//! The solids are a cube, a faceted sphere, and two tori whose cuts have holes or fall into two
 //! pieces.
 
 use clip::{CutTriangle, Outline, cut_triangle};
@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 
 type Triangle = [Point<World>; 3];
 
-/// A surface over a grid that is closed in both directions: a ring with a tube, in facets.
+/// Returns a faceted torus: a surface over a grid that is closed in both directions.
 fn ring(around: usize, along: usize) -> Vec<Triangle> {
     let place = |i: usize, j: usize| {
         let (s, c) = libm::sincos(TAU * (i % around) as f64 / around as f64);
@@ -34,8 +34,7 @@ fn squares(m: usize, n: usize, place: impl Fn(usize, usize) -> Point<World>) -> 
         .collect()
 }
 
-/// Eight octants of a sphere, each side divided: its triangles run counter-clockwise seen from
-/// outside.
+/// Returns a sphere of eight subdivided octants, with triangles counterclockwise seen from outside.
 fn sphere() -> Vec<Triangle> {
     let n = 6;
     let mut triangles = Vec::new();
@@ -73,7 +72,7 @@ fn solids() -> [Vec<Triangle>; 4] {
     [cube(), sphere(), ring(24, 12), ring(5, 3)]
 }
 
-/// Six times the volume, as seen from a point.
+/// Returns the volume of a solid as a sum of tetrahedra with their apex at a point.
 fn volume(triangles: &[Triangle], from: Point<World>) -> f64 {
     let six = |[a, b, c]: Triangle| (a - from).dot((b - from).cross(c - from));
     triangles.iter().copied().map(six).sum::<f64>() / 6.0
@@ -83,7 +82,7 @@ fn area(triangles: &[Triangle], normal: DVec3) -> f64 {
     triangles.iter().map(|[a, b, c]| (*b - *a).cross(*c - *a).raw().dot(normal) / 2.0).sum()
 }
 
-/// The part on the positive side, and the outline of the opening.
+/// Returns the part on the positive side and the outline of the opening.
 fn cut(solid: &[Triangle], plane: Plane<World>) -> (Vec<Triangle>, Outline<World>) {
     let pieces: Vec<_> = solid.iter().map(|&triangle| cut_triangle(triangle, plane)).collect();
     let left = pieces.iter().flat_map(CutTriangle::triangles);
@@ -100,28 +99,28 @@ fn check(solid: &[Triangle], through: Point<World>, normal: DVec3) -> Result<(),
         let (left, outline) = cut(solid, plane);
         prop_assert!(outline.is_closed(), "open: {:?}", outline.open);
         let cap = outline.triangulate_cap(plane);
-        prop_assert!(
-            cap.iter().all(|&t| area(&[t], -normal) > -1e-12),
-            "a triangle is turned over"
-        );
-        // Seen from the plane the cap is flat and adds nothing; seen from elsewhere it must close
-        // the solid.
+        prop_assert!(cap.iter().all(|&t| area(&[t], -normal) > -1e-12), "a triangle is clockwise");
+        // With the apex on the plane, the cap contributes no volume; with the apex elsewhere, it
+        // must close the solid.
         let half = volume(&left, through);
         let closed: Vec<Triangle> = left.into_iter().chain(cap.iter().copied()).collect();
         let elsewhere = through + homog::Vector::new(3.0, -7.0, 5.0);
         let again = volume(&closed, elsewhere);
-        prop_assert!((again - half).abs() < 1e-9, "with its cap the volume is {again}, not {half}");
+        prop_assert!(
+            (again - half).abs() < 1e-9,
+            "with the cap the volume is {again}, expected {half}"
+        );
         halves += half;
         caps.push(area(&cap, -normal));
     }
     let whole = volume(solid, through);
-    prop_assert!((halves - whole).abs() < 1e-9, "the halves make {halves}, not {whole}");
-    // A face in the plane is its own cap on the side of the solid, and lies on the cap of the other
-    // side.
+    prop_assert!((halves - whole).abs() < 1e-9, "the halves add up to {halves}, expected {whole}");
+    // A face in the plane serves as the cap on the side of the solid, and it coincides with the cap
+    // on the other side.
     let plane = Plane::through(through, Normal::from_raw(normal));
     let has_face =
         solid.iter().any(|t| t.iter().all(|&corner| plane.evaluate(corner).abs() < 1e-12));
-    prop_assert!(has_face || (caps[0] - caps[1]).abs() < 1e-9, "caps of {caps:?}");
+    prop_assert!(has_face || (caps[0] - caps[1]).abs() < 1e-9, "the caps have areas {caps:?}");
     Ok(())
 }
 
@@ -129,7 +128,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
-    fn halves_with_their_caps_make_the_whole(
+    fn halves_with_caps_add_up_to_the_whole(
         through in [-1.0..1.0, -1.0..1.0, -1.0..1.0],
         normal in [-1.0..1.0, -1.0..1.0, -1.0..1.0],
     ) {
@@ -143,7 +142,7 @@ proptest! {
 
 /// Planes along the axes hit corners, edges and whole faces of the solids.
 #[test]
-fn planes_through_corners_and_edges_are_no_exception() {
+fn planes_through_corners_and_edges_also_conserve_volume() {
     for solid in solids() {
         for axis in [DVec3::X, DVec3::Y, DVec3::Z, DVec3::new(0.6, 0.8, 0.0)] {
             for place in [-0.5, 0.0, 0.25, 0.5, 0.75] {
@@ -156,7 +155,7 @@ fn planes_through_corners_and_edges_are_no_exception() {
 }
 
 #[test]
-fn a_ring_cut_flat_has_a_hole_and_cut_upright_two_pieces() {
+fn horizontal_torus_cuts_have_a_hole_and_vertical_cuts_two_pieces() {
     let ring = ring(24, 12);
     let pieces = |normal| {
         let plane = Plane::through(Point::new(0.0, 0.1, 0.05), normal);
@@ -173,7 +172,7 @@ fn a_ring_cut_flat_has_a_hole_and_cut_upright_two_pieces() {
 }
 
 #[test]
-fn a_plane_that_misses_takes_all_or_nothing() {
+fn planes_that_miss_keep_everything_or_nothing() {
     let above = Plane::through(Point::new(0.0, 5.0, 0.0), Normal::new(0.0, 1.0, 0.0));
     let (left, outline) = cut(&cube(), above);
     assert!(
@@ -186,7 +185,7 @@ fn a_plane_that_misses_takes_all_or_nothing() {
 }
 
 #[test]
-fn a_corner_on_the_plane_is_the_crossing_however_far_the_others_are() {
+fn corners_on_the_plane_stay_finite_however_far_the_others_are() {
     let plane = Plane::<World>::through(Point::ORIGIN, Normal::new(0.0, 1.0, 0.0));
     let far = 1.5e308;
     let corners =
