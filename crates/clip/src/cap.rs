@@ -2,9 +2,9 @@
 //!
 //! ```text
 //!   ┌───────────────┐        A hole is joined to its outline by a bridge that is walked twice,
-//!   │   ┌───┐       │        so that one ring remains. From it ears are cut: corners whose
+//!   │   ┌───┐       │        which leaves one ring. Ears are then cut from it: corners whose
 //!   │   │   ●───────●        triangle contains no other corner of the ring (Meisters, 1975;
-//!   │   └───┘       │        bridges as told by Eberly, 1998).
+//!   │   └───┘       │        bridges as in Eberly, 1998).
 //!   └───────────────┘
 //! ```
 //!
@@ -19,7 +19,7 @@ impl<S: Space> Outline<S> {
     /// Returns the triangles of the cut face. They are counterclockwise seen from the removed side,
     /// where the normal of the plane points away from the viewer.
     ///
-    /// Areas within an odd number of loops are filled, whatever the direction of the loops
+    /// Areas within an odd number of loops are filled, and the direction of a loop does not matter
     /// (even-odd rule). Loops that cross each other, which never happens for a solid, are covered
     /// only in part. The time grows with the square of the number of points.
     ///

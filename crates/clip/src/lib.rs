@@ -8,14 +8,14 @@
 //!
 //! ```text
 //!                 w
-//!    q/w     ╲    │p   ╱           p is visible, q is behind the eye. What is visible of the
-//!   ──●───────╲───┼─·─╱─── w = 1   segment runs from p to its cut c with the wedge; in the
-//!              ╲  │  c             picture that is from just right of the middle to the right
-//!               ╲ │ ╱ ·            border.
+//!    q/w     ╲    │p   ╱           p is visible, q is behind the eye. The visible part of
+//!   ──●───────╲───┼─·─╱─── w = 1   the segment runs from p to its cut c with the wedge. In
+//!              ╲  │  c             the picture, it runs from just right of the middle to
+//!               ╲ │ ╱ ·            the right border.
 //!                ╲│╱   ·
-//!       ──────────┼─────·─── x     Divided first, q comes out at q/w, on the left. A line drawn
-//!                ╱│╲     ·         from p to there runs the wrong way: it shows just what is
-//!               ╱ │ ╲     ·        *not* visible of the segment.
+//!       ──────────┼─────·─── x     Divided first, q ends up at q/w, on the left. A line from
+//!                ╱│╲     ·         p to that point runs the wrong way: it shows exactly the
+//!               ╱ │ ╲     ·        part of the segment that is *not* visible.
 //!                 │        q
 //! ```
 //!

@@ -1,9 +1,9 @@
 //! Outcodes: one bit per plane that a point is outside of (CL-1; Cohen and Sutherland, about 1967).
 //!
 //! ```text
-//!   bit 0 left   1 right   2 bottom   3 top   4 near   5 far   6… planes added by hand
+//!   bit 0 left   1 right   2 bottom   3 top   4 near   5 far   6… user planes
 //!
-//!      1001 │ 1000 │ 1010          a | b = 0   both inside everything: accept
+//!      1001 │ 1000 │ 1010          a | b = 0   both inside all planes: accept
 //!      ─────┼──────┼─────          a & b ≠ 0   both outside of one plane: reject
 //!      0001 │ 0000 │ 0010          otherwise   look closer
 //!      ─────┼──────┼─────

@@ -13,8 +13,8 @@ use homog::{Clip, HPoint};
 /// use clip::{Volume, clip_point};
 /// use homog::HPoint;
 /// let behind = HPoint::new(0.0, 0.0, 0.5, -1.0);
-/// assert_eq!(behind.divide().map(|p| p.z()), Some(-0.5)); // looks visible
-/// assert_eq!(clip_point(behind, &Volume::CHAPTER), None); // is not
+/// assert_eq!(behind.divide().map(|p| p.z()), Some(-0.5)); // it looks visible
+/// assert_eq!(clip_point(behind, &Volume::CHAPTER), None); // but it is not
 /// ```
 #[must_use]
 pub fn clip_point(point: HPoint<Clip>, volume: &Volume) -> Option<HPoint<Clip>> {

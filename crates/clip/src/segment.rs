@@ -3,7 +3,7 @@
 //! ```text
 //!            ┌─────────┐
 //!   p ───────●─────────●───► q        t0 is the last entry, t1 the first exit;
-//!        t0  │         │ t1           if t0 > t1 the segment passes by
+//!        t0  │         │ t1           if t0 > t1, the segment misses the box
 //!            └─────────┘
 //! ```
 

@@ -1,8 +1,8 @@
 //! Triangles (CL-3): the clipped part is a convex polygon, available as a fan of triangles.
 //!
 //! ```text
-//!            ╱╲                        each plane takes a corner and leaves two:
-//!       ┌───╱──╲───┐                   at most one vertex more per plane,
+//!            ╱╲                        a plane that cuts off a corner leaves two:
+//!       ┌───╱──╲───┐                   at most one more vertex per plane,
 //!       │  ╱    ╲  │                   nine for the six planes of the box
 //!       │ ╱      ╲ │
 //!       └╱────────╲┘  ► 4 vertices

@@ -1,8 +1,8 @@
 //! Section cuts: cutting a solid open with a plane, and the outline of the cut face.
 //!
 //! ```text
-//!          ╱╲                   plane ──────────────      what is left        the cap
-//!         ╱  ╲                          ╱──────╲          of the sides      ┌──────────┐
+//!          ╱╲                   plane ──────────────      remaining           the cap
+//!         ╱  ╲                          ╱──────╲          sides             ┌──────────┐
 //!        ╱    ╲        ──►             ╱        ╲                           │  ┌────┐  │   outline
 //!       ╱──────╲                      ╱──────────╲                          │  └────┘  │ and hole
 //!                                                                           └──────────┘

@@ -182,7 +182,7 @@ impl Frame {
     /// frame.add_clipped_mesh(&screen, lens.view_to_clip(convention), floor);
     ///
     /// let ids = frame.visibility_buffer().ids;
-    /// // The whole lower half: 18 rows of 48 pixels.
+    /// // The floor covers the lower half: 18 rows of 48 pixels.
     /// assert_eq!(ids.iter().filter(|id| id.is_some()).count(), 864);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

@@ -3,7 +3,7 @@
 //! ```text
 //!    ╲ │ ╱   normals of the cluster's triangles within a cone
 //!     ╲│╱
-//!   ┌──●──┐  bounding box: outside the frustum?           cone: all backs to the viewer?
+//!   ┌──●──┐  bounding box: outside the frustum?           cone: all faces turned away?
 //!   └─────┘
 //! ```
 //!

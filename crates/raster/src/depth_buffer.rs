@@ -33,7 +33,7 @@ use homog::PixelRect;
 pub struct DepthBuffer {
     region: PixelRect,
     samples: Samples,
-    /// The depths of the first sample in all pixels, row by row, then those of the other samples.
+    /// The depths of the first sample in all pixels, row by row, then of each further sample.
     depths: Vec<f32>,
 }
 

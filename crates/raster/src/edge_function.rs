@@ -5,7 +5,7 @@
 //!        v2                  E(p) > 0 inside, for each of the three edges.
 //!       /  \                 A sample on an edge, E(p) = 0, is inside if the edge is
 //!      / +  \                a left edge (the inside is to its right) or a top edge
-//!     v0────v1               (horizontal, the inside below it on the screen).
+//!     v0────v1               (horizontal, with the inside below it on the screen).
 //! ```
 //! Two triangles that share an edge see it from opposite sides, so exactly one of them owns the
 //! samples on it: there is no gap, and no pixel is drawn twice. All of this is integer arithmetic

@@ -2,8 +2,8 @@
 //! and its color is the mean of the sample colors.
 //!
 //! ```text
-//!   A A A A B B B B     the triangle of each pixel's first sample: shaded as eight neighbors are
-//!         B   C         triangles of other samples: gathered along the row, shaded eight at a time
+//!   A A A A B B B B     the triangle of each pixel's first sample, shaded like eight neighbors
+//!         B   C         triangles of other samples, gathered along the row, shaded eight at a time
 //! ```
 //!
 //! Each triangle is shaded once per pixel, weighted by its number of samples. Colors are summed

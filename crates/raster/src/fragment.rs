@@ -1,7 +1,7 @@
 //! Fragments: a primitive at one pixel, with perspective-correct weights for shading.
 //!
 //! ```text
-//!   areaₖ = area of the triangle that the pixel's center makes with the edge opposite vertex k
+//!   areaₖ = area of the triangle that the pixel's center forms with the edge opposite vertex k
 //!   weightₖ = (areaₖ / wₖ) / Σ (areaᵢ / wᵢ)                    perspective-correct (IN-2)
 //!   ∂weightₖ/∂x = (∂partₖ/∂x − weightₖ · Σ ∂partᵢ/∂x) / Σ partᵢ   with partₖ = areaₖ / wₖ
 //! ```

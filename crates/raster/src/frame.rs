@@ -1,7 +1,7 @@
 //! A frame: the draw list of one picture, and primitive assembly from vertices to screen triangles.
 //!
 //! ```text
-//!   ScreenVertex ×3 ─► cull by winding ─► drop without a sample ─► orient clockwise ─► buffer
+//!   ScreenVertex ×3 ─► cull by winding ─► drop if no sample ─► orient clockwise ─► buffer
 //! ```
 //!
 //! Triangles are stored in submission order, which breaks depth ties: of two triangles at the same

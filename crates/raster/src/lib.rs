@@ -49,7 +49,7 @@
 //! let rows: Vec<String> = buffer.ids.chunks(16)
 //!     .map(|row| row.iter().map(|id| if *id == Some(7) { '#' } else { '.' }).collect())
 //!     .collect();
-//! // Samples on the left border are in; those on the right and bottom borders are out.
+//! // Samples on the left border are inside; samples on the right and bottom borders are not.
 //! assert_eq!(rows, [
 //!     ".......#........",
 //!     "......###.......",

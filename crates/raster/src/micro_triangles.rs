@@ -1,10 +1,10 @@
 //! Micro-triangles: the coverage of triangles of a few pixels, computed eight at a time.
 //!
 //! ```text
-//!   y0 ┌─┬─┬─┬─┐   A triangle within 4 × 4 pixels: at each of the 16 places, for each sample,
-//!      │ │◢│ │ │   the edge functions of eight such triangles are one vector each. What is covered
-//!      │ │█│◣│ │   are 16 bits for each triangle and sample plane, and only the samples of set
-//!      └─┴─┴─┴─┘   bits are looked at: depth test and depth write, one by one.
+//!   y0 ┌─┬─┬─┬─┐   A triangle within 4 × 4 pixels. At each of the 16 positions, for each sample,
+//!      │ │◢│ │ │   each edge function of eight such triangles is one vector. Coverage is 16 bits
+//!      │ │█│◣│ │   per triangle and sample plane, and only samples with a set bit get a depth
+//!      └─┴─┴─┴─┘   test and depth write, one by one.
 //!      x0
 //! ```
 //!

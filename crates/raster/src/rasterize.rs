@@ -3,10 +3,10 @@
 //!
 //! ```text
 //!   row of 8 blocks          each block of 8 × 8 pixels
-//!   ┌──┬──┬──┬──┬──┬──┐      outside an edge, or behind every sample:  skipped
-//!   │  │ ▄│██│██│▀ │  │      inside all edges, before every sample:    overwritten, no test
-//!   └──┴──┴──┴──┴──┴──┘      inside all edges:                         depth test
-//!                            an edge runs through:                     coverage and depth test
+//!   ┌──┬──┬──┬──┬──┬──┐      outside an edge, or behind all samples:     skipped
+//!   │  │ ▄│██│██│▀ │  │      inside all edges, in front of all samples:  overwritten, no test
+//!   └──┴──┴──┴──┴──┴──┘      inside all edges otherwise:                 depth test
+//!                            crossed by an edge:                         coverage and depth test
 //! ```
 //!
 //! A sample is covered if none of the three edge functions is negative, and visible if it is also

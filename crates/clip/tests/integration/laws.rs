@@ -86,8 +86,8 @@ proptest! {
         }
     }
 
-    /// D8: an edge shared by two triangles is cut at the same bits in both, whatever its direction
-    /// and the rest of the triangles.
+    /// D8: an edge shared by two triangles is cut at the same bits in both, regardless of its
+    /// direction and the rest of the triangles.
     #[test]
     fn shared_edges_are_watertight(
         edge in [moderate(), moderate()],
