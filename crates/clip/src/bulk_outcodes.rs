@@ -37,13 +37,14 @@ pub struct OutcodeSummary {
 impl OutcodeSummary {
     const EMPTY: Self = Self { count: 0, any_outside: Outcode::INSIDE, all_outside: Outcode::ALL };
 
-    /// Returns whether every point is inside, and so is everything between them.
+    /// Returns whether every point is inside; if so, everything between the points is also inside.
     #[must_use]
     pub fn is_inside(&self) -> bool {
         self.any_outside.is_inside()
     }
 
-    /// Returns whether all points are outside of one plane, and so is everything between them.
+    /// Returns whether all points are outside of one plane; if so, everything between the points is
+    /// also outside.
     #[must_use]
     pub fn is_outside(&self) -> bool {
         !self.all_outside.is_inside()

@@ -11,7 +11,7 @@ use alloc::vec::Vec;
 use homog::{Bounds, Clip, ClipRange, HPoint, Interpolate, Plane, Point, Projective, Space};
 
 /// An intersection of half-spaces in space `S`: the points where no plane is negative. The boundary
-/// belongs to it.
+/// is included.
 ///
 /// ```
 /// use clip::ConvexVolume;
@@ -80,8 +80,8 @@ impl<S: Space> ConvexVolume<S> {
         Self { planes: planes.to_vec() }
     }
 
-    /// Creates the part of space that a projection shows, with the six planes of its frustum in
-    /// clip-space order (left, right, bottom, top, near, far; Gribb and Hartmann, 2001).
+    /// Creates the volume that a projection shows, from the six planes of its frustum in clip-space
+    /// order (left, right, bottom, top, near, far; Gribb and Hartmann, 2001).
     ///
     /// A far plane at infinity is omitted, and so is a far plane that only rounding keeps finite.
     ///

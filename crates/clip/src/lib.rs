@@ -1,10 +1,10 @@
 //! Clipping in homogeneous space, before the divide.
 //!
 //! Clipping reduces a shape to the part inside a volume. Here it happens before the divide by w,
-//! because dividing first goes wrong: it moves points behind the eye to positions in front of it.
-//! In clip space the volume is a wedge, |x| ≤ w and likewise for y and z, and the picture is the
-//! line w = 1. The divide moves every point along its line through the origin to w = 1, including
-//! points with w < 0:
+//! because dividing first moves points behind the eye to positions in front of it. In clip space
+//! the volume is a wedge, |x| ≤ w and likewise for y and z, and the picture is the line w = 1. The
+//! divide moves every point along its line through the origin to w = 1, including points with w <
+//! 0:
 //!
 //! ```text
 //!                 w

@@ -3,8 +3,8 @@
 use crate::Volume;
 use homog::{Clip, HPoint};
 
-/// Returns the point itself if it is inside the volume or on its boundary. Otherwise returns
-/// `None`, also if the point is not finite or is the zero vector.
+/// Returns the point itself if it is inside the volume or on its boundary. Returns `None` if it is
+/// outside, not finite, or the zero vector.
 ///
 /// The test comes before the divide. Afterward it would be too late: dividing can move a point
 /// behind the eye into the cube, where it looks visible.

@@ -10,8 +10,8 @@ use homog::{Clip, HPoint};
 pub struct PolylinePoint {
     /// The position, not divided.
     pub point: HPoint<Clip>,
-    /// The segment of the source that contains it: the one from point `segment` to point `segment +
-    /// 1`.
+    /// The index of the source segment that contains it, which runs from point `segment` to point
+    /// `segment + 1`.
     pub segment: usize,
     /// The fraction along that segment. Use it to interpolate attributes of the ends.
     pub t: f64,

@@ -53,7 +53,7 @@ pub struct ClippedPolygon {
     pub outcomes: PlaneOutcomes,
 }
 
-/// Most triangles stay whole, and copying them need not copy space for clipped vertices.
+/// Most triangles stay whole, so copying them need not copy the buffer for clipped vertices.
 #[derive(Clone, Copy, Debug)]
 #[expect(clippy::large_enum_variant, reason = "stays on the stack to avoid allocation")]
 enum PolygonVertices {
@@ -238,7 +238,7 @@ impl VertexBuffer {
     }
 
     /// Appends a vertex if there is space. Rounding may make a ring slightly concave. Only then
-    /// could it outgrow its storage, and it then loses a vertex on a line.
+    /// could it outgrow its storage, and it then drops a vertex that is on a line.
     fn push(&mut self, vertex: ClipVertex) {
         if let Some(place) = self.vertices.get_mut(self.count) {
             *place = vertex;

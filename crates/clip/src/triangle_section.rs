@@ -13,8 +13,8 @@
 //! the same bits, so the edges join end to start without a tolerance, and the outline of a closed
 //! surface always closes.
 //!
-//! A corner on the plane counts as inside. A face that lies in the plane is therefore kept whole,
-//! and a solid that only touches the plane from inside gets no cap.
+//! A corner on the plane counts as inside. A face in the plane is therefore kept whole, and a solid
+//! that only touches the plane from inside gets no cap.
 
 use crate::sutherland_hodgman::{EdgeFraction, RingStep, clip_ring, crossing_fraction};
 use homog::{Plane, Point, Space};

@@ -1,7 +1,7 @@
 //! View volumes as tables of planes in clip space.
 //!
-//! A plane is a row (a, b, c, d); a point is inside if a x + b y + c z + d w ≥ 0. The boundary
-//! belongs to the volume. Conventions differ only in the two rows for z:
+//! A plane is a row (a, b, c, d); a point is inside if a x + b y + c z + d w ≥ 0. The boundary is
+//! part of the volume. Conventions differ only in the two rows for z:
 //!
 //! | volume | near | far | depth near … far |
 //! | --- | --- | --- | --- |

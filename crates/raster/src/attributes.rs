@@ -92,7 +92,7 @@ impl<'a, A: Interpolate> VertexAttribute<'a, A> {
     /// level of a texture.
     ///
     /// # Panics
-    /// See [`at`](Self::at).
+    /// Panics in the same cases as [`at`](Self::at).
     #[must_use]
     #[inline]
     pub fn derivatives(&self, fragment: &Fragment<'_>) -> [A; 2] {

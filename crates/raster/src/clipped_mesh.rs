@@ -163,7 +163,7 @@ fn sign(x: f64) -> i64 {
 }
 
 impl Frame {
-    /// Adds a mesh in any space: transforms it, clips it before the divide, culls and snaps it.
+    /// Adds a mesh in any space: transforms it, clips it before the divide, culls it and snaps it.
     /// Triangles that cross the near plane are cut there; their fragments have weights in the whole
     /// triangles.
     ///

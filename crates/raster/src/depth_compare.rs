@@ -1,4 +1,4 @@
-//! Depth functions: when one depth replaces another.
+//! Depth functions: the conditions under which one depth replaces another.
 //!
 //! Depth is 1 at the near plane and 0 at the far plane, so the usual function is "greater".
 //! Functions in the other direction negate every depth on input and output, which is exact, so the

@@ -134,7 +134,7 @@ pub struct WeightLanes<'a> {
     is_single: bool,
     /// The weights of the screen triangles' vertices.
     barycentrics: [F32x8; 3],
-    /// The reciprocals of the sums by which the barycentrics were normalized.
+    /// The reciprocals of the sums by which the barycentric weights were normalized.
     inv_sum: F32x8,
     triangles: [&'a ScreenTriangle; LANES],
     source_weights: &'a [SourceWeights],

@@ -82,7 +82,7 @@ pub(crate) fn rasterize_triangle<S: Simd>(
 }
 
 impl SamplePlane {
-    /// Rasterizes the part of a large triangle that lies in one row of blocks.
+    /// Rasterizes the part of a large triangle in one row of blocks.
     ///
     /// All eight blocks are classified and bounded by vector instructions; then only touched blocks
     /// are visited, in the bit order of a mask. The bounds of a block are raised before its samples

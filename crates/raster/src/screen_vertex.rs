@@ -2,8 +2,8 @@
 //!
 //! Coverage uses only integers. A vertex is rounded once to the nearest multiple of 1/256 pixel (8
 //! subpixel bits, as Direct3D requires and GPUs use), and from there on every edge function is
-//! exact. Vertices shared by triangles are snapped alike, so no gap can open between them. The
-//! price is an error of at most 1/512 pixel in each vertex coordinate.
+//! exact. Vertices shared by triangles are snapped identically, so no gap can open between them.
+//! The price is an error of at most 1/512 pixel in each vertex coordinate.
 
 use core::num::NonZeroU32;
 use homog::{Point, Screen};

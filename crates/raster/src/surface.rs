@@ -123,8 +123,8 @@ impl<F: Fn(&Fragment<'_>) -> [f32; 4] + Sync> Surface for SurfaceFn<F> {
     }
 }
 
-/// A reference to a surface is a surface. With `&dyn Surface`, surfaces of several types share one
-/// copy of the drawing code.
+/// A reference to a surface is also a surface. With `&dyn Surface`, surfaces of several types share
+/// one copy of the drawing code.
 impl<S: Surface + ?Sized> Surface for &S {
     fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
         (**self).passes_alpha_test(fragment)

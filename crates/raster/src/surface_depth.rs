@@ -35,7 +35,7 @@ impl Frame {
     /// Pixels without a surface keep the target's value, such as [`SurfaceDepth::EMPTY`].
     ///
     /// The sample is at [`Samples::first_offset`](crate::Samples::first_offset) in each pixel; with
-    /// one sample, it is the center. Depths are not extrapolated to another position: beyond the
+    /// one sample, it is at the center. Depths are not extrapolated to another position: beyond the
     /// edge of a steep surface the error would be large.
     ///
     /// Masked primitives count where they pass the alpha test; translucent primitives do not count.

@@ -35,7 +35,7 @@ pub(crate) struct TranslucentLayer {
 #[derive(Debug, Default)]
 pub(crate) struct TileVisibility {
     planes: Vec<SamplePlane>,
-    /// Sorted by pixel, and within a pixel back to front.
+    /// The translucent layers, sorted by pixel and, within a pixel, back to front.
     pub(crate) layers: Vec<TranslucentLayer>,
     /// The farthest bound of all planes: no sample is farther, so anything farther is hidden.
     farthest_depth: f32,

@@ -7,7 +7,7 @@
 use crate::primitive::ScreenTriangle;
 use crate::tile_grid::TileRange;
 
-/// The maximum number of triangles in a chunk, which is then 256 KiB.
+/// The maximum number of triangles in a chunk, which then takes 256 KiB.
 pub(crate) const CHUNK_TRIANGLES: usize = 1 << CHUNK_BITS;
 const CHUNK_BITS: u32 = 12;
 /// The minimum space for adding a mesh's triangles to a chunk. A smaller tail is not worth another
@@ -48,8 +48,8 @@ impl TriangleChunk {
 
 /// All triangles of a frame.
 ///
-/// The index of a triangle has the index of its chunk in the upper bits and its index in the chunk
-/// in the lower 12 bits. Indices increase in submission order, with gaps where chunks are not full.
+/// The upper bits of a triangle's index are the index of its chunk; the lower 12 bits are its index
+/// in the chunk. Indices increase in submission order, with gaps where chunks are not full.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TriangleBuffer {
     chunks: Vec<TriangleChunk>,

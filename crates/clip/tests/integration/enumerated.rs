@@ -108,7 +108,7 @@ fn triangles_with_one_corner_anywhere_in_4d_give_valid_polygons() {
 /// A segment is inside where all six tests pass. Nothing changes between two crossings, so testing
 /// the midpoint of each stretch is enough.
 #[test]
-fn all_segments_match_tests_of_every_stretch() {
+fn all_segments_match_midpoint_tests() {
     for n in 0..5_usize.pow(8) {
         let [px, py, pz, pw, qx, qy, qz, qw] = combination(n);
         let (p, q) = (HPoint::<Clip>::new(px, py, pz, pw), HPoint::new(qx, qy, qz, qw));

@@ -1,4 +1,4 @@
-//! Compares items from the sources that the other tests do not cover with their formulas.
+//! Items from the sources that the other tests do not cover, each tested against its formula.
 
 use clip::{Outcode, PlaneIndex, Volume, clip_segment};
 use glam::{DMat4, DVec4};

@@ -198,7 +198,7 @@ proptest! {
         prop_assert_eq!((again.t0, again.t1, again.enter, again.exit), (0.0, 1.0, None, None));
     }
 
-    /// Nothing is lost: a point of a segment is inside exactly if it is between the cuts.
+    /// Nothing is lost: a point of a segment is inside if and only if it is between the cuts.
     #[test]
     fn points_of_segments_are_inside_exactly_between_the_cuts(p in place(), q in place(), t in 0.0..1.0) {
         let inside = clip_point(p.lerp(q, t), &Volume::CHAPTER).is_some();

@@ -44,7 +44,7 @@ fn canceled_drawing_starts_no_further_row_of_tiles() {
 
 const SIZE: (u32, u32) = (200, 150);
 
-/// A lattice that covers half of the pixels, half transparent.
+/// A half-transparent lattice that covers half of the pixels.
 struct Lattice;
 
 impl Surface for Lattice {
