@@ -65,7 +65,7 @@ fn check_corpus(folder: &Path, arguments: &Arguments) -> Result<Tally, String> {
     Ok(tally)
 }
 
-/// The codes of all errors in a report.
+/// Returns the codes of all errors in a report.
 fn error_codes(report: &CheckReport) -> BTreeSet<&'static str> {
     let errors =
         report.diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Error);

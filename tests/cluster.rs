@@ -106,7 +106,7 @@ fn test_cluster(folder: &Path) -> Result<Tally, String> {
 /// have what they would have for themselves.
 const MAX_LOAD: f64 = 0.25;
 
-/// The share of the processors in use during a second in which this test does nothing.
+/// Returns the share of the processors in use during a second in which this test does nothing.
 fn foreign_load() -> Result<f64, String> {
     let read_ticks = || -> Result<(u64, u64), String> {
         let text = std::fs::read_to_string("/proc/stat").map_err(|error| error.to_string())?;
@@ -122,7 +122,7 @@ fn foreign_load() -> Result<f64, String> {
     Ok(1.0 - idle as f64 / all as f64)
 }
 
-/// The number of times the disturbed run is repeated.
+/// Returns the number of times the disturbed run is repeated.
 fn run_count() -> u32 {
     std::env::var("CLUSTER_RUNS").ok().and_then(|runs| runs.parse().ok()).unwrap_or(1)
 }

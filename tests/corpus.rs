@@ -88,8 +88,8 @@ fn render_corpus(
     Ok(tally)
 }
 
-/// The reason why an outcome is wrong: by the manifest if it states one, otherwise by the tables of
-/// a known folder.
+/// Returns the reason why an outcome is wrong: by the manifest if it states one, otherwise by the
+/// tables of a known folder.
 fn failure_message(row: &Row, verdict: &Verdict, known: bool) -> Option<String> {
     match verdict {
         Verdict::Broken(problem) => Some(problem.clone()),

@@ -138,7 +138,7 @@ fn check_model(path: &Path, allowed: f64) -> Result<String, String> {
     Ok(summary)
 }
 
-/// The fraction that the z-buffer contradicts, and the lines that contribute most to it.
+/// Returns the fraction that the z-buffer contradicts, and the lines that contribute most to it.
 fn describe_disagreement(
     kind: ViewKind,
     direction: usize,

@@ -15,7 +15,7 @@ pub struct Document {
 }
 
 impl Document {
-    /// One indexed triangle: accessor 0 holds the positions, without bounds; accessor 1 the
+    /// Returns one indexed triangle: accessor 0 holds the positions, without bounds; accessor 1 the
     /// indices.
     #[must_use]
     pub fn single_triangle() -> Self {
@@ -41,8 +41,8 @@ impl Document {
         document
     }
 
-    /// One of each core object: a skinned, textured triangle with normals, vertex colors and a
-    /// morph target, a camera, an animation, a sparse accessor.
+    /// Returns one of each core object: a skinned, textured triangle with normals, vertex colors
+    /// and a morph target, a camera, an animation, a sparse accessor.
     #[must_use]
     pub fn with_all_members() -> Self {
         let mut document = Self::single_triangle();
@@ -100,9 +100,9 @@ impl Document {
         document
     }
 
-    /// All of [`Self::with_all_members`], the rare attributes and every extension: tangents, a
-    /// second set of joints, morph targets of all attributes, lights, variants, edge visibility,
-    /// animation pointers, every KHR_materials extension.
+    /// Returns all of [`Self::with_all_members`], the rare attributes and every extension:
+    /// tangents, a second set of joints, morph targets of all attributes, lights, variants, edge
+    /// visibility, animation pointers, every KHR_materials extension.
     #[must_use]
     pub fn with_extensions() -> Self {
         let mut document = Self::with_all_members();
@@ -215,7 +215,8 @@ impl Document {
         accessors.len() - 1
     }
 
-    /// The document with the member at a JSON pointer replaced or added; its parent must exist.
+    /// Returns the document with the member at a JSON pointer replaced or added; its parent must
+    /// exist.
     #[must_use]
     pub fn with_value(mut self, pointer: &str, value: Value) -> Self {
         let (parent, member) = pointer.rsplit_once('/').expect("a pointer begins with a slash");
@@ -227,7 +228,7 @@ impl Document {
         self
     }
 
-    /// The document without the member at a JSON pointer.
+    /// Returns the document without the member at a JSON pointer.
     #[must_use]
     pub fn without_value(mut self, pointer: &str) -> Self {
         let (parent, member) = pointer.rsplit_once('/').expect("a pointer begins with a slash");
@@ -238,7 +239,7 @@ impl Document {
         self
     }
 
-    /// The document as a binary glTF file.
+    /// Returns the document as a binary glTF file.
     #[must_use]
     pub fn to_glb(&self) -> Vec<u8> {
         encode_glb(self.json.to_string().as_bytes(), &self.bytes)
@@ -251,7 +252,7 @@ pub fn float_bytes(numbers: &[f32]) -> Vec<u8> {
     numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
 }
 
-/// A valid PNG of one color, 8-bit RGBA.
+/// Returns a valid PNG of one color, 8-bit RGBA.
 #[must_use]
 pub fn encode_png(width: u32, height: u32) -> Vec<u8> {
     let mut bytes = Vec::new();

@@ -216,7 +216,7 @@ impl Workload {
     }
 }
 
-/// A scene with these lights, whose model does not exist.
+/// Returns a scene with these lights, whose model does not exist.
 fn scene_of(lights: &str) -> String {
     format!("Scene(models: [(path: \"missing.glb\")], lights: [{lights}])")
 }
@@ -246,7 +246,7 @@ fn soup(count: usize) -> String {
     text + "endsolid\n"
 }
 
-/// A rough surface of about this many triangles.
+/// Returns a rough surface of about this many triangles.
 fn surface(count: usize) -> String {
     let side = libm::sqrt(count as f64 / 2.0) as usize + 1;
     let mut next = random_numbers();

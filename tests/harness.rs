@@ -21,7 +21,7 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// The arguments of this process after the name of the suite.
+    /// Returns the arguments of this process after the name of the suite.
     #[must_use]
     pub fn from_env() -> Self {
         Self::from_words(std::env::args().skip(2))
@@ -33,19 +33,19 @@ impl Arguments {
         Self { filters, flags }
     }
 
-    /// Whether a case is selected: there is no filter, or one of them is part of its name.
+    /// Returns whether a case is selected: there is no filter, or one of them is part of its name.
     #[must_use]
     pub fn select(&self, name: &str) -> bool {
         self.filters.is_empty() || self.filters.iter().any(|filter| name.contains(filter.as_str()))
     }
 
-    /// Whether a flag such as `--all` is given.
+    /// Returns whether a flag such as `--all` is given.
     #[must_use]
     pub fn has_flag(&self, flag: &str) -> bool {
         self.flags.iter().any(|given| given == flag)
     }
 
-    /// The filters as written.
+    /// Returns the filters as written.
     #[must_use]
     pub fn filters(&self) -> &[String] {
         &self.filters
@@ -110,7 +110,8 @@ pub fn run_program(name: &str, run: impl FnOnce(&Arguments) -> Result<Tally, Str
     if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-/// The cases of this run: all with the environment variable `THOROUGH`, otherwise about a tenth.
+/// Returns the cases of this run: all with the environment variable `THOROUGH`, otherwise about a
+/// tenth.
 ///
 /// The number in `TEST_SEED` chooses them; by default it is the day, so that a fault introduced by
 /// a change is found within days. It is printed, so that a failure can be repeated.
@@ -135,12 +136,12 @@ pub fn sample_cases<T>(name: &str, cases: Vec<T>) -> Vec<T> {
     chosen
 }
 
-/// Whether `THOROUGH` asks for every case.
+/// Returns whether `THOROUGH` asks for every case.
 pub fn is_thorough() -> bool {
     std::env::var_os("THOROUGH").is_some()
 }
 
-/// A tenth of some items, each equally likely.
+/// Returns a tenth of some items, each equally likely.
 fn choose_tenth<T>(seed: u64, items: Vec<T>) -> Vec<T> {
     let is_chosen = |index: u64| {
         // splitmix64
@@ -152,8 +153,8 @@ fn choose_tenth<T>(seed: u64, items: Vec<T>) -> Vec<T> {
     (0..).zip(items).filter(|(index, _)| is_chosen(*index)).map(|(_, item)| item).collect()
 }
 
-/// A folder of test data next to this repository: the one that the environment variable names,
-/// otherwise `../shared/NAME`. `None` if neither exists.
+/// Returns a folder of test data next to this repository: the one that the environment variable
+/// names, otherwise `../shared/NAME`. `None` if neither exists.
 ///
 /// # Errors
 /// If the variable names a folder that does not exist.
@@ -191,7 +192,7 @@ impl TemporaryFolder {
         Ok(Self { path })
     }
 
-    /// Its path.
+    /// Returns its path.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path

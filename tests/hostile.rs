@@ -145,7 +145,7 @@ impl Extremes {
     }
 }
 
-/// The peak memory of this process in MiB; 0 if the system does not report it.
+/// Returns the peak memory of this process in MiB, or 0 if the system does not report it.
 fn peak_memory_mib() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));

@@ -22,14 +22,14 @@ use std::process::Command;
 #[doc = include_str!("../docs/guide/embedding.md")]
 pub struct EmbeddingGuide;
 
-/// The root folder of the repository.
+/// Returns the root folder of the repository.
 #[must_use]
 pub fn project_root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
 }
 
-/// The program `alberti`: `$ALBERTI` if set, otherwise a fresh build in the profile of the calling
-/// test.
+/// Returns the program `alberti`: `$ALBERTI` if set, otherwise a fresh build in the profile of the
+/// calling test.
 ///
 /// # Errors
 /// If `$ALBERTI` does not name a file, or if the program does not build.

@@ -115,7 +115,8 @@ fn judge_models(models: &[PathBuf], arguments: &Arguments) -> Tally {
     tally
 }
 
-/// The faults in a model's pictures; none if it cannot be drawn, which other tests cover.
+/// Returns the faults in a model's pictures, or none if it cannot be drawn, which other tests
+/// cover.
 fn judge_model(model: &Path) -> Vec<String> {
     let name = model_name(model);
     let mut faults = occlusion::find_dots(model, &name);
@@ -131,7 +132,7 @@ fn judge_model(model: &Path) -> Vec<String> {
     faults
 }
 
-/// The faults in a model's light and contrast.
+/// Returns the faults in a model's light and contrast.
 fn judge_light(model: &BareModel<'_>, name: &str) -> Vec<String> {
     let mut faults = Vec::new();
     // A plane has one normal: light has nothing to show.
@@ -180,7 +181,7 @@ struct BareModel<'a> {
 }
 
 impl BareModel<'_> {
-    /// The model's picture in a style, with its scene and warnings.
+    /// Returns the model's picture in a style, with its scene and warnings.
     fn render(
         &self,
         style: StyleFile,
@@ -197,33 +198,33 @@ impl BareModel<'_> {
         Ok((picture, scene, warnings))
     }
 
-    /// The statistics of the picture in a style.
+    /// Returns the statistics of the picture in a style.
     fn statistics(&self, style: &StyleFile) -> Result<PictureStatistics, String> {
         let (picture, ..) = self.render(style.clone(), SIZE)?;
         Ok(PictureStatistics::of_picture(&picture))
     }
 }
 
-/// Whether a list contains a model.
+/// Returns whether a list contains a model.
 fn is_exempt(name: &str, list: &[(&str, &str)]) -> bool {
     list.iter().any(|(known, _)| name == *known)
 }
 
-/// The name of a model: its file's, or its folder's if the folder has no other model.
+/// Returns the name of a model: its file's, or its folder's if the folder has no other model.
 fn model_name(model: &Path) -> String {
     let folder = model.parent().filter(|folder| !folder.ends_with("scenes/models"));
     let named = folder.map_or_else(|| model.file_stem(), Path::file_name);
     named.unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// The glTF files in a folder, by name.
+/// Returns the glTF files in a folder, by name.
 fn list_models(folder: &Path) -> Result<Vec<PathBuf>, String> {
     let mut files = list_folder(folder)?;
     files.retain(|path| path.extension().is_some_and(|ending| ending == "glb" || ending == "gltf"));
     Ok(files)
 }
 
-/// The contents of a folder, by name.
+/// Returns the contents of a folder, by name.
 fn list_folder(folder: &Path) -> Result<Vec<PathBuf>, String> {
     let in_folder = |error: std::io::Error| format!("{}: {error}", folder.display());
     let entries = std::fs::read_dir(folder).map_err(in_folder)?;

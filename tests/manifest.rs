@@ -21,13 +21,13 @@ pub struct Row {
 }
 
 impl Row {
-    /// The first folder of the path, such as `models` or `bad`.
+    /// Returns the first folder of the path, such as `models` or `bad`.
     #[must_use]
     pub fn group(&self) -> &str {
         self.path.split('/').next().unwrap_or("")
     }
 
-    /// The file name without its folders.
+    /// Returns the file name without its folders.
     #[must_use]
     pub fn file_name(&self) -> &str {
         self.path.rsplit('/').next().unwrap_or("")
@@ -71,7 +71,7 @@ fn parse_manifest(text: &str) -> Result<Vec<Row>, String> {
     Ok(lines.filter(|line| !line.trim().is_empty()).map(parse_row).collect())
 }
 
-/// The text of a manifest with all columns of [`Row`].
+/// Returns the text of a manifest with all columns of [`Row`].
 #[must_use]
 pub fn format_manifest(rows: &[Row]) -> String {
     let mut text = "path\tscene_triangles\tvalidator_error_codes\texpected\n".to_owned();

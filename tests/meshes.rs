@@ -33,7 +33,7 @@ pub fn run() -> ExitCode {
     })
 }
 
-/// Whether a folder has a mesh manifest; manifests of other corpora begin with a heading.
+/// Returns whether a folder has a mesh manifest; manifests of other corpora begin with a heading.
 fn has_meshes(folder: &Path) -> bool {
     let manifest = std::fs::read_to_string(folder.join("MANIFEST.tsv"));
     manifest.is_ok_and(|text| text.starts_with('#'))

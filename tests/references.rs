@@ -62,7 +62,7 @@ fn compare_references(
     Ok(tally)
 }
 
-/// The reference names in a folder, sorted.
+/// Returns the reference names in a folder, sorted.
 fn reference_names(references: &Path) -> Result<Vec<String>, String> {
     let entries = std::fs::read_dir(references)
         .map_err(|error| format!("{}: {error}", references.display()))?;

@@ -23,7 +23,7 @@ pub struct Sample {
 }
 
 impl Sample {
-    /// A valid file that is drawn; `triangles` as a manifest counts them.
+    /// Creates a valid file that is drawn; `triangles` as a manifest counts them.
     fn valid(name: &str, file_name: &str, bytes: Vec<u8>, triangles: usize) -> Self {
         let row = Row {
             path: format!("models/{name}/{file_name}"),
@@ -34,7 +34,7 @@ impl Sample {
         Self { row, files: vec![(file_name.to_owned(), bytes)] }
     }
 
-    /// A broken file with the errors that a validator reports.
+    /// Creates a broken file with the errors that a validator reports.
     fn broken(name: &str, file_name: &str, bytes: Vec<u8>, errors: &[&str]) -> Self {
         let row = Row {
             path: format!("bad/{name}/{file_name}"),
@@ -57,7 +57,7 @@ impl Sample {
     }
 }
 
-/// All samples.
+/// Returns all samples.
 ///
 /// # Errors
 /// If a texture cannot be encoded.
@@ -95,14 +95,14 @@ pub fn write_samples(folder: &Path) -> Result<(), String> {
     std::fs::write(&path, format_manifest(&rows)).map_err(|e| format!("{}: {e}", path.display()))
 }
 
-/// A valid triangle with the bounds of its positions.
+/// Returns a valid triangle with the bounds of its positions.
 fn triangle() -> Document {
     Document::single_triangle()
         .with_value("/accessors/0/min", json!([0, 0, 0]))
         .with_value("/accessors/0/max", json!([1, 1, 0]))
 }
 
-/// A valid quad of two triangles with normals and texture coordinates: accessors 0 to 3 are
+/// Returns a valid quad of two triangles with normals and texture coordinates: accessors 0 to 3 are
 /// positions, normals, texture coordinates and indices.
 fn quad() -> Document {
     let mut document = triangle();
@@ -124,7 +124,7 @@ fn quad() -> Document {
     )
 }
 
-/// A quad with a base color texture of 2 × 2 pixels and this material.
+/// Returns a quad with a base color texture of 2 × 2 pixels and this material.
 fn textured_quad(material: &Value) -> Document {
     let mut document = quad();
     let view = document.add_buffer_view(&crate::gltf::encode_png(2, 2));
@@ -133,7 +133,8 @@ fn textured_quad(material: &Value) -> Document {
     quad_material(document, material)
 }
 
-/// The document with a material on its first primitive, and the material's extensions listed.
+/// Returns the document with a material on its first primitive, and the material's extensions
+/// listed.
 fn quad_material(mut document: Document, material: &Value) -> Document {
     if let Some(extensions) = material["extensions"].as_object() {
         let names: Vec<&String> = extensions.keys().collect();

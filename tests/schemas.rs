@@ -38,7 +38,7 @@ fn schema_folder() -> PathBuf {
     project_root().join("docs/schemas")
 }
 
-/// All schemas, by name and file.
+/// Returns all schemas, by name and file.
 fn schema_files() -> Result<Vec<(String, PathBuf)>, String> {
     let folder = schema_folder();
     let entries =
@@ -98,7 +98,7 @@ fn read_json(path: &Path) -> Result<Value, String> {
     serde_json::from_slice(&text).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// The documents of all commands.
+/// Returns the documents of all commands.
 fn collect_documents(
     program: &Path,
     arguments: &Arguments,
@@ -153,7 +153,7 @@ fn validate_documents(documents: &[Document], tally: &mut Tally) -> Result<(), S
     Ok(())
 }
 
-/// A Python that has the validator: the one in the path, or the system's.
+/// Returns a Python that has the validator: the one in the path, or the system's.
 fn python_with_validator() -> Option<&'static str> {
     let has_validator = |python: &&str| {
         let call = "from jsonschema import Draft202012Validator";

@@ -21,7 +21,7 @@ pub struct PictureStatistics {
 }
 
 impl PictureStatistics {
-    /// The statistics of a picture; all 0 if nothing is covered.
+    /// Returns the statistics of a picture; all 0 if nothing is covered.
     #[must_use]
     pub fn of_picture(picture: &Picture) -> Self {
         let covered = || picture.pixels.iter().filter(|pixel| pixel[3] >= 128);

@@ -73,7 +73,7 @@ fn run_files(arguments: &Arguments) -> Result<Tally, String> {
     Ok(tally)
 }
 
-/// The JSON files in a folder, sorted by name.
+/// Returns the JSON files in a folder, sorted by name.
 fn vector_files(folder: &Path) -> Result<Vec<PathBuf>, String> {
     let entries =
         std::fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
@@ -117,7 +117,8 @@ fn run_cases(name: &str, cases: &[Value], runner: Runner, tally: &mut Tally) {
     }
 }
 
-/// The result of the runner. The outer error is a panic, which is a failure even of a fragile case.
+/// Returns the result of the runner. The outer error is a panic, which is a failure even of a
+/// fragile case.
 fn run_case(case: &Value, runner: Runner) -> Result<Result<(), String>, String> {
     catch_unwind(AssertUnwindSafe(|| runner(&case["in"], &case["out"])))
         .map_err(|_| "panicked, see above".to_owned())

@@ -23,7 +23,7 @@ pub fn project_uncached() -> Vec<Variant> {
     projecting_variants(Blocks::Uncached)
 }
 
-/// An outcode without a library: six comparisons with w.
+/// Returns an outcode without a library: six comparisons with w.
 fn outcode_by_hand(p: DVec4) -> u16 {
     u16::from(p.x < -p.w)
         | u16::from(p.x > p.w) << 1
@@ -86,7 +86,7 @@ impl<Q: Copy + 'static, C: Copy + 'static> Arrays<Q, C> {
         Self { positions, images: vec![image; count], codes: vec![code; count] }
     }
 
-    /// A way that projects each block.
+    /// Returns a way that projects each block.
     fn outcode_variant(
         mut self,
         name: &'static str,

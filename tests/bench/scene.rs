@@ -20,7 +20,7 @@ const LARGE_BLOCKS: usize = 12;
 const SMALL_BLOCK: usize = 1_000;
 
 impl Blocks {
-    /// The total number of items.
+    /// Returns the total number of items.
     pub fn total_points(self) -> usize {
         match self {
             Self::Cached => SMALL_BLOCK,
@@ -40,13 +40,13 @@ impl Blocks {
     }
 }
 
-/// The i-th coordinate of a sequence without pattern, from −1 to 1.
+/// Returns the i-th coordinate of a sequence without pattern, from −1 to 1.
 pub fn coordinate(i: usize) -> f64 {
     let golden = (i as f64 * 0.618_033_988_749_894_9).fract();
     golden * 2.0 - 1.0
 }
 
-/// The i-th point of a cube in front of the camera; a corner or two are out of sight.
+/// Returns the i-th point of a cube in front of the camera; a corner or two are out of sight.
 pub fn position(i: usize) -> [f64; 3] {
     [coordinate(3 * i), coordinate(5 * i + 1), coordinate(7 * i + 2)]
 }
@@ -59,7 +59,7 @@ pub fn model_to_world() -> Affine<Model, World> {
         .then(Affine::translation(Vector::new(0.1, -0.2, -4.0)))
 }
 
-/// The cube as a camera at the origin sees it, in the chapter's canonical volume.
+/// Returns the cube as a camera at the origin sees it, in the chapter's canonical volume.
 pub fn model_to_clip() -> Projective<Model, Clip> {
     let (near, far) = (0.5, 20.0);
     let depth = DVec4::new(0.0, 0.0, (far + near) / (far - near), -1.0);

@@ -19,7 +19,7 @@ impl Mesh {
     }
 }
 
-/// A square of 2 × 224 × 224 triangles; the edge of the picture cuts or hides one in ten.
+/// Returns a square of 2 × 224 × 224 triangles; the edge of the picture cuts or hides one in ten.
 fn floor_mesh() -> Mesh {
     const SIDE: usize = 224;
     let at = |i: usize| (i as f64 / SIDE as f64 * 2.0 - 1.0) * 1.05;

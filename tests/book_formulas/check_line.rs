@@ -27,7 +27,7 @@ pub struct Reference {
 }
 
 impl Check {
-    /// The registry names that it mentions.
+    /// Returns the registry names that it mentions.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         let behind = self.givens.iter().filter_map(|(_, given)| match given {
             Given::Reference(reference) => Some(reference),
@@ -46,7 +46,7 @@ impl Reference {
         Ok(Self { name: name.to_owned(), index })
     }
 
-    /// The entry at the index, or the whole value.
+    /// Returns the entry at the index, or the whole value.
     pub fn select(&self, value: &Value) -> Result<Value, String> {
         let [rows, columns] = value.shape();
         match self.index[..] {
@@ -114,7 +114,7 @@ fn parse_given(text: &str) -> Result<Given, String> {
     parse_value(text).map(Given::Value)
 }
 
-/// A number, `(1, 2, 3)` or `[1 2; 3 4]`.
+/// Returns a number, `(1, 2, 3)` or `[1 2; 3 4]`.
 fn parse_value(text: &str) -> Result<Value, String> {
     let inside = |open, close| text.strip_prefix(open).and_then(|text| text.strip_suffix(close));
     if let Some(column) = inside('(', ')') {
@@ -131,7 +131,7 @@ fn parse_numbers(text: &str) -> Result<Vec<f64>, String> {
     text.split([',', ' ']).filter(|part| !part.is_empty()).map(parse_number).collect()
 }
 
-/// A decimal number or a fraction.
+/// Returns a decimal number or a fraction.
 fn parse_number(text: &str) -> Result<f64, String> {
     let decimal = |text: &str| text.parse::<f64>().ok().filter(|number| number.is_finite());
     let number = match text.split_once('/') {

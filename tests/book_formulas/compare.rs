@@ -123,7 +123,7 @@ fn read_rows(formula: &Formula) -> Result<Vec<Statement>, (usize, String)> {
     if rows.is_empty() { Err((formula.line, "the formula is empty".to_owned())) } else { Ok(rows) }
 }
 
-/// The row that a check is for.
+/// Returns the row that a check is for.
 fn row_of(check: &Check, count: usize) -> Result<usize, String> {
     match check.row {
         None if count == 1 => Ok(1),
@@ -173,7 +173,7 @@ fn damage_row(row: &Statement, checks: &[PreparedCheck], counts: &mut Counts) ->
     unnoticed
 }
 
-/// A different number, sign or angle function, or each of the other letters in the row.
+/// Returns a different number, sign or angle function, or each of the other letters in the row.
 fn damage(kind: &TokenKind, letters: &[TokenKind]) -> Vec<TokenKind> {
     match kind {
         TokenKind::Number(number) => vec![TokenKind::Number(number + 1.0)],

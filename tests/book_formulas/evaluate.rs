@@ -15,7 +15,7 @@ pub trait Scope {
     fn value_of(&self, name: &Name) -> Result<Value, String>;
 }
 
-/// The values of a row: one for each member of an equation, one for an inequality.
+/// Returns the values of a row: one for each member of an equation, one for an inequality.
 pub fn evaluate_statement(statement: &Statement, scope: &dyn Scope) -> Result<Vec<Value>, String> {
     match statement {
         Statement::Values { members, .. } => {
@@ -83,7 +83,7 @@ impl Scope for IndexedScope<'_> {
     }
 }
 
-/// One row of blocks after the other.
+/// Returns one row of blocks after the other.
 fn assemble(rows: &[Vec<Expression>], scope: &dyn Scope) -> Result<Value, String> {
     let rows = rows.iter().map(|row| {
         let blocks = row.iter().map(|entry| evaluate(entry, scope));
@@ -92,7 +92,7 @@ fn assemble(rows: &[Vec<Expression>], scope: &dyn Scope) -> Result<Value, String
     rows.reduce(|above: Result<Value, String>, below| above?.above(&below?)).ok_or("no row")?
 }
 
-/// A whole power of a number or of a matrix, any power of a positive number.
+/// Returns a whole power of a number or of a matrix, any power of a positive number.
 fn power(base: &Value, exponent: f64) -> Result<Value, String> {
     if let (Ok(number), true) = (base.to_number(), exponent.fract() != 0.0 || exponent > 8.0) {
         return Ok(Value::number(libm::pow(number, exponent)));

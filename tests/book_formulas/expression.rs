@@ -56,7 +56,7 @@ pub enum Function {
 }
 
 impl Function {
-    /// The function of `\sin` or of `\operatorname{atan2}`.
+    /// Returns the function of `\sin` or of `\operatorname{atan2}`.
     pub fn named(name: &str) -> Option<Self> {
         Some(match name {
             "sin" => Self::Sin,

@@ -15,7 +15,7 @@ pub struct Name {
 }
 
 impl Name {
-    /// A plain name: a base and, after `_`, a subscript, then primes.
+    /// Creates a plain name: a base and, after `_`, a subscript, then primes.
     pub fn plain(text: &str) -> Self {
         let unprimed = text.trim_end_matches('\'');
         let (base, subscript) = unprimed.split_once('_').unwrap_or((unprimed, ""));
@@ -34,7 +34,7 @@ impl Name {
         Self { is_bold: true, ..Self::plain(text) }
     }
 
-    /// The form in check lines and in the registry: `n_x`, `\theta`, `\mathbf{p}_n`.
+    /// Returns the form in check lines and in the registry: `n_x`, `\theta`, `\mathbf{p}_n`.
     pub fn parse(text: &str) -> Self {
         let text = &text.replace("\\mathrm", "");
         let opening = ["\\mathbf{", "\\boldsymbol{", "\\vec{"].iter();
@@ -49,13 +49,13 @@ impl Name {
         Self { is_bold: true, ..self.clone() }
     }
 
-    /// The name with a number in place of the index of a sum.
+    /// Returns the name with a number in place of the index of a sum.
     pub fn with_index(&self, index: &str, number: usize) -> Self {
         let replace = |part: &String| if part == index { number.to_string() } else { part.clone() };
         Self { subscript: self.subscript.iter().map(replace).collect(), ..self.clone() }
     }
 
-    /// The key for looking up values: subscripts are joined.
+    /// Returns the key for looking up values: subscripts are joined.
     pub fn key(&self) -> Self {
         let joined = self.subscript.concat();
         let subscript = Some(joined).filter(|text| !text.is_empty()).into_iter().collect();

@@ -40,17 +40,17 @@ const BOLD: [&str; 5] = ["mathbf", "boldsymbol", "bm", "vec", "bold"];
 /// Commands that make a word.
 const WORDS: [&str; 3] = ["mathrm", "mathit", "mathsf"];
 
-/// Whether a command is a Greek letter.
+/// Returns whether a command is a Greek letter.
 pub fn is_greek(command: &str) -> bool {
     GREEK.contains(&command)
 }
 
-/// Whether a command begins a name.
+/// Returns whether a command begins a name.
 pub fn begins_name(command: &str) -> bool {
     is_greek(command) || BOLD.contains(&command) || WORDS.contains(&command)
 }
 
-/// A name with its subscript and its primes.
+/// Returns a name with its subscript and its primes.
 pub fn parse_name(parser: &mut Parser<'_>) -> Result<Name, String> {
     let mut name = parse_base(parser)?;
     loop {
@@ -111,7 +111,7 @@ pub fn read_word(parser: &mut Parser<'_>) -> Result<String, String> {
     Ok(word)
 }
 
-/// Each letter and number of a subscript; `\min`, `\max` and words count, commas do not.
+/// Returns each letter and number of a subscript; `\min`, `\max` and words count, commas do not.
 fn parse_subscript(parser: &mut Parser<'_>) -> Result<Vec<String>, String> {
     let mut depth = 0_usize;
     let mut parts = Vec::new();

@@ -19,7 +19,7 @@ pub struct CheckText {
     pub text: String,
 }
 
-/// All formulas on a page in Markdown.
+/// Returns all formulas on a page in Markdown.
 pub fn find_formulas(markdown: &str) -> Vec<Formula> {
     let mut formulas: Vec<Formula> = Vec::new();
     let mut fence: Option<Fence> = None;

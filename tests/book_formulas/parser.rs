@@ -10,7 +10,7 @@ use crate::book_formulas::token::{Token, TokenKind};
 
 type Parsed = Result<Expression, String>;
 
-/// The expression formed by all tokens.
+/// Returns the expression formed by all tokens.
 pub fn parse_expression(tokens: &[Token]) -> Parsed {
     let mut parser = Parser { tokens, at: 0, closing_bars: Vec::new() };
     let expression = parser.sum()?;
@@ -27,7 +27,7 @@ pub struct Parser<'a> {
     closing_bars: Vec<TokenKind>,
 }
 
-/// A token as error messages show it.
+/// Returns a token as error messages show it.
 pub fn describe(token: &Token) -> String {
     match &token.kind {
         TokenKind::Number(number) => format!("`{number}`"),
@@ -117,7 +117,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A factor after a multiplication sign, which may be negative.
+    /// Returns a factor after a multiplication sign, which may be negative.
     fn signed_factor(&mut self) -> Parsed {
         if self.take('-') {
             return Ok(Expression::Negative(self.factor()?.into()));
@@ -136,7 +136,7 @@ impl Parser<'_> {
         })
     }
 
-    /// A primary expression with its exponents.
+    /// Returns a primary expression with its exponents.
     fn factor(&mut self) -> Parsed {
         let mut factor = self.primary()?;
         while self.take('^') {
@@ -169,7 +169,7 @@ impl Parser<'_> {
         is_there
     }
 
-    /// A group in braces or a single token, as `\frac` and `^` take it.
+    /// Returns a group in braces or a single token, as `\frac` and `^` take it.
     fn argument(&mut self) -> Parsed {
         if !self.take('{') {
             return self.primary();
@@ -197,7 +197,7 @@ impl Parser<'_> {
         }
     }
 
-    /// An expression in parentheses, or a column `(a, b, c)`.
+    /// Returns an expression in parentheses, or a column `(a, b, c)`.
     fn parenthesis(&mut self, opening: char) -> Parsed {
         let mut entries = self.list(opening)?;
         match entries.len() {
@@ -285,7 +285,8 @@ impl Parser<'_> {
         })
     }
 
-    /// The argument of a function without parentheses: `\theta`, `2\theta`, `\frac{\theta}{2}`.
+    /// Returns the argument of a function without parentheses: `\theta`, `2\theta`,
+    /// `\frac{\theta}{2}`.
     fn one_factor(&mut self) -> Parsed {
         let first = self.factor()?;
         let is_number = matches!(first, Expression::Number(_));

@@ -75,7 +75,7 @@ impl PreparedCheck {
         Ok(())
     }
 
-    /// A name whose value the formula has not used, after it has been evaluated.
+    /// Returns a name whose value the formula has not used, after it has been evaluated.
     pub fn unused_name(&self) -> Option<&Name> {
         let used = self.used.borrow();
         let uses_extras = self.extras.keys().any(|name| used.contains(name));

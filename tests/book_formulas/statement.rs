@@ -30,7 +30,7 @@ impl Statement {
         }
     }
 
-    /// A copy with one token replaced.
+    /// Creates a copy with one token replaced.
     pub fn with_token(&self, member: usize, at: usize, token: Token) -> Self {
         let mut changed = self.clone();
         match &mut changed {
@@ -42,14 +42,14 @@ impl Statement {
     }
 }
 
-/// The rows of `\begin{aligned}`, or the only row of any other formula.
+/// Returns the rows of `\begin{aligned}`, or the only row of any other formula.
 pub fn split_rows(tokens: &[Token]) -> Result<Vec<Statement>, String> {
     let rows = split_at(strip_environment(tokens), |token| token.is_command("\\"));
     let rows = rows.iter().map(|(row, _)| trim_row(row));
     rows.filter(|row| !row.is_empty()).map(|row| split_members(&row)).collect()
 }
 
-/// The tokens between `\begin{aligned}` and its end.
+/// Returns the tokens between `\begin{aligned}` and its end.
 fn strip_environment(tokens: &[Token]) -> &[Token] {
     let word = |tokens: &[Token]| {
         tokens
@@ -100,7 +100,7 @@ fn depth_change(token: &Token) -> i32 {
     }
 }
 
-/// The parts between separators outside brackets, each with the separator after it.
+/// Returns the parts between separators outside brackets, each with the separator after it.
 fn split_at(
     tokens: &[Token],
     is_separator: impl Fn(&Token) -> bool,

@@ -52,7 +52,7 @@ const LAYOUT: [&str; 19] = [
 
 const SYMBOLS: &str = "+-*/^_()[]{}|,.&=<>:'";
 
-/// The tokens of a block without its layout; an error is a line and a message.
+/// Returns the tokens of a block without its layout; an error is a line and a message.
 pub fn tokenize(latex: &str) -> Result<Vec<Token>, (usize, String)> {
     let mut tokens = Vec::new();
     for (line, text) in latex.lines().enumerate() {

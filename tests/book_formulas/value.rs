@@ -71,13 +71,13 @@ impl Value {
         }
     }
 
-    /// The entries of a column of `N`.
+    /// Returns the entries of a column of `N`.
     pub fn to_column<const N: usize>(&self) -> Result<[f64; N], String> {
         let wrong = || format!("a column of {N} is expected, not {}", self.describe());
         if self.columns == 1 { self.entries[..].try_into().ok() } else { None }.ok_or_else(wrong)
     }
 
-    /// The rows of an `N` × `N` matrix.
+    /// Returns the rows of an `N` × `N` matrix.
     pub fn to_square<const N: usize>(&self) -> Result<[[f64; N]; N], String> {
         if self.shape() != [N, N] {
             return Err(format!("a {N} × {N} matrix is expected, not {}", self.describe()));
@@ -85,7 +85,7 @@ impl Value {
         Ok(std::array::from_fn(|i| std::array::from_fn(|k| self.at(i, k))))
     }
 
-    /// Its shape in words.
+    /// Returns its shape in words.
     pub fn describe(&self) -> String {
         match self.shape() {
             [1, 1] => "a number".to_owned(),
@@ -110,7 +110,7 @@ impl Value {
         self.plus(&other.map(|entry| -entry))
     }
 
-    /// The product of matrices; a number multiplies each entry.
+    /// Returns the product of matrices; a number multiplies each entry.
     pub fn times(&self, other: &Self) -> Result<Self, String> {
         match (self.to_number(), other.to_number()) {
             (Ok(number), _) => Ok(other.map(|entry| number * entry)),
@@ -153,7 +153,7 @@ impl Value {
         Self::from_entries(self.columns, self.rows, |i, k| self.at(k, i))
     }
 
-    /// The length of a column, the absolute value of a number.
+    /// Returns the length of a column, the absolute value of a number.
     pub fn length(&self) -> Result<Self, String> {
         if self.columns != 1 {
             return Err(format!("the length of {}", self.describe()));
@@ -242,12 +242,13 @@ impl Value {
         Ok(Self { rows: self.rows + below.rows, columns: self.columns, entries })
     }
 
-    /// Whether all entries are finite.
+    /// Returns whether all entries are finite.
     pub fn is_finite(&self) -> bool {
         self.entries.iter().all(|entry| entry.is_finite())
     }
 
-    /// Whether the shapes are the same and no entry differs by more than `relative` of the largest.
+    /// Returns whether the shapes are the same and no entry differs by more than `relative` of the
+    /// largest.
     pub fn is_close(&self, expected: &Self, relative: f64) -> bool {
         let largest = expected.entries.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
         let limit = relative * if largest > 0.0 { largest } else { 1.0 };

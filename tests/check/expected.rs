@@ -77,7 +77,7 @@ fn concerns_whole_file(code: &str) -> bool {
     code.starts_with("GLB_") || ["INVALID_JSON", "NOT_GLTF", "TYPE_MISMATCH"].contains(&code)
 }
 
-/// The differences between a report and the errors that the validator lists.
+/// Returns the differences between a report and the errors that the validator lists.
 pub fn difference_from_validator(
     row: &Row,
     report: &CheckReport,

@@ -23,17 +23,17 @@ pub struct BatchRun {
 }
 
 impl BatchRun {
-    /// A run of the job list in a folder.
+    /// Creates a run of the job list in a folder.
     pub fn new(folder: &Path, name: &str, program: &Path) -> Self {
         Self { folder: folder.to_owned(), name: name.to_owned(), program: program.to_owned() }
     }
 
-    /// The folder of pictures and reports.
+    /// Returns the folder of pictures and reports.
     pub fn out_dir(&self) -> PathBuf {
         self.folder.join(&self.name)
     }
 
-    /// The arguments that all commands of the run share.
+    /// Returns the arguments that all commands of the run share.
     fn arguments(&self) -> Vec<String> {
         let path = |name: &str| self.folder.join(name).display().to_string();
         let own =
@@ -41,7 +41,7 @@ impl BatchRun {
         own.into_iter().chain(FLAGS.map(str::to_owned)).collect()
     }
 
-    /// The program with those arguments.
+    /// Returns the program with those arguments.
     fn batch(&self) -> Command {
         let mut command = Command::new(&self.program);
         command.arg("batch").args(self.arguments());
@@ -58,7 +58,7 @@ impl BatchRun {
         run_batch(self.batch().arg("--merge"), &[0, 1])
     }
 
-    /// The program's report about the pictures on its standard output, with its exit code.
+    /// Returns the program's report about the pictures on its standard output, with its exit code.
     pub fn verify(&self) -> Result<(i32, String), String> {
         let output = self.batch().arg("--verify").output().map_err(|error| error.to_string())?;
         let code = output.status.code().ok_or("alberti batch --verify was killed")?;

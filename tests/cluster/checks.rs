@@ -18,8 +18,8 @@ pub struct Expected {
     pub failed: BTreeMap<String, &'static str>,
 }
 
-/// The pictures from the run in a single process. There must be one for every good job, and no
-/// others.
+/// Returns the pictures from the run in a single process. There must be one for every good job, and
+/// no others.
 pub fn read_pictures(run: &BatchRun, jobs: &Jobs) -> Result<Expected, String> {
     let read = |name: &String| {
         let path = run.out_dir().join(name);
@@ -134,7 +134,7 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
-    /// The current state.
+    /// Returns the current state.
     pub fn of(run: &BatchRun) -> Result<Self, String> {
         let state = |path: PathBuf| {
             let data = path.metadata().map_err(|error| format!("{}: {error}", path.display()))?;
@@ -166,7 +166,7 @@ impl Snapshot {
     }
 }
 
-/// The files in a folder that have an extension; none if there is no folder.
+/// Returns the files in a folder that have an extension, or none if there is no folder.
 fn files_below(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, String> {
     let entries = std::fs::read_dir(folder).into_iter().flatten();
     let paths: Result<Vec<PathBuf>, _> = entries.map(|entry| Ok(entry?.path())).collect();
@@ -177,7 +177,7 @@ fn files_below(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, String> {
     Ok(paths)
 }
 
-/// The records of a report. The last line of a killed process may be incomplete.
+/// Returns the records of a report. The last line of a killed process may be incomplete.
 fn read_records(path: &Path) -> Result<Vec<Value>, String> {
     let text = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
     let lines = text.split(|byte| *byte == b'\n');

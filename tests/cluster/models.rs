@@ -55,7 +55,7 @@ pub fn write_models(folder: &Path) -> Result<Jobs, String> {
     Ok(jobs)
 }
 
-/// A line of the list; paths are relative to its folder.
+/// Returns a line of the list; paths are relative to its folder.
 fn job_line(file: &str, stem: &str) -> Value {
     json!({"input": format!("models/{file}"), "output": format!("{stem}.png")})
 }
@@ -74,7 +74,7 @@ struct BadModel {
     flags: &'static [(&'static str, &'static str)],
 }
 
-/// The five models that fail.
+/// Returns the five models that fail.
 fn bad_models() -> [BadModel; 5] {
     let mut cut = torus(0).to_glb();
     cut.truncate(cut.len() / 2);
@@ -103,7 +103,7 @@ fn bad_models() -> [BadModel; 5] {
     ]
 }
 
-/// A bumpy torus with a unique shape and color.
+/// Returns a bumpy torus with a unique shape and color.
 fn torus(number: usize) -> Document {
     let mut document = Document::single_triangle();
     let (lobes, tube) = ((number % 7) as f64, 0.25 + 0.02 * (number % 11) as f64);
@@ -151,7 +151,7 @@ fn layers() -> Document {
     document
 }
 
-/// A point cloud in a few bytes: a sparse accessor in which all values but one are zero.
+/// Returns a point cloud in a few bytes: a sparse accessor in which all values but one are zero.
 fn points() -> Document {
     let mut document = Document::single_triangle();
     let at = document.add_buffer_view(&7_u32.to_le_bytes());

@@ -54,7 +54,7 @@ impl Node {
         PathBuf::from(format!("/proc/{}", self.holder.id()))
     }
 
-    /// A program on the node.
+    /// Returns a program on the node.
     fn command(&self, program: &str) -> Command {
         let mut command = Command::new("nsenter");
         let id = self.holder.id().to_string();
@@ -93,7 +93,7 @@ impl Node {
         }
     }
 
-    /// The ids of the node's live processes.
+    /// Returns the ids of the node's live processes.
     pub fn processes(&self) -> Vec<String> {
         let own = namespace(&self.process_folder());
         let holder = self.holder.id().to_string();
@@ -105,12 +105,12 @@ impl Node {
     }
 }
 
-/// The address of the controller (0) or of a node.
+/// Returns the address of the controller (0) or of a node.
 pub fn address(number: usize) -> String {
     format!("10.99.0.{}", number + 1)
 }
 
-/// The network namespace of a process; `None` if it has ended.
+/// Returns the network namespace of a process, or `None` if it has ended.
 fn namespace(process: &Path) -> Option<PathBuf> {
     std::fs::read_link(process.join("ns/net")).ok()
 }

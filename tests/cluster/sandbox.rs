@@ -9,7 +9,7 @@ use std::process::Command;
 /// The namespaces that `unshare` creates.
 const NAMESPACES: [&str; 6] = ["--net", "--uts", "--mount", "--pid", "--fork", "--mount-proc"];
 
-/// A program in new namespaces; callers append its arguments.
+/// Returns a program in new namespaces; callers append its arguments.
 pub fn isolated_command(program: &Path) -> Command {
     let mut command = Command::new("setpriv");
     command.args(["--pdeathsig", "KILL", "unshare"]).args(NAMESPACES).arg("--kill-child");

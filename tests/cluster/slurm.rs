@@ -70,7 +70,7 @@ impl Cluster {
         Ok(cluster)
     }
 
-    /// A Slurm program that talks to this cluster.
+    /// Returns a Slurm program that talks to this cluster.
     pub fn command(&self, program: &str) -> Command {
         let mut command = Command::new(program);
         command.env("SLURM_CONF", self.folder.join("slurm.conf"));
@@ -129,7 +129,7 @@ impl Cluster {
         }
     }
 
-    /// The last lines of the controller's log.
+    /// Returns the last lines of the controller's log.
     pub fn log_end(&self) -> String {
         let mut text = String::new();
         let log = std::fs::File::open(self.folder.join("slurmctld.log"));
@@ -164,7 +164,7 @@ fn start_munge(folder: &Path) -> Result<(), String> {
     if status.success() { Ok(()) } else { Err(format!("munged failed ({status})")) }
 }
 
-/// The configuration shared by the nodes and the controller.
+/// Returns the configuration shared by the nodes and the controller.
 fn configuration(folder: &Path) -> String {
     let mut text = format!(
         "ClusterName=test

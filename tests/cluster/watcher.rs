@@ -52,7 +52,7 @@ impl Watcher {
         Self { thread, count, is_over }
     }
 
-    /// The number of pictures.
+    /// Returns the number of pictures.
     pub fn count(&self) -> usize {
         self.count.load(Ordering::Relaxed)
     }

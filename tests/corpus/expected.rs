@@ -34,20 +34,20 @@ const BLANK: &[(&str, &str)] = &[
 const INSTANCED: &[(&str, usize)] =
     &[("blender-gpu-instancing", 4_032 * (958 + 941) + 2), ("simple-instancing", 12 * 125)];
 
-/// The number of triangles in the scene of a model.
+/// Returns the number of triangles in the scene of a model.
 pub fn expected_triangles(row: &Row) -> Option<usize> {
     let folder = row.path.strip_prefix("models/")?.split('/').next()?;
     let instanced = INSTANCED.iter().find(|(name, _)| *name == folder);
     instanced.map(|(_, triangles)| *triangles).or(row.scene_triangles)
 }
 
-/// The reason why a model must be refused.
+/// Returns the reason why a model must be refused.
 pub fn expected_refusal(row: &Row) -> Option<&'static str> {
     let folder = row.path.strip_prefix("models/")?.split('/').next()?;
     REFUSED.iter().find(|(name, _)| *name == folder).map(|(_, reason)| *reason)
 }
 
-/// The difference between a verdict and the manifest column `expected`.
+/// Returns the difference between a verdict and the manifest column `expected`.
 pub fn difference_from_manifest(row: &Row, verdict: &Verdict) -> Option<String> {
     let expected = row.expected.as_deref()?;
     let (agrees, actual) = match verdict {
@@ -60,7 +60,8 @@ pub fn difference_from_manifest(row: &Row, verdict: &Verdict) -> Option<String> 
     (!agrees).then(|| format!("expected {expected}, actual {actual}"))
 }
 
-/// The difference between a verdict and the tables; outside `models` every refusal is expected.
+/// Returns the difference between a verdict and the tables; outside `models` every refusal is
+/// expected.
 pub fn difference_from_tables(row: &Row, verdict: &Verdict) -> Option<String> {
     if matches!(verdict, Verdict::Blank) && !BLANK.iter().any(|(end, _)| row.path.ends_with(end)) {
         return Some("the picture is blank".to_owned());

@@ -25,7 +25,7 @@ pub struct Run {
 }
 
 impl Program {
-    /// The program; it is built if necessary.
+    /// Returns the program; it is built if necessary.
     pub fn build() -> Result<Self, String> {
         Ok(Self { path: alberti_tests::program_path()? })
     }

@@ -45,7 +45,8 @@ pub fn judge_run(row: &Row, run: &Run, picture: &Path, size: (u32, u32)) -> Verd
     }
 }
 
-/// The reason in an error message; `None` if the message lacks the file name or has no other text.
+/// Returns the reason in an error message, or `None` if the message lacks the file name or has no
+/// other text.
 fn refusal_reason(message: &str, file: &str) -> Option<String> {
     let errors = message.lines().skip_while(|line| !line.starts_with("error"));
     let error = errors.collect::<Vec<_>>().join("\n");

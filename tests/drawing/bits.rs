@@ -6,12 +6,12 @@ pub struct Random {
 }
 
 impl Random {
-    /// The generator for a scene's number.
+    /// Returns the generator for a scene's number.
     pub fn new(seed: u64) -> Self {
         Self { state: seed.wrapping_mul(0xd134_2543_de82_ef95) }
     }
 
-    /// The next 64 bits.
+    /// Returns the next 64 bits.
     fn next_bits(&mut self) -> u64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.state ^ (self.state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -19,12 +19,12 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// A whole number from 0 to below `end`.
+    /// Returns a whole number from 0 to below `end`.
     pub fn below(&mut self, end: u64) -> u64 {
         self.next_bits() % end
     }
 
-    /// A number in the interval with three decimals, as people write them.
+    /// Returns a number in the interval with three decimals, as people write them.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         let fraction = (self.next_bits() >> 11) as f64 / (1_u64 << 53) as f64;
         libm::round((low + (high - low) * fraction) * 1000.0) / 1000.0
@@ -35,7 +35,7 @@ impl Random {
         self.below(times) == 0
     }
 
-    /// One of the options.
+    /// Returns one of the options.
     pub fn choose<T: Clone>(&mut self, choices: &[T]) -> T {
         choices[self.below(choices.len() as u64) as usize].clone()
     }

@@ -92,8 +92,8 @@ pub fn check_random_scenes(numbers: Vec<usize>, folder: &Path) -> Result<Tally, 
     Ok(tally)
 }
 
-/// The projection of a scene: they take turns, except that the last one gets every nineteenth
-/// scene.
+/// Returns the projection of a scene: they take turns, except that the last one gets every
+/// nineteenth scene.
 fn projection_name(number: usize) -> &'static str {
     match PROJECTIONS {
         [.., last] if number % 19 == 18 => last,
@@ -115,7 +115,7 @@ fn check_projections() -> Result<(), String> {
     }
 }
 
-/// The three fractions in words.
+/// Returns the three fractions in words.
 fn describe(measured: [f64; 3]) -> String {
     let [denied, contradicted, unlined] = measured.map(|fraction| fraction * 100.0);
     format!(
@@ -123,8 +123,9 @@ fn describe(measured: [f64; 3]) -> String {
     )
 }
 
-/// The fraction of the shaded picture's outline (pixels next to one without a surface) that has no
-/// visible line nearby; 0 where a depth plane cuts the models, because such cuts have no lines.
+/// Returns the fraction of the shaded picture's outline (pixels next to one without a surface) that
+/// has no visible line nearby; 0 where a depth plane cuts the models, because such cuts have no
+/// lines.
 fn outline_without_line(mut scene: Scene, drawing: &LineDrawing) -> Result<f64, String> {
     let world_to_clip = scene.view_projection.world_to_clip();
     let is_cut = scene.world_points().into_iter().any(|point| {
@@ -165,7 +166,8 @@ fn outline_without_line(mut scene: Scene, drawing: &LineDrawing) -> Result<f64, 
     Ok(f64::from(unlined) / f64::from(outline.max(1)))
 }
 
-/// The models by file name, with both sides of all surfaces shown: lines do not know back faces.
+/// Returns the models by file name, with both sides of all surfaces shown: lines do not know back
+/// faces.
 fn load_models(folder: &Path) -> Result<Vec<(&'static str, Arc<Model>)>, String> {
     let load_model = |name: &'static str| {
         let model = load(&folder.join(name), &ImportOptions::default());
@@ -176,7 +178,7 @@ fn load_models(folder: &Path) -> Result<Vec<(&'static str, Arc<Model>)>, String>
     MODELS.into_iter().map(load_model).collect()
 }
 
-/// The scene with a number.
+/// Returns the scene with a number.
 fn scene_text(number: usize, models: &[(&'static str, Arc<Model>)]) -> String {
     let mut random = Random::new(number as u64);
     let projection = random_projection(projection_name(number), &mut random);
@@ -188,7 +190,7 @@ fn scene_text(number: usize, models: &[(&'static str, Arc<Model>)]) -> String {
     )
 }
 
-/// A view, or nothing for the projection's default.
+/// Returns a view, or nothing for the projection's default.
 fn random_view(random: &mut Random) -> String {
     let mut direction = || {
         let [x, y, z] = [0; 3].map(|_| random.between(-1.0, 1.0));
@@ -243,7 +245,7 @@ fn check_scene(text: &str, models: &[(&'static str, Arc<Model>)]) -> Result<Verd
     Ok(Verdict::Drawn { denied, contradicted, unlined })
 }
 
-/// The message of a refusal without its numbers and its location.
+/// Returns the message of a refusal without its numbers and its location.
 fn reason_of(message: &str) -> String {
     let lines: Vec<&str> = message.lines().collect();
     let first = lines.first().map_or("", |line| line.trim());

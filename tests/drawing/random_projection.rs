@@ -24,7 +24,7 @@ pub const PROJECTIONS: &[&str] = &[
     "Intrinsics",
 ];
 
-/// A projection of this name with random parameters, some of them impossible.
+/// Returns a projection of this name with random parameters, some of them impossible.
 pub fn random_projection(name: &str, r: &mut Random) -> String {
     let angle = |r: &mut Random| format!("angle_degrees: {}", r.between(-180.0, 180.0));
     let fields = match name {
@@ -72,7 +72,7 @@ pub fn random_projection(name: &str, r: &mut Random) -> String {
     format!("{name}({fields})")
 }
 
-/// An angle, and sometimes a shift and planes.
+/// Returns an angle, and sometimes a shift and planes.
 fn random_lens(r: &mut Random) -> String {
     let angle = r.between(5.0, 120.0);
     let which = r.choose(&["fov_y_degrees", "fov_x_degrees", "fov_diagonal_degrees"]);
@@ -101,7 +101,7 @@ fn random_intrinsics(r: &mut Random) -> String {
     fields
 }
 
-/// A height, a window or nothing, and sometimes planes.
+/// Returns a height, a window or nothing, and sometimes planes.
 fn random_parallel_window(r: &mut Random) -> String {
     let mut fields = match r.below(3) {
         0 => String::new(),
@@ -115,7 +115,7 @@ fn random_parallel_window(r: &mut Random) -> String {
     fields
 }
 
-/// A window by its borders, sometimes mirrored or without extent.
+/// Returns a window by its borders, sometimes mirrored or without extent.
 fn random_window(r: &mut Random) -> String {
     let [left, bottom] = [0; 2].map(|_| r.between(-2.0, 0.5));
     let [right, top] = [0; 2].map(|_| r.between(0.4, 2.0));

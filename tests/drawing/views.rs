@@ -31,7 +31,7 @@ impl ViewKind {
     /// All kinds.
     pub const ALL: [Self; 3] = [Self::Perspective, Self::Isometric, Self::Cavalier];
 
-    /// The direction from the model to the eye.
+    /// Returns the direction from the model to the eye.
     fn direction_from(self, direction: usize) -> Vector<World> {
         let directions = match self {
             Self::Perspective => [
@@ -63,7 +63,7 @@ impl ViewKind {
     }
 }
 
-/// A scene of one model that fills the image.
+/// Returns a scene of one model that fills the image.
 pub fn build_scene(model: &Arc<Model>, kind: ViewKind, direction: usize) -> Result<Scene, String> {
     let gaze = -kind.direction_from(direction);
     let up = Basis::fallback_up(gaze);

@@ -121,7 +121,7 @@ fn write_gallery(folder: &Path) -> Result<PathBuf, String> {
     Ok(page)
 }
 
-/// The section of a model: a figure for each variant.
+/// Returns the section of a model: a figure for each variant.
 fn model_section(index: usize, model: &Path, out: &Path) -> String {
     let mut section =
         format!("<h2>{}</h2>\n<section>\n", escape_html(&model.display().to_string()));
@@ -155,7 +155,7 @@ fn render_variant(
     Ok(PictureStatistics::of_picture(&picture))
 }
 
-/// A picture with its statistics, flagged if they suggest that it is wrong.
+/// Returns a picture with its statistics, flagged if they suggest that it is wrong.
 fn figure_html(image: &str, name: &str, statistics: &PictureStatistics) -> String {
     let PictureStatistics { cover, white, black, mean, contrast, .. } = *statistics;
     let (most_white, most_black) = MARKED_SHARES;

@@ -37,7 +37,7 @@ impl Picture {
         writer.write_image_data(self.pixels.as_flattened()).map_err(|error| error.to_string())
     }
 
-    /// The difference between `actual` and this golden; `None` if all pixels are equal.
+    /// Returns the difference between `actual` and this golden, or `None` if all pixels are equal.
     pub fn difference(&self, actual: &Self) -> Option<Difference> {
         if (self.width, self.height) != (actual.width, actual.height) {
             let [golden, size] = [self, actual].map(|p| format!("{}×{}", p.width, p.height));
@@ -80,7 +80,7 @@ impl Picture {
     }
 }
 
-/// A quarter of the contrast, towards white, so that differences are easy to see.
+/// Returns a quarter of the contrast, towards white, so that differences are easy to see.
 fn fade_color([r, g, b, _]: [u8; 4]) -> [u8; 4] {
     let [r, g, b] = [r, g, b].map(|channel| 191 + channel / 4);
     [r, g, b, 255]

@@ -4,7 +4,7 @@ use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::{Document, float_bytes};
 use serde_json::{Value, json};
 
-/// A node that moves, turns, grows and morphs, each in a different way.
+/// Returns a node that moves, turns, grows and morphs, each in a different way.
 fn animated_document() -> Document {
     let mut document = Document::with_all_members();
     let scalars = |count: usize| json!({"componentType": 5126, "type": "SCALAR", "count": count});
@@ -64,7 +64,7 @@ pub fn animation_cases() -> Vec<Case> {
     cases
 }
 
-/// Every member replaced by a wrong one.
+/// Returns every member replaced by a wrong one.
 fn member_cases(whole: &Document) -> Vec<Case> {
     let wrong: [Value; 10] = [
         json!(0),

@@ -34,7 +34,7 @@ fn compressed_document(stream: &[u8]) -> Document {
     )
 }
 
-/// All cases about Draco streams.
+/// Returns all cases about Draco streams.
 pub fn draco_cases() -> Vec<Case> {
     let whole = compressed_document(&DRACO_BOX);
     let mut cases = vec![Case::from_document("draco: whole", &whole, Expected::LoadsClean)];

@@ -4,7 +4,7 @@ use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::{Document, encode_png};
 use serde_json::json;
 
-/// A PNG with an arbitrary header; the checksum is correct.
+/// Returns a PNG with an arbitrary header; the checksum is correct.
 fn png_with_false_size(width: u32, height: u32, depth: u8, color: u8) -> Vec<u8> {
     let mut bytes = encode_png(2, 2);
     bytes[16..20].copy_from_slice(&width.to_be_bytes());
@@ -15,13 +15,13 @@ fn png_with_false_size(width: u32, height: u32, depth: u8, color: u8) -> Vec<u8>
     bytes
 }
 
-/// The PNG checksum (ISO 3309), bit by bit.
+/// Returns the PNG checksum (ISO 3309), bit by bit.
 fn crc32(bytes: &[u8]) -> u32 {
     let step = |crc: u32, _| if crc & 1 == 1 { (crc >> 1) ^ 0xEDB8_8320 } else { crc >> 1 };
     !bytes.iter().fold(u32::MAX, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))
 }
 
-/// The header of a JPEG with components of these samplings, and nothing after it.
+/// Returns the header of a JPEG with components of these samplings, and nothing after it.
 fn jpeg_header(width: u16, height: u16, samplings: &[u8]) -> Vec<u8> {
     let components = samplings.len() as u8;
     let mut bytes = vec![0xFF, 0xD8, 0xFF, 0xC0, 0, 8 + 3 * components, 8];
@@ -35,7 +35,7 @@ fn jpeg_header(width: u16, height: u16, samplings: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// A textured triangle with this image.
+/// Returns a textured triangle with this image.
 pub fn textured_case(name: &str, image: &[u8], expected: Expected) -> Case {
     let mut document = Document::with_all_members();
     let view = document.add_buffer_view(image);
@@ -90,7 +90,7 @@ fn webp_cases() -> [Case; 2] {
     ]
 }
 
-/// All cases about images.
+/// Returns all cases about images.
 pub fn image_cases() -> Vec<Case> {
     let mut cases = vec![
         textured_case(
@@ -144,7 +144,7 @@ pub fn image_cases() -> Vec<Case> {
     cases
 }
 
-/// Every bit depth and color type, and files truncated or changed at every byte.
+/// Returns every bit depth and color type, and files truncated or changed at every byte.
 fn mutated_cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for depth in [0, 1, 2, 3, 4, 8, 16, 32] {

@@ -15,7 +15,7 @@ const IMAGES: [&[u8]; 4] = [
     include_bytes!("../../crates/gltf-import/tests/ktx2/uastc_zstd.ktx2"),
 ];
 
-/// All cases about KTX2 images.
+/// Returns all cases about KTX2 images.
 pub fn ktx2_cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for (number, image) in IMAGES.into_iter().enumerate() {

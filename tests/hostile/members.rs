@@ -16,7 +16,7 @@ pub fn member_cases() -> Vec<Case> {
     cases
 }
 
-/// A document as it is, and with each of its members corrupted in each way.
+/// Returns a document as it is, and with each of its members corrupted in each way.
 fn mutated_cases(document: &Document, pointers: &[String]) -> Vec<Case> {
     let values = [
         json!(null),

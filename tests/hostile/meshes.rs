@@ -71,7 +71,7 @@ fn stl_files() -> Vec<Vec<u8>> {
     ]
 }
 
-/// Every supported statement, faces with all kinds of references, and a point cloud.
+/// Returns every supported statement, faces with all kinds of references, and a point cloud.
 fn obj_files() -> Vec<Vec<u8>> {
     let text = "# two squares\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0 \nv 0.5 0.25 0 1\nvt 0 0\nvt 1 0 0\n\
                 vn 0 0 1\no first thing\ng a b\nusemtl red\ns 1\nf 1/1/1 2/2/1 3//1 -1\ns off\n\

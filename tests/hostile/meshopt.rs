@@ -4,8 +4,8 @@ use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
 use serde_json::json;
 
-/// The triangle with its positions and indices compressed: every byte in full, and every index
-/// written out.
+/// Returns the triangle with its positions and indices compressed: every byte in full, and every
+/// index written out.
 fn compressed_document() -> Document {
     let mut document = Document::single_triangle();
     let plain = document.bytes.clone();
@@ -28,7 +28,7 @@ fn compressed_document() -> Document {
     document.with_value("/buffers", json!([streams, fallback]))
 }
 
-/// A stream of version 0 with up to 16 elements; every group has eight bits per delta.
+/// Returns a stream of version 0 with up to 16 elements; every group has eight bits per delta.
 fn attribute_stream(elements: &[u8], stride: usize) -> Vec<u8> {
     let mut stream = vec![0xA0];
     for byte in 0..stride {
@@ -56,7 +56,7 @@ pub fn meshopt_cases() -> Vec<Case> {
     cases
 }
 
-/// Every number and word of the extension replaced by a wrong one.
+/// Returns every number and word of the extension replaced by a wrong one.
 fn number_cases() -> Vec<Case> {
     let wrong = [
         json!(null),
@@ -108,7 +108,7 @@ fn number_cases() -> Vec<Case> {
     cases
 }
 
-/// The streams truncated at every byte, and with every byte changed.
+/// Returns the streams truncated at every byte, and with every byte changed.
 fn stream_cases() -> Vec<Case> {
     let whole = compressed_document();
     let mut cases = Vec::new();

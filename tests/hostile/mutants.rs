@@ -30,19 +30,19 @@ const WORDS: [&[u8]; 22] = [
 pub struct Random(u64);
 
 impl Random {
-    /// The sequence that starts with a number.
+    /// Returns the sequence that starts with a number.
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    /// A number below a limit; 0 if that is 0.
+    /// Returns a number below a limit, or 0 if that is 0.
     pub fn below(&mut self, limit: usize) -> usize {
         self.0 =
             self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 33) as usize % limit.max(1)
     }
 
-    /// A slice of some bytes, shorter than 64.
+    /// Returns a slice of some bytes, shorter than 64.
     fn range(&mut self, length: usize) -> std::ops::Range<usize> {
         let start = self.below(length);
         start..(start + self.below(64)).min(length)

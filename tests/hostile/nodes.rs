@@ -25,7 +25,7 @@ pub fn node_cases() -> Vec<Case> {
     cases
 }
 
-/// A mesh with many instances, whose accessors are wrong or far too long.
+/// Returns a mesh with many instances, whose accessors are wrong or far too long.
 fn position_cases() -> Vec<Case> {
     let case = |name: &str, attributes: Value, count: u64, expected: Expected| {
         let mut document = Document::single_triangle();

@@ -13,12 +13,12 @@ fn refusal_containing(text: &str) -> Expected {
     Expected::Says(text.to_owned())
 }
 
-/// A valid document with one more member, as text.
+/// Returns a valid document with one more member, as text.
 fn triangle_with_member(member: &str) -> String {
     format!(r#"{{"asset": {{"version": "2.0"}}, {member}}}"#)
 }
 
-/// All cases about the text of a file.
+/// Returns all cases about the text of a file.
 pub fn text_cases() -> Vec<Case> {
     let mut cases = encoding_cases();
     cases.extend(json_cases());

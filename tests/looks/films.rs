@@ -77,8 +77,8 @@ pub fn write_moving_lamp(folder: &Path) -> Result<PathBuf, String> {
     Ok(path)
 }
 
-/// The differences between frames of a model's film and pictures at their times; none if the model
-/// has no animation or cannot be drawn.
+/// Returns the differences between frames of a model's film and pictures at their times, or none if
+/// the model has no animation or cannot be drawn.
 pub fn compare_frames(model: &Path) -> Vec<String> {
     let (origin, mut file) = Origin::from_model_path(model);
     file.image.size = super::SIZE;
@@ -120,7 +120,7 @@ pub fn compare_frames(model: &Path) -> Vec<String> {
     faults
 }
 
-/// A static camera, and the model's first, if it has one.
+/// Returns a static camera, and the model's first, if it has one.
 fn cameras(scene: &Scene) -> Vec<(&'static str, CameraFile)> {
     let bounds = Bounds::from_points(world_points(&scene.models));
     let Some(bounds) = bounds else { return Vec::new() };

@@ -15,7 +15,7 @@ use std::path::Path;
 const MODES: [&str; 3] = ["OPAQUE", "MASK", "BLEND"];
 const BACKGROUND: [u8; 4] = [0, 255, 0, 255];
 
-/// The faults of the leaves in each style; `folder` gets the model.
+/// Returns the faults of the leaves in each style; `folder` gets the model.
 pub fn judge_leaves(folder: &Path) -> Result<Vec<String>, String> {
     let written = create_dir_all(folder).and_then(|()| write(folder.join("leaves.glb"), leaves()));
     written.map_err(|error| format!("{}: {error}", folder.display()))?;

@@ -13,7 +13,7 @@ const SAMPLES: [u32; 4] = [1, 4, 8, 16];
 /// The fraction of its neighbors' light below which a pixel is a dot.
 const DOT: f64 = 0.25;
 
-/// The dots in a model's pictures in even light; none for other models.
+/// Returns the dots in a model's pictures in even light, or none for other models.
 pub(super) fn find_dots(model: &Path, name: &str) -> Vec<String> {
     let mut faults = Vec::new();
     if !MODELS.contains(&name) {
@@ -34,7 +34,7 @@ pub(super) fn find_dots(model: &Path, name: &str) -> Vec<String> {
     faults
 }
 
-/// A picture of a model that is lit from everywhere.
+/// Returns a picture of a model that is lit from everywhere.
 fn render_model(model: &Path, samples: u32, occlusion: &str) -> Option<Picture> {
     let (folder, file) = (model.parent()?, model.file_name()?.to_str()?);
     let text = format!(
@@ -63,13 +63,13 @@ impl Visibility {
         Self { width: with.width as usize, values: values.collect() }
     }
 
-    /// The mean over all surfaces.
+    /// Returns the mean over all surfaces.
     fn mean(&self) -> f64 {
         let known = || self.values.iter().filter(|value| !value.is_nan());
         known().sum::<f64>() / known().count() as f64
     }
 
-    /// The pixels that are much darker than the median of the nine around them.
+    /// Returns the pixels that are much darker than the median of the nine around them.
     fn dots(&self) -> Vec<[usize; 2]> {
         let height = self.values.len() / self.width.max(1);
         let inner =
@@ -90,7 +90,7 @@ impl Visibility {
     }
 }
 
-/// The linear light of an sRGB code.
+/// Returns the linear light of an sRGB code.
 fn linear(code: u8) -> f64 {
     let srgb = f64::from(code) / 255.0;
     if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }

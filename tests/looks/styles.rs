@@ -16,7 +16,7 @@ const LEAST_DRAWN: f64 = 0.0005;
 /// The number of pictures per model in the first tier.
 const FEW_CASES: usize = 2;
 
-/// All styles of the command line, with their names.
+/// Returns all styles of the command line, with their names.
 pub fn all_styles() -> Vec<(&'static str, StyleFile)> {
     vec![
         ("shaded", StyleFile::Shaded),
@@ -54,7 +54,7 @@ pub fn keep_few<T>(cases: &mut Vec<T>, name: &str, count: usize) {
     }
 }
 
-/// The faults in a model's pictures in some of the styles, or in all.
+/// Returns the faults in a model's pictures in some of the styles, or in all.
 pub(super) fn judge_styles(model: &BareModel<'_>, name: &str) -> Vec<String> {
     let mut cases: Vec<_> = all_styles()
         .into_iter()

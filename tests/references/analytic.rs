@@ -36,7 +36,7 @@ pub fn write_references(folder: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// The scenes by name.
+/// Returns the scenes by name.
 fn worlds() -> Vec<(&'static str, World)> {
     let gray = [0.5; 3];
     let gold = [1.0, 0.76, 0.33];
@@ -92,7 +92,7 @@ fn worlds() -> Vec<(&'static str, World)> {
     ]
 }
 
-/// A camera that looks at the origin.
+/// Returns a camera that looks at the origin.
 fn camera(eye: DVec3) -> Camera {
     Camera { eye, target: DVec3::ZERO, up: DVec3::Y, fov_y_degrees: 45.0 }
 }
@@ -110,7 +110,7 @@ fn rectangle(origin: DVec3, right: DVec3, up: DVec3, material: Material) -> Surf
     Surface { shape: Shape::Rectangle { origin, right, up }, material }
 }
 
-/// The surfaces as triangles with smooth normals.
+/// Returns the surfaces as triangles with smooth normals.
 fn triangulate(world: &World) -> Vec<u8> {
     let mut document = Document::default();
     for (index, Surface { shape, material }) in world.surfaces.iter().enumerate() {
@@ -143,7 +143,7 @@ fn add_material(document: &mut Document, name: &str, material: &Material) -> Mat
     document.add_finish(name, json)
 }
 
-/// The setup in the form of the other references.
+/// Returns the setup in the form of the other references.
 fn describe(name: &str, world: &World) -> Value {
     let World { camera, lights, background, .. } = world;
     json!({

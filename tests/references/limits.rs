@@ -34,7 +34,7 @@ const EXCEPTIONS: [(&str, Limits, &str); 2] = [
     ),
 ];
 
-/// The limits of a reference, and the reason for an exception.
+/// Returns the limits of a reference, and the reason for an exception.
 pub fn limits_for(name: &str, model: &Path) -> (Limits, &'static str) {
     if let Some((_, limits, why)) = EXCEPTIONS.iter().find(|(known, ..)| *known == name) {
         return (*limits, why);
@@ -45,7 +45,7 @@ pub fn limits_for(name: &str, model: &Path) -> (Limits, &'static str) {
 }
 
 impl Limits {
-    /// Whether a score is within the limits.
+    /// Returns whether a score is within the limits.
     pub fn allow(&self, score: &Score) -> bool {
         score.fraction_above <= self.fraction_above && score.silhouette <= self.silhouette
     }

@@ -19,7 +19,7 @@ pub struct Score {
     pub silhouette: f64,
 }
 
-/// The score of a picture against its reference; `None` if their sizes differ.
+/// Returns the score of a picture against its reference, or `None` if their sizes differ.
 pub fn score_picture(ours: &Picture, reference: &Picture) -> Option<Score> {
     if (ours.width, ours.height) != (reference.width, reference.height) {
         return None;
@@ -44,7 +44,7 @@ pub fn score_picture(ours: &Picture, reference: &Picture) -> Option<Score> {
     })
 }
 
-/// The largest difference of a channel.
+/// Returns the largest difference of a channel.
 pub fn largest_step(a: [u8; 3], b: [u8; 3]) -> u8 {
     // Written out: the tests are not optimized, and this runs for every pixel and its neighbors.
     a[0].abs_diff(b[0]).max(a[1].abs_diff(b[1])).max(a[2].abs_diff(b[2]))

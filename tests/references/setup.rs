@@ -20,8 +20,8 @@ impl Setup {
         Ok(Self { model: model.to_owned(), json })
     }
 
-    /// The scene file: one sample per pixel, and no lights except the reference's sun and ambient
-    /// light.
+    /// Returns the scene file: one sample per pixel, and no lights except the reference's sun and
+    /// ambient light.
     pub fn scene_source(&self, model: &Path) -> Result<String, String> {
         let json = &self.json;
         let (camera, lights) = (&json["camera"], &json["lights"]);

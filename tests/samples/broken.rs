@@ -5,7 +5,7 @@ use super::{Sample, add_floats, add_times, quad, textured_quad, triangle};
 use crate::gltf::Document;
 use serde_json::{Value, json};
 
-/// All broken documents, in binary files.
+/// Returns all broken documents, in binary files.
 pub(super) fn broken_samples() -> Vec<Sample> {
     let mut samples = changed_members();
     samples.extend(wrong_values());

@@ -7,7 +7,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::json;
 
-/// All samples about containers and URIs.
+/// Returns all samples about containers and URIs.
 pub(super) fn container_samples() -> Vec<Sample> {
     let mut samples = json_files();
     samples.extend(broken_containers());
@@ -15,14 +15,14 @@ pub(super) fn container_samples() -> Vec<Sample> {
     samples
 }
 
-/// The JSON of a document whose buffer is at a URI.
+/// Returns the JSON of a document whose buffer is at a URI.
 fn json_with_buffer(document: &Document, uri: &str) -> Vec<u8> {
     let mut document = document.clone();
     document.json["buffers"][0]["uri"] = json!(uri);
     document.json.to_string().into_bytes()
 }
 
-/// A base64 data URI.
+/// Returns a base64 data URI.
 fn data_uri(mime_type: &str, bytes: &[u8]) -> String {
     format!("data:{mime_type};base64,{}", STANDARD.encode(bytes))
 }

@@ -6,18 +6,18 @@ use super::{
 use crate::gltf::Document;
 use serde_json::{Value, json};
 
-/// All valid samples in binary files.
+/// Returns all valid samples in binary files.
 pub(super) fn valid_samples() -> Vec<Sample> {
     let groups = [geometry(), materials(), nodes(), animations(), extensions(), odd_files()];
     groups.into_iter().flatten().collect()
 }
 
-/// A drawn binary file.
+/// Returns a drawn binary file.
 fn sample(name: &str, document: &Document, triangles: usize) -> Sample {
     Sample::valid(name, "model.glb", document.to_glb(), triangles)
 }
 
-/// The quad with other indices and another primitive mode.
+/// Returns the quad with other indices and another primitive mode.
 fn quad_of_mode(mode: u32, indices: &[u16]) -> Document {
     let mut document = quad();
     let indices = add_indices(&mut document, indices);
@@ -208,7 +208,7 @@ fn animations() -> Vec<Sample> {
     samples
 }
 
-/// A triangle bound to two joints.
+/// Returns a triangle bound to two joints.
 fn skinned() -> Document {
     let mut document = triangle();
     let joints = json!({"componentType": 5121, "type": "VEC4", "count": 3});

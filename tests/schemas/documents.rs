@@ -39,7 +39,7 @@ impl Call {
         Self::with_paths(schema, line, &[])
     }
 
-    /// A call in which the words `@` are paths, in this order.
+    /// Creates a call in which the words `@` are paths, in this order.
     fn with_paths(schema: &'static str, line: &str, paths: &[&Path]) -> Self {
         let mut paths = paths.iter().map(|path| path.to_string_lossy().into_owned());
         let word = |word: &str| match word {
@@ -50,7 +50,7 @@ impl Call {
         Self { case: arguments.join(" "), schema, arguments, place: Place::Output }
     }
 
-    /// The documents, or the program's message if there are none.
+    /// Returns the documents, or the program's message if there are none.
     pub fn run(&self, program: &Path, folder: &Path) -> Result<Vec<Document>, String> {
         let output = Command::new(program).args(&self.arguments).current_dir(folder).output();
         let output = output.map_err(|error| error.to_string())?;
@@ -72,7 +72,7 @@ impl Call {
     }
 }
 
-/// The lines of all reports in a folder and its subfolders.
+/// Returns the lines of all reports in a folder and its subfolders.
 fn report_lines(folder: &Path) -> Vec<u8> {
     let paths =
         fs::read_dir(folder).into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
@@ -89,7 +89,7 @@ const WRONG_SCENE: &str =
 const ODD_SCENE: &str = "Scene(models: [Model(path: \"crate.glb\")], image: Image(size: (64, 48)), \
     lights: [Directional(direction: (0, 0, -1), intensity: 0)])";
 
-/// All calls; the files they need are written to the folder in which they run.
+/// Returns all calls; the files they need are written to the folder in which they run.
 pub fn all_calls(folder: &Path) -> Result<Vec<Call>, String> {
     let models = project_root().join("scenes/models");
     let write = |name: &str, text: &[u8]| {
@@ -169,7 +169,7 @@ fn other_calls() -> Vec<Call> {
     calls
 }
 
-/// The scene models, and a few asset models for each format and each kind of content.
+/// Returns the scene models, and a few asset models for each format and each kind of content.
 fn model_files(models: &Path) -> Result<Vec<PathBuf>, String> {
     const ENDINGS: [&str; 6] = ["glb", "gltf", "stl", "obj", "ply", "3mf"];
     let mut files = files_with_endings(models, &ENDINGS);
@@ -194,7 +194,7 @@ fn has_ending(path: &Path, endings: &[&str]) -> bool {
         .is_some_and(|ending| endings.iter().any(|known| ending.eq_ignore_ascii_case(known)))
 }
 
-/// The files directly in a folder with one of these extensions, sorted.
+/// Returns the files directly in a folder with one of these extensions, sorted.
 fn files_with_endings(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).into_iter().flatten();
     let mut files: Vec<PathBuf> = entries

@@ -35,7 +35,7 @@ impl Server {
         if server.port == 0 { Err(format!("no address: {line:?}")) } else { Ok(server) }
     }
 
-    /// The JSON of the answer to a query.
+    /// Returns the JSON of the answer to a query.
     fn ask(&self, query: &str) -> Result<Value, String> {
         let answer = self.send(query).map_err(|error| format!("{query}: {error}"))?;
         let body = answer.split_once("\r\n\r\n").map_or("", |(_, body)| body);
@@ -62,7 +62,7 @@ impl Drop for Server {
     }
 }
 
-/// The lessons, each with its state and a pixel of its picture, and errors.
+/// Returns the lessons, each with its state and a pixel of its picture, and errors.
 pub fn explorer_documents(program: &Path) -> Result<Vec<Document>, String> {
     let server = Server::start(program)?;
     let document = |schema, query: &str| {

@@ -106,7 +106,7 @@ impl Finite for CameraView {
     }
 }
 
-/// A named view or any other basis.
+/// Returns a named view or any other basis.
 fn basis(r: &mut Random) -> Option<Basis> {
     if r.coin() {
         return Some(NamedView::Front.basis());
@@ -153,7 +153,7 @@ fn padding(r: &mut Random) -> f64 {
     r.instead(padding)
 }
 
-/// One to four points.
+/// Returns one to four points.
 fn cloud(r: &mut Random) -> Vec<Point<World>> {
     (0..=r.below(4)).map(|_| r.point()).collect()
 }

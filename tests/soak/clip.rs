@@ -118,8 +118,8 @@ impl Finite for ClipVertex {
     }
 }
 
-/// One of the conventions' volumes, perhaps without a far plane, with a guard band or custom
-/// planes.
+/// Returns one of the conventions' volumes, perhaps without a far plane, with a guard band or
+/// custom planes.
 fn volume(r: &mut Random) -> Volume {
     let canonical = [Volume::CHAPTER, Volume::OPENGL, Volume::ZERO_ONE, Volume::ZERO_ONE_REVERSED];
     let mut volume = r.pick(&canonical);

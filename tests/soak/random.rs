@@ -106,7 +106,7 @@ impl Random {
         count
     }
 
-    /// A number of a kind that the current call allows.
+    /// Returns a number of a kind that the current call allows.
     pub fn number(&mut self) -> f64 {
         let mood = self.mood;
         let number = self.of(mood);
@@ -118,7 +118,7 @@ impl Random {
         std::array::from_fn(|_| self.number())
     }
 
-    /// A number, mostly without its sign.
+    /// Returns a number, mostly without its sign.
     pub fn size(&mut self) -> f64 {
         let number = self.number();
         if self.below(32) == 0 { number } else { self.instead(number.abs()) }

@@ -21,7 +21,7 @@ pub struct SceneFiles {
     pub include: &'static str,
 }
 
-/// The scene for a number.
+/// Returns the scene for a number.
 pub fn random_scene_text(number: u64, files: &SceneFiles) -> String {
     let mut writer = SceneWriter { bits: Bits::new(number), files };
     let scene = all_types()[0];
@@ -37,7 +37,7 @@ pub fn random_scene_text(number: u64, files: &SceneFiles) -> String {
     format!("Scene(\n{written})\n")
 }
 
-/// The fields of a struct.
+/// Returns the fields of a struct.
 fn fields_of(value_type: &ValueType) -> Option<&'static [FieldEntry]> {
     match value_type {
         ValueType::Declared(TypeEntry { shape: Shape::Fields(fields), .. }) => Some(fields),
@@ -52,12 +52,12 @@ struct SceneWriter<'a> {
 }
 
 impl SceneWriter<'_> {
-    /// Whether a field is written: always if it is required, otherwise one time in three.
+    /// Returns whether a field is written: always if it is required, otherwise one time in three.
     fn is_chosen(&mut self, field: &FieldEntry) -> bool {
         !field.is_optional || self.below(3) == 0
     }
 
-    /// The value of a field of the type or variant `owner`.
+    /// Returns the value of a field of the type or variant `owner`.
     fn value(&mut self, owner: &str, field: &FieldEntry) -> String {
         self.value_of_type(owner, field.name, &(field.value_type)())
     }
@@ -88,7 +88,7 @@ impl SceneWriter<'_> {
         }
     }
 
-    /// A struct in brackets; its name is part of the language, too.
+    /// Returns a struct in brackets; its name is part of the language, too.
     fn fields(&mut self, name: &str, fields: &[FieldEntry]) -> String {
         let mut written = Vec::new();
         for field in fields {
@@ -116,7 +116,7 @@ impl SceneWriter<'_> {
         }
     }
 
-    /// A number in words of the reference, a string or a truth value.
+    /// Returns a number in words of the reference, a string or a truth value.
     fn plain_value(&mut self, owner: &str, field: &str, words: &str) -> String {
         match words {
             "true or false" => (self.below(2) == 0).to_string(),
@@ -145,7 +145,7 @@ impl SceneWriter<'_> {
         }
     }
 
-    /// A value of a declared type that has no parts.
+    /// Returns a value of a declared type that has no parts.
     fn number_or_color(&mut self, field: &str, name: &str) -> String {
         let [low, high] = match name {
             "Finite" if field.ends_with("_degrees") => [-180.0, 180.0],
@@ -177,7 +177,7 @@ impl SceneWriter<'_> {
         (self.bits.next() >> 32) as usize % count
     }
 
-    /// A number with three decimals, which a person can read.
+    /// Returns a number with three decimals, which a person can read.
     fn between(&mut self, low: f64, high: f64) -> f64 {
         let unit = (self.bits.next() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0);
         ((low + (high - low) * unit) * 1000.0).round() / 1000.0

@@ -44,7 +44,7 @@ pub fn run(&(name, call): &Subject, calls: u64, seed: u64) -> Report {
     report
 }
 
-/// The values that the call drew from these bits, in order.
+/// Returns the values that the call drew from these bits, in order.
 fn arguments(call: fn(&mut Random) -> Option<bool>, bits: Bits) -> String {
     let mut random = Random::recording(bits);
     let _ = catch_unwind(AssertUnwindSafe(|| call(&mut random)));
@@ -65,7 +65,7 @@ thread_local! {
     static LAST_PANIC: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// The message of this thread's last panic.
+/// Returns the message of this thread's last panic.
 pub fn last_panic() -> String {
     format!("panicked {}", LAST_PANIC.take())
 }

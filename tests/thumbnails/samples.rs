@@ -9,7 +9,7 @@ pub const SHOWN: [&str; 6] = ["a.glb", "b.gltf", "c.stl", "d.obj", "e.ply", "f.3
 /// A file that gets none.
 pub const BROKEN: &str = "broken.stl";
 
-/// The MIME type that a file manager finds for a file.
+/// Returns the MIME type that a file manager finds for a file.
 pub fn mime_type(name: &str) -> &'static str {
     match name.rsplit('.').next() {
         Some("glb") => "model/gltf-binary",

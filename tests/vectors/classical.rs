@@ -158,7 +158,7 @@ fn check_npoint(case: &Value, out: &Value) -> CheckResult {
     })
 }
 
-/// The images, an error where a point has none.
+/// Returns the images, an error where a point has none.
 fn project_points(map: Projective<View, View>, points: &Value) -> Result<Vec<[f64; 3]>, String> {
     parse_array(points)?
         .iter()

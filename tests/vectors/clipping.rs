@@ -126,7 +126,7 @@ fn compare_rings(vertices: &[ClipVertex], shift: usize, out: &Value) -> Result<(
     Ok(())
 }
 
-/// The area in weight space, where the whole triangle is 1.
+/// Returns the area in weight space, where the whole triangle is 1.
 fn area_fraction(vertices: &[ClipVertex]) -> f64 {
     polygon_area(&vertices.iter().map(|v| [v.weights[1], v.weights[2]]).collect::<Vec<_>>()) * 2.0
 }
@@ -136,7 +136,7 @@ fn ndc_area(vertices: &[ClipVertex]) -> Result<f64, String> {
     Ok(polygon_area(&places.collect::<Result<Vec<_>, _>>()?))
 }
 
-/// The signed area of a polygon, counter-clockwise positive.
+/// Returns the signed area of a polygon, counter-clockwise positive.
 fn polygon_area(ring: &[[f64; 2]]) -> f64 {
     let ends = ring.iter().cycle().skip(1);
     ring.iter().zip(ends).map(|(a, b)| (a[0] * b[1] - a[1] * b[0]) / 2.0).sum()

@@ -51,7 +51,7 @@ pub fn check_explained(
     assert_close("explained depth", viewport.depth().ndc_to_depth(z), theirs[2], 1e-11)
 }
 
-/// The item with this name, in any step.
+/// Returns the item with this name, in any step.
 fn json_item(told: &Value, id: &str) -> Value {
     let steps = told["steps"].as_array().into_iter().flatten();
     let mut items = steps.flat_map(|step| step["items"].as_array().into_iter().flatten());

@@ -7,7 +7,8 @@ use std::fmt::Display;
 /// The tolerance in the vectors' README for f64 code.
 pub const TOLERANCE: f64 = 1e-12;
 
-/// A number; `"NaN"`, `"inf"` and `"-inf"` are strings in the files, for JSON has no such numbers.
+/// Returns a number; `"NaN"`, `"inf"` and `"-inf"` are strings in the files, for JSON has no such
+/// numbers.
 pub fn parse_number(value: &Value) -> Result<f64, String> {
     match value {
         Value::String(name) if ["NaN", "inf", "-inf"].contains(&name.as_str()) => {
@@ -17,28 +18,28 @@ pub fn parse_number(value: &Value) -> Result<f64, String> {
     }
 }
 
-/// The number in the field `name`.
+/// Returns the number in the field `name`.
 pub fn number_field(object: &Value, name: &str) -> Result<f64, String> {
     parse_number(&object[name]).map_err(|error| format!("{name}: {error}"))
 }
 
-/// The whole number in the field `name`, as a count.
+/// Returns the whole number in the field `name`, as a count.
 pub fn count_field(object: &Value, name: &str) -> Result<u32, String> {
     let count = object[name].as_u64().and_then(|count| count.try_into().ok());
     count.ok_or_else(|| format!("{name}: {} is not a count", object[name]))
 }
 
-/// The text in the field `name`.
+/// Returns the text in the field `name`.
 pub fn text_field<'a>(object: &'a Value, name: &str) -> Result<&'a str, String> {
     object[name].as_str().ok_or_else(|| format!("{name}: {} is not text", object[name]))
 }
 
-/// The items of a list.
+/// Returns the items of a list.
 pub fn parse_array(value: &Value) -> Result<&[Value], String> {
     value.as_array().map(Vec::as_slice).ok_or_else(|| format!("{value} is not a list"))
 }
 
-/// The items of two lists of the same length, side by side.
+/// Returns the items of two lists of the same length, side by side.
 pub fn zip_arrays<'a>(
     ours: &'a Value,
     theirs: &'a Value,
@@ -50,23 +51,23 @@ pub fn zip_arrays<'a>(
     Ok(ours.iter().zip(theirs))
 }
 
-/// A list of exactly `N` numbers.
+/// Returns a list of exactly `N` numbers.
 pub fn parse_numbers<const N: usize>(value: &Value) -> Result<[f64; N], String> {
     let numbers = parse_array(value)?.iter().map(parse_number).collect::<Result<Vec<_>, _>>()?;
     numbers.try_into().map_err(|_| format!("{value} is not a list of {N} numbers"))
 }
 
-/// A point or vector (x, y, z).
+/// Returns a point or vector (x, y, z).
 pub fn parse_point(value: &Value) -> Result<[f64; 3], String> {
     parse_numbers(value)
 }
 
-/// A homogeneous point (x, y, z, w).
+/// Returns a homogeneous point (x, y, z, w).
 pub fn parse_point4(value: &Value) -> Result<[f64; 4], String> {
     parse_numbers(value)
 }
 
-/// A 4×4 matrix, a list of rows.
+/// Returns a 4×4 matrix, a list of rows.
 pub fn parse_matrix(value: &Value) -> Result<DMat4, String> {
     let rows: Vec<[f64; 4]> =
         parse_array(value)?.iter().map(parse_numbers).collect::<Result<_, _>>()?;

@@ -34,7 +34,7 @@ pub const RUNNERS: &[(&str, Runner)] = &[
 pub type CheckResult = Result<(), String>;
 pub type BuiltMatrices = Result<(DMat4, DMat4), ProjectionError>;
 
-/// The convention and the kind of the interfaces' builders.
+/// Returns the convention and the kind of the interfaces' builders.
 fn builder_convention(builder: &str) -> Convention {
     match builder {
         name if name.ends_with("_rh_zo_rev") || name.ends_with("_rh_zo_rev_inf") => {
@@ -46,7 +46,7 @@ fn builder_convention(builder: &str) -> Convention {
     }
 }
 
-/// The matrix as the named builder makes it, and the closed-form inverse.
+/// Returns the matrix as the named builder makes it, and the closed-form inverse.
 pub fn build_projection(case: &Value) -> Result<BuiltMatrices, String> {
     let builder = text_field(case, "builder")?;
     if builder.starts_with("perspective") {

@@ -158,8 +158,8 @@ impl TestImage {
         ScreenVertex::snap(place, w).ok_or_else(|| format!("({x}, {y}) cannot be drawn"))
     }
 
-    /// The pixel's name in the file's convention: its column and its row, from the top or from the
-    /// bottom.
+    /// Returns the pixel's name in the file's convention: its column and its row, from the top or
+    /// from the bottom.
     fn pixel_at(&self, at: usize) -> [i64; 2] {
         let (width, height) = (i64::from(self.width), i64::from(self.height));
         let (x, y) = (at as i64 % width, at as i64 / width);

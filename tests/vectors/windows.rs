@@ -111,7 +111,7 @@ fn check_depth_range(range: DepthRange, case: &Value, out: &Value) -> Result<(),
     assert_close("z undone", range.depth_to_ndc(range.ndc_to_depth(z)), z, TOLERANCE)
 }
 
-/// The map from a window to a viewport, both as [xmin, xmax, ymin, ymax].
+/// Returns the map from a window to a viewport, both as [xmin, xmax, ymin, ymax].
 pub fn parse_window_map(case: &Value) -> Result<Result<WindowToViewport, ViewportError>, String> {
     let limits = |name| {
         let [x0, x1, y0, y1] = parse_numbers(&case[name])?;
@@ -132,7 +132,7 @@ fn check_window_to_viewport(case: &Value, out: &Value) -> Result<(), String> {
     })
 }
 
-/// The viewport on a whole image of `nx` by `ny` pixels; depth is kept unless the case says
+/// Returns the viewport on a whole image of `nx` by `ny` pixels; depth is kept unless the case says
 /// otherwise.
 pub fn full_image_viewport(case: &Value) -> Result<Result<Viewport, ViewportError>, String> {
     let y = match text_field(case, "y")? {

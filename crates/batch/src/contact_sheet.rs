@@ -1,7 +1,7 @@
 //! The contact sheet: HTML pages with all pictures and the failures.
 //!
 //! The pages are static and need no script; pictures load when scrolled into view. A page holds up
-//! to 500, so that a browser can open it however many there are in total:
+//! to 500 of them, so a browser can open it no matter how many there are in total:
 //!
 //! ```text
 //! index.html  index-2.html  index-3.html …
@@ -57,7 +57,7 @@ impl<'a> ContactSheet<'a> {
         Self { out_dir, counts, page: 1, records: 0, figures, failures }
     }
 
-    /// Adds a record; first writes the current page, if it is full.
+    /// Adds a record, after writing the current page if it is full.
     fn add_record(&mut self, record: &RecordLine<'_>) -> Result<(), BatchError> {
         if self.records == PAGE_RECORDS {
             self.write_page()?;
@@ -74,7 +74,8 @@ impl<'a> ContactSheet<'a> {
         Ok(())
     }
 
-    /// Adds a picture. A picture in a tar file is only named, because a browser cannot show it.
+    /// Adds a picture. A picture in a tar file is listed by name only, because a browser cannot
+    /// show it.
     ///
     /// File names are untrusted text and are escaped everywhere.
     fn add_figure(&mut self, record: &RecordLine<'_>) {
@@ -96,7 +97,7 @@ impl<'a> ContactSheet<'a> {
         };
     }
 
-    /// Writes the last page; there is one even without records.
+    /// Writes the last page, which exists even if there are no records.
     fn finish(mut self) -> Result<(), BatchError> {
         self.write_page()?;
         (self.page + 1..)
@@ -106,7 +107,7 @@ impl<'a> ContactSheet<'a> {
         Ok(())
     }
 
-    /// Writes this page, unless it already exists, and empties it.
+    /// Writes this page, unless the file already has this content, and clears it for the next one.
     fn write_page(&mut self) -> Result<(), BatchError> {
         let mut page = String::from(PAGE_HEAD);
         let _ =
@@ -130,7 +131,8 @@ impl<'a> ContactSheet<'a> {
             .map_err(|cause| write_error(&path, &cause))
     }
 
-    /// The links to the previous and next pages; none if there is only one page.
+    /// Returns the links to the previous and next pages, or an empty string if there is only one
+    /// page.
     fn page_links(&self) -> String {
         let pages = (self.counts.done + self.counts.failed).div_ceil(PAGE_RECORDS).max(1);
         if pages == 1 {
@@ -153,7 +155,7 @@ impl<'a> ContactSheet<'a> {
     }
 }
 
-/// The file name of a page.
+/// Returns the file name of a page.
 fn page_name(page: u64) -> String {
     if page == 1 { "index.html".to_owned() } else { format!("index-{page}.html") }
 }
@@ -188,7 +190,7 @@ mod tests {
     use crate::merge::merge_reports;
     use crate::test_records::{ReportFolder, done_record, failed_record};
 
-    /// The page names for a report with this many pictures and failures.
+    /// Returns the page names for a report with this many pictures and failures.
     fn write_sheet(folder: &ReportFolder, done: usize, failed: usize) -> Vec<String> {
         let records: Vec<_> = (0..done)
             .map(|at| done_record(&format!("{at:04}.png"), "k"))
@@ -212,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_come_in_pages_and_failures_after_them() {
+    fn pictures_are_paged_and_failures_follow_them() {
         let folder = ReportFolder::new("sheet");
         assert_eq!(write_sheet(&folder, 999, 2), ["index-2.html", "index-3.html", "index.html"]);
         let pages =
@@ -229,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn pages_of_an_earlier_sheet_that_are_too_many_are_removed() {
+    fn surplus_pages_of_an_earlier_sheet_are_removed() {
         let folder = ReportFolder::new("sheet-shorter");
         assert_eq!(write_sheet(&folder, 1001, 0).len(), 3);
         assert_eq!(write_sheet(&folder, 1, 1), ["index.html"]);

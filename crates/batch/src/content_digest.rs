@@ -12,7 +12,7 @@ const PIECE_BYTES: usize = 1 << 16;
 pub struct ContentDigest {
     /// The number of bytes.
     pub bytes: u64,
-    /// Their SHA-256.
+    /// The SHA-256 of the bytes.
     pub sha256: [u8; 32],
 }
 
@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn a_content_of_several_pieces_has_the_hash_of_the_whole() {
+    fn content_read_in_several_blocks_has_the_hash_of_the_whole() {
         let content: Vec<u8> = (0..3 * PIECE_BYTES + 5).map(|at| at as u8).collect();
         let hash = ContentDigest::of_reader(&mut &content[..]).expect("a slice can be read");
         assert_eq!(hash.bytes, content.len() as u64);

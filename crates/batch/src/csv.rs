@@ -59,7 +59,7 @@ impl CsvRecord {
         Ok(if is_quoted { FieldState::Quoted } else { FieldState::Plain })
     }
 
-    /// The fields of a complete record.
+    /// Returns the fields of a complete record.
     pub(super) fn into_fields(self) -> Vec<String> {
         self.fields
     }
@@ -74,7 +74,7 @@ enum FieldState {
     Plain,
     /// Between the quotes.
     Quoted,
-    /// After a quote within quotes, which is the closing one or the first of two.
+    /// After a quote in a quoted field: either the closing quote or the first of two.
     AfterQuote,
 }
 
@@ -91,7 +91,7 @@ mod tests {
     }
 
     #[test]
-    fn fields_are_separated_quoted_and_continued() {
+    fn fields_may_be_quoted_and_span_lines() {
         let all: [(&[&str], &[&str]); 7] = [
             (&["a,b,c\r\n"], &["a", "b", "c"]),
             (&["a,,\n"], &["a", "", ""]),

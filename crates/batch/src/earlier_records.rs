@@ -15,7 +15,7 @@ pub(super) enum EarlierRecord {
     Done {
         /// The size of the picture.
         bytes: u64,
-        /// Whether the picture is in a tar file, which exists.
+        /// Whether the picture is in an existing tar file.
         is_in_tar: bool,
     },
     /// It failed.
@@ -24,13 +24,13 @@ pub(super) enum EarlierRecord {
 
 /// The records of earlier runs, by output and key.
 ///
-/// A picture is a separate file or in a tar file. An output file holds the picture of the last
-/// record with any key. An older record with another key, for example from other flags, is
+/// A picture is a separate file or in a tar file. An output file holds the picture of its last
+/// record, whatever the key. An older record with another key, for example from other flags, is
 /// superseded and no longer counts, even if both pictures have the same size. Tar files are never
 /// rewritten, and each picture in them counts.
 ///
-/// Records are found by 64-bit hashes. Among ten million outputs, two share a hash with a
-/// probability of 1 in 400,000; they would be rendered again.
+/// Records are found by 64-bit hashes. Among ten million outputs, the probability that two share a
+/// hash is 1 in 400,000; those two would be rendered again.
 pub(super) struct EarlierRecords {
     /// Sorted by output, then by run; see [`remove_superseded`](Self::remove_superseded).
     entries: Vec<PackedRecord>,
@@ -123,7 +123,8 @@ impl EarlierRecords {
         Ok(records)
     }
 
-    /// The record of a job with this output and key; a picture takes precedence over a failure.
+    /// Returns the record of a job with this output and key; a picture takes precedence over a
+    /// failure.
     pub(super) fn find(&self, output: &str, key: &str) -> Option<EarlierRecord> {
         let (output, key) = (text_hash(output), text_hash(key));
         let begin = self.entries.partition_point(|entry| entry.output < output);
@@ -132,8 +133,8 @@ impl EarlierRecords {
         of_key.max_by_key(|entry| entry.kind() as u8).map(|entry| entry.unpack())
     }
 
-    /// Adds a record. Superseded records are removed before the memory grows: a merged report
-    /// repeats all records of the others.
+    /// Adds a record. Superseded records are removed before the list grows, because a merged report
+    /// repeats all records of the other reports.
     fn add_entry(&mut self, entry: PackedRecord) {
         if self.entries.len() == self.entries.capacity() {
             self.remove_superseded();
@@ -167,7 +168,7 @@ impl EarlierRecords {
     }
 }
 
-/// Whether a record counts among all records of its output, which are in run order.
+/// Returns whether a record counts among all records of its output, which are in run order.
 fn still_counts(group: &[PackedRecord], at: usize) -> bool {
     let (entry, before) = (group[at], &group[..at]);
     let is_of_key = |other: &&PackedRecord| other.key == entry.key;
@@ -183,12 +184,12 @@ fn still_counts(group: &[PackedRecord], at: usize) -> bool {
     }
 }
 
-/// The hash of an output and a key.
+/// Returns the hash of an output and a key.
 pub(super) fn record_hash(output: &str, key: &str) -> u64 {
     bytes_hash(output.bytes().chain([0]).chain(key.bytes()))
 }
 
-/// The hash of an output or a key.
+/// Returns the hash of an output or a key.
 fn text_hash(text: &str) -> u64 {
     bytes_hash(text.bytes())
 }
@@ -219,12 +220,12 @@ mod tests {
         let earlier = EarlierRecords::read(folder.path()).unwrap();
         assert_eq!(earlier.entries.len(), 3000, "the merged report has the same records");
         assert!(names.iter().all(|name| earlier.find(name, "k1") == DONE));
-        assert_eq!(earlier.find("0000.png", "k2"), None, "the key is another one");
+        assert_eq!(earlier.find("0000.png", "k2"), None, "a different key");
         assert_eq!(earlier.find("3000.png", "k1"), None);
     }
 
     #[test]
-    fn a_picture_counts_more_than_a_failure_of_the_same_key() {
+    fn a_picture_takes_precedence_over_a_failure_with_the_same_key() {
         let folder = ReportFolder::new("earlier-failed");
         folder.add_report("reports/1-of-1.a.1.1.jsonl", &[done_record("a.png", "k")]);
         let failed = [failed_record("a.png", "k"), failed_record("b.png", "k")];
@@ -235,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_that_was_overwritten_does_not_count_even_if_it_has_the_same_size() {
+    fn an_overwritten_picture_does_not_count_even_at_the_same_size() {
         let folder = ReportFolder::new("earlier-overwritten");
         let report = |run: u32, record| {
             folder.add_report(&format!("reports/1-of-1.a.1.{run}.jsonl"), &[record]);
@@ -252,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_in_tar_files_are_there_if_the_file_is() {
+    fn pictures_in_tar_files_exist_if_the_tar_file_does() {
         let folder = ReportFolder::new("earlier-tar");
         let in_tar = |output: &str, key: &str, tar: &str| {
             let mut record = done_record(output, key);
@@ -274,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn what_counts_does_not_depend_on_when_the_memory_grows() {
+    fn the_result_does_not_depend_on_when_superseded_records_are_removed() {
         let folder = ReportFolder::new("earlier-growth");
         let keys = ["k0", "k1", "k2"];
         let mut last = BTreeMap::new();

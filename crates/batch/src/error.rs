@@ -1,4 +1,5 @@
-//! The reason why a batch cannot continue. Errors of single jobs are records in its report instead.
+//! The reason why a batch cannot continue. Errors in individual jobs are recorded in its report
+//! instead.
 
 use files::OutputError;
 
@@ -12,7 +13,7 @@ pub enum BatchError {
     /// The rest of the merged report could not be written.
     #[error(transparent)]
     Flush(#[from] std::io::Error),
-    /// A list, a folder or a report is unusable, or no worker can be started; the text says why.
+    /// A list, a folder or a report is unusable, or no worker can be started; the message says why.
     #[error("{0}")]
     Unusable(String),
 }

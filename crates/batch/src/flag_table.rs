@@ -1,16 +1,15 @@
-//! The flags of a picture by name, and which of them conflict: flags in a list line replace the
-//! command's.
+//! The picture flags by name, with their conflicts. Flags in a list line replace the command's.
 
 use scene_file::is_scene_file;
 use std::collections::BTreeMap;
 
-/// Whether a value of `scene` is a scene file.
+/// Returns whether a value of `scene` names a scene file.
 #[must_use]
 pub fn is_scene_name(value: &str) -> bool {
     is_scene_file(value.as_ref())
 }
 
-/// A flag as one word on a command line.
+/// Returns a flag as one command-line word.
 #[must_use]
 pub fn flag_word(name: &str, value: Option<&str>) -> String {
     value.map_or_else(|| format!("--{name}"), |value| format!("--{name}={value}"))
@@ -35,13 +34,13 @@ impl FlagTable {
         self.conflicts.entry(other.to_owned()).or_default().push(name.to_owned());
     }
 
-    /// Whether a flag with this name exists.
+    /// Returns whether a flag with this name exists.
     #[must_use]
     pub fn has_flag(&self, name: &str) -> bool {
         self.conflicts.contains_key(name)
     }
 
-    /// All flag names.
+    /// Returns all flag names.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.conflicts.keys().map(String::as_str)
     }
@@ -60,7 +59,7 @@ impl FlagTable {
     }
 }
 
-/// The flag name in a word such as `--size=64x64`.
+/// Returns the flag name in a word such as `--size=64x64`.
 fn word_name(word: &str) -> &str {
     let name = word.strip_prefix("--").unwrap_or(word);
     name.split_once('=').map_or(name, |(name, _)| name)

@@ -58,18 +58,18 @@ pub(super) fn find_jobs(
     Ok(named.into_iter().map(group).collect())
 }
 
-/// The error for a file name that is not UTF-8: reports and workers could not name it.
+/// Returns the error for a file name that is not UTF-8: reports and workers could not name it.
 pub(super) fn unreadable_name(input: &Path) -> Option<String> {
     let fault = || "the name is not UTF-8\n  = help: rename the file".to_owned();
     input.to_str().is_none().then(fault)
 }
 
-/// The error for an input that cannot be read.
+/// Returns the error for an input that cannot be read.
 fn read_error(path: &Path, cause: &std::io::Error) -> BatchError {
     BatchError::Unusable(format!("cannot read {}: {cause}", visible_path(path)))
 }
 
-/// The extension of a path in lower case.
+/// Returns the extension of a path in lower case.
 fn lowercase_extension(path: &Path) -> Option<String> {
     Some(path.extension()?.to_string_lossy().to_lowercase())
 }
@@ -88,8 +88,8 @@ fn add_listed(list: &str, folder: &Path, found: &mut Vec<(PathBuf, PathBuf)>) {
 
 /// A search for models below a folder.
 ///
-/// Scenes are not searched for: they are rare among models, and often refer to these very models.
-/// Each folder is visited once, under its own name if it has one below the root. Symbolic links are
+/// Scenes are not included: they are rare among models, and often refer to these very models. Each
+/// folder is visited once, under its real path if that is below the root. Symbolic links are
 /// followed last, so that the names do not depend on the order on disk.
 struct FolderSearch<'a> {
     /// The name of a picture is its path below the root, so the output has the same subfolders.
@@ -117,7 +117,7 @@ impl<'a> FolderSearch<'a> {
         Ok(())
     }
 
-    /// Adds the models in a folder and its subfolders, except links.
+    /// Adds the models in a folder and its subfolders, and queues symbolic links to folders.
     fn visit(
         &mut self,
         folder: &Path,
@@ -151,11 +151,11 @@ impl<'a> FolderSearch<'a> {
     }
 }
 
-/// Names the picture of each file: the file's name with `.png`.
+/// Names the picture of each file after the file, with the extension `.png`.
 ///
-/// If two files would get the same name, the original extension stays in it, and a number is
-/// appended if that does not help. Names are compared case-insensitively, because some file systems
-/// ignore case.
+/// If two files would get the same name, the original extension is kept; if that is not enough, a
+/// number is appended. Names are compared case-insensitively, because some file systems ignore
+/// case.
 ///
 /// ```text
 /// fox.glb                ─►  fox.png
@@ -207,7 +207,7 @@ fn name_by_template(
     Ok(named)
 }
 
-/// A path with `/` as separator on every system, because it is written to reports.
+/// Returns a path with `/` as separator on every system, because it is written to reports.
 fn slash_path(path: &Path) -> String {
     let parts: Vec<_> = path.iter().map(|part| part.to_string_lossy()).collect();
     parts.join("/")
@@ -230,12 +230,12 @@ mod tests {
         assert_eq!(
             outputs(&["a.glb", "A.glb"]),
             ["a.glb.png", "A.glb-2.png"],
-            "some disks ignore case"
+            "some file systems ignore case"
         );
     }
 
     #[test]
-    fn lists_stay_below_the_output_folder() {
+    fn listed_names_stay_below_the_output_folder() {
         let mut found = Vec::new();
         add_listed("# models\n\n ../up/x.glb \n/abs/y.glb\n", Path::new("lists"), &mut found);
         let names: Vec<_> = found.iter().map(|(_, name)| slash_path(name)).collect();

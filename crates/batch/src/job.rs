@@ -1,4 +1,4 @@
-//! The jobs of a batch, each with its input, output and flags.
+//! Batch jobs, with their inputs, outputs and flags.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -15,20 +15,20 @@ pub(super) struct BatchJob {
     pub(super) output: String,
     /// The scene that is rendered with the input as its model `{input}`.
     pub(super) scene: Option<PathBuf>,
-    /// The flags of its line, which override the command's: `--size=64x64`.
+    /// The flags of its line, such as `--size=64x64`, which override the command's.
     pub(super) flags: Vec<String>,
     /// The line of a list that describes it.
     pub(super) line: Option<ListLine>,
-    /// The mistake in its line: the job fails with this message before it starts.
+    /// The error in its line, if any; the job then fails with this message before it starts.
     pub(super) fault: Option<String>,
 }
 
-/// The pictures of one input, which go to one shard and one worker.
+/// The pictures of one input, which are rendered in the same shard by the same worker.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct JobGroup {
     /// The pictures; at least one.
     pub(super) jobs: Vec<BatchJob>,
-    /// The size of the input in bytes, if the list gives it.
+    /// The size of the input in bytes, if the list specifies it.
     pub(super) bytes: Option<u64>,
 }
 

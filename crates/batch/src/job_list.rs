@@ -3,9 +3,8 @@
 //! ```text
 //! {"input": "fox.glb", "output": "a.png", "size": "64x64", "lenient": true}
 //! {"input": "fox.glb", "pictures": [{"view": "front", "output": "f.png"}, {"view": "top"}]}
-//! ```
-//! Members that do not belong to the list itself are flags of the picture. A wrong line is a job
-//! that fails; the others run.
+//! ``` Members that do not belong to the list itself are picture flags. An invalid line becomes a
+//! job that fails; the others run.
 
 use super::csv::CsvRecord;
 use super::job::{BatchJob, JobGroup, ListLine};
@@ -30,7 +29,7 @@ pub(super) struct JobList {
     reader: Box<dyn BufRead + Send>,
     /// Its name in messages.
     name: Arc<str>,
-    /// The context of its lines: folder, scene, template of names.
+    /// The context of its lines: folder, scene and name template.
     context: ListContext,
     /// The columns of a CSV file; `None` for JSON lines.
     columns: Option<Vec<String>>,
@@ -43,13 +42,13 @@ pub(super) struct JobList {
 }
 
 impl JobList {
-    /// Opens a list; `-` is the standard input. `flags` are the flags that lines may have.
+    /// Opens a list; `-` is the standard input. `flags` are the flags that lines may set.
     ///
     /// A name that ends in `.csv` means CSV, any other JSON lines; the standard input is JSON lines
     /// if it begins with a brace.
     ///
-    /// A file is first read once to find lines with the same output. In a pipe, the second of two
-    /// such lines is wrong.
+    /// A file is read once beforehand to find lines with the same output. In a pipe, the second of
+    /// two such lines is an error.
     ///
     /// # Errors
     /// If it cannot be read, a CSV file has no column `input`, or two lines have the same output.
@@ -114,7 +113,7 @@ impl JobList {
             position: (0, length),
             outputs: None,
         };
-        // Standard input has no extension, but lines of JSON begin with a brace.
+        // Standard input has no extension, but JSON lines begin with a brace.
         let has_brace = |list: &mut Self| -> Result<bool, BatchError> {
             let start = list.reader.fill_buf().map_err(|cause| list_error(&list.name, &cause))?;
             Ok(start.trim_ascii_start().first().is_none_or(|byte| *byte == b'{'))
@@ -126,7 +125,7 @@ impl JobList {
         Ok(list)
     }
 
-    /// The fraction of the list read so far, from 0 to 1, if its length is known.
+    /// Returns the fraction of the list read so far, from 0 to 1, if its length is known.
     pub(super) fn fraction(&self) -> Option<f64> {
         let (read, all) = self.position;
         all.map(|all| if all == 0 { 1.0 } else { read as f64 / all as f64 })
@@ -166,7 +165,7 @@ impl JobList {
         Ok(())
     }
 
-    /// The next line with its line break; `None` at the end.
+    /// Returns the next line with its line break, or `None` at the end.
     ///
     /// # Errors
     /// If the list cannot be read, or the line is too long.
@@ -186,7 +185,8 @@ impl JobList {
         Ok((length > 0).then_some(line))
     }
 
-    /// The fields of the CSV record that begins with a line; the inner error concerns the record.
+    /// Returns the fields of the CSV record that begins with a line; the inner error concerns the
+    /// record.
     fn read_record(&mut self, first: Vec<u8>) -> Result<Result<Vec<String>, String>, BatchError> {
         let (mut record, mut line) = (CsvRecord::default(), first);
         loop {
@@ -205,7 +205,7 @@ impl JobList {
         }
     }
 
-    /// The members of the next line that is not empty, and its number; `None` at the end.
+    /// Returns the number and the members of the next line that is not empty, or `None` at the end.
     fn next_members(&mut self) -> Result<Option<(u64, Members)>, BatchError> {
         loop {
             let Some(line) = self.next_line()? else { return Ok(None) };
@@ -222,7 +222,7 @@ impl JobList {
         }
     }
 
-    /// The members of a CSV record; an empty field counts as not given.
+    /// Returns the members of a CSV record; an empty field counts as absent.
     fn csv_members(&self, fields: Vec<String>) -> Members {
         let columns = self.columns.as_deref().unwrap_or_default();
         if fields.len() != columns.len() {
@@ -247,7 +247,7 @@ impl JobList {
         Ok(given.map(value).collect())
     }
 
-    /// The jobs of a line.
+    /// Returns the jobs of a line.
     fn group_of(&self, number: u64, members: Members) -> JobGroup {
         let line = ListLine { list: Arc::clone(&self.name), number };
         let reader = LineReader { context: &self.context, line: &line };
@@ -277,7 +277,7 @@ impl Iterator for JobList {
     }
 }
 
-/// The error if an earlier line already has one of a line's outputs.
+/// Returns an error if an earlier line has one of this line's outputs.
 fn repeated_output(outputs: &mut OutputNames, group: &JobGroup, line: u64) -> Option<String> {
     let jobs = group.jobs.iter().filter(|job| job.fault.is_none());
     let claims = jobs.map(|job| (&job.output, outputs.claim(&job.output, line)));
@@ -288,7 +288,7 @@ fn repeated_output(outputs: &mut OutputNames, group: &JobGroup, line: u64) -> Op
 /// The members of a line, or the error in it.
 type Members = Result<Map<String, Value>, String>;
 
-/// The members of a line of JSON.
+/// Parses the members of a JSON line.
 fn json_members(line: &[u8]) -> Members {
     match serde_json::from_slice(line) {
         Ok(Value::Object(members)) => Ok(members),
@@ -301,7 +301,7 @@ fn json_members(line: &[u8]) -> Members {
     }
 }
 
-/// The job for a wrong line: it fails under the name of the line.
+/// Returns the job for an invalid line, which fails under the line's name.
 fn wrong_line(line: ListLine, fault: &str) -> JobGroup {
     let job = BatchJob {
         input: PathBuf::new(),
@@ -314,7 +314,7 @@ fn wrong_line(line: ListLine, fault: &str) -> JobGroup {
     JobGroup { jobs: vec![job], bytes: Some(0) }
 }
 
-/// The error for a list that cannot be read.
+/// Returns the error for a list that cannot be read.
 fn list_error(name: &str, cause: &std::io::Error) -> BatchError {
     BatchError::Unusable(format!("cannot read {name}: {cause}"))
 }

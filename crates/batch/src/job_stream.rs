@@ -1,5 +1,5 @@
-//! The jobs of a run on demand: first from inputs and folders, then from a list, restricted to this
-//! shard.
+//! A stream of the jobs of a run: first those from inputs and folders, then those from a list,
+//! restricted to this shard.
 
 use super::flag_table::FlagTable;
 use super::inputs::find_jobs;
@@ -20,22 +20,22 @@ pub(super) struct JobSource<'a> {
     pub(super) scene: Option<&'a Path>,
     /// The template of `--name`.
     pub(super) picture_name: Option<&'a PictureName>,
-    /// The flags that lines of a list may have.
+    /// The flags that list lines may set.
     pub(super) flags: &'a FlagTable,
 }
 
 /// The groups of jobs of one shard, in order.
 ///
-/// A list is read line by line, so that its length takes no memory.
+/// A list is read line by line, so memory use does not grow with its length.
 pub(super) struct JobStream {
-    /// The remaining inputs, and their original number.
+    /// The remaining inputs, and the original number of inputs.
     inputs: std::vec::IntoIter<JobGroup>,
     input_count: usize,
-    /// The list that comes after them.
+    /// The list, which follows the inputs.
     list: Option<JobList>,
     /// The shard; `None` for all jobs.
     balance: Option<ShardBalance>,
-    /// The input measured last, and its size.
+    /// The last measured input, and its size.
     measured: Option<(PathBuf, u64)>,
 }
 
@@ -60,7 +60,8 @@ impl JobStream {
         })
     }
 
-    /// The fraction of the inputs or the list read so far; `None` for a list of unknown length.
+    /// Returns the fraction of the inputs or the list read so far, or `None` for a list of unknown
+    /// length.
     pub(super) fn fraction(&self) -> Option<f64> {
         if let Some(list) = &self.list {
             return list.fraction();
@@ -69,7 +70,7 @@ impl JobStream {
         Some(if all == 0 { 1.0 } else { (all - left) as f64 / all as f64 })
     }
 
-    /// The size of a group's input, for balancing the shards; 0 if it does not exist.
+    /// Returns the size of a group's input, for balancing the shards, or 0 if it does not exist.
     fn measure(&mut self, group: &JobGroup) -> u64 {
         let Some(job) = group.jobs.first() else { return 0 };
         if let Some(bytes) = group.bytes {
@@ -83,7 +84,7 @@ impl JobStream {
         bytes
     }
 
-    /// Whether a group belongs to this shard.
+    /// Returns whether a group belongs to this shard.
     fn takes_group(&mut self, group: &JobGroup) -> bool {
         if self.balance.is_none() {
             return true;

@@ -1,11 +1,11 @@
 //! Content keys: a hash of everything that a picture depends on.
 //!
-//! These are the program version, the settings, the picture's name, and the contents of the model,
+//! It covers the program version, the settings, the picture's name, and the contents of the model,
 //! the scene and all files they refer to. If its key is unchanged, a picture is up to date, and a
 //! failed job would fail again.
 //!
-//! Content is hashed rather than compared by time, because models are copied, checked out and
-//! mounted in ways that change their times but not their bytes.
+//! Content is hashed because modification times are unreliable: copying, checking out or mounting a
+//! model changes its time but not its bytes.
 
 use super::job::BatchJob;
 use crate::content_digest::to_hexadecimal;
@@ -25,27 +25,27 @@ const MAX_CACHED: usize = 4096;
 const PIECE_BYTES: usize = 1 << 16;
 /// The number of leading bytes of a file that determine its format.
 const HEAD_BYTES: u64 = 1 << 16;
-/// The number of bytes of a PLY file that are searched for textures named in its header.
+/// The number of bytes at the start of a PLY file that are searched for texture names.
 const MAX_HEADER_BYTES: u64 = 1 << 20;
 
 /// A SHA-256 hash.
 type ContentHash = [u8; 32];
 
-/// Makes the keys of jobs; the threads share one instance.
+/// Computes the keys of jobs; all threads share one instance.
 ///
 /// Many lines of a list may share a model or a scene, so its content is hashed only once. A file
 /// that changes during the run may keep its old hash to the end.
 pub(super) struct KeyMaker {
     /// The hash of everything common to all jobs: version, settings, files named by flags.
     common: ContentHash,
-    /// The files and folders outside their own from which scenes may read.
+    /// The files and folders outside their own folder that scenes may read.
     allowed: Vec<PathBuf>,
-    /// The hashes of the last models and scenes.
+    /// The hashes of the most recent models and scenes.
     cache: Mutex<HashCache>,
 }
 
-/// The hashes of the last models and scenes, by path. The oldest is dropped when there are too
-/// many.
+/// The hashes of the most recent models and scenes, by path. The oldest is dropped when there are
+/// too many.
 #[derive(Default)]
 struct HashCache {
     hashes: BTreeMap<PathBuf, ContentHash>,
@@ -56,9 +56,9 @@ struct HashCache {
 impl KeyMaker {
     /// Creates a maker of keys for jobs with these settings.
     ///
-    /// `settings` is the debug form of the flags; a new flag changes it and so renders everything
-    /// again, which is the safe choice. Files in `allowed`, such as the `--environment` file, count
-    /// by their content.
+    /// `settings` is the debug output of the flags. A new flag changes it, so everything is
+    /// rendered again, which is the safe choice. Files in `allowed`, such as the `--environment`
+    /// file, count by their content.
     pub(super) fn new(settings: &str, allowed: Vec<PathBuf>) -> Self {
         let mut hash = Sha256::new();
         hash_part(&mut hash, env!("CARGO_PKG_VERSION").as_bytes());
@@ -67,7 +67,7 @@ impl KeyMaker {
         Self { common: hash.finalize().into(), allowed, cache: Mutex::default() }
     }
 
-    /// The key of a job: the first 16 bytes of a SHA-256, in hexadecimal.
+    /// Returns the key of a job: the first 16 bytes of a SHA-256, in hexadecimal.
     ///
     /// Files that cannot be read count as empty; rendering reports the errors. 128 bits make an
     /// accidental collision impossible in practice.
@@ -94,7 +94,7 @@ impl KeyMaker {
         to_hexadecimal(&hash.finalize()[..16])
     }
 
-    /// The hash of a model or a scene with everything it refers to.
+    /// Returns the hash of a model or a scene with everything it refers to.
     fn content_hash(&self, path: &Path) -> ContentHash {
         let lock = || self.cache.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(known) = lock().hashes.get(path) {
@@ -127,7 +127,7 @@ impl HashCache {
 
 /// Hashes a model with the buffers, material libraries and images it refers to.
 ///
-/// The file is read as bytes and not imported: a key costs reading the files, not parsing the
+/// The file is read as bytes, not imported, so a key costs reading the files but not parsing the
 /// meshes. Files in folders above the model are hashed as well, since only their bytes matter here;
 /// the importer decides whether they may be read.
 fn hash_model(hash: &mut Sha256, path: &Path) {
@@ -163,10 +163,10 @@ fn hash_scene(hash: &mut Sha256, path: &Path, allowed: &[PathBuf]) {
     }
 }
 
-/// The hash of a file's content, and the names of the files it refers to.
+/// Returns the hash of a file's content, and the names of the files it refers to.
 ///
-/// Only the part of a large file that may contain names is kept in memory. A file that is not
-/// regular has no content: a model may name a device or a pipe, which would never end.
+/// Only the part of a large file that may contain names is kept in memory. Only regular files have
+/// content here, because a model may name a device or a pipe, which would never end.
 fn hash_file(path: &Path) -> (ContentHash, Vec<String>) {
     let mut hash = Sha256::new();
     let is_file = path.metadata().is_ok_and(|metadata| metadata.is_file());
@@ -190,7 +190,8 @@ fn hash_file(path: &Path) -> (ContentHash, Vec<String>) {
     (hash.finalize().into(), referenced_files(&name, &text))
 }
 
-/// The length of the part of a file that may name other files, from its extension and first bytes.
+/// Returns the length of the part of a file that may name other files, based on its extension and
+/// first bytes.
 fn text_length(path: &Path, head: &[u8]) -> u64 {
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("mtl")) {
         return u64::MAX;
@@ -208,7 +209,7 @@ fn text_length(path: &Path, head: &[u8]) -> u64 {
     }
 }
 
-/// Hashes one part with its length first, so that no two lists of parts give the same bytes.
+/// Hashes one part, preceded by its length, so that no two lists of parts give the same bytes.
 ///
 /// Without the length, `ab` + `c` and `a` + `bc` would have the same key.
 fn hash_part(hash: &mut Sha256, part: &[u8]) {
@@ -221,19 +222,19 @@ mod tests {
     use super::*;
     use crate::test_records::ReportFolder;
 
-    /// A job without a line.
+    /// Creates a job that does not come from a list.
     fn job_of(input: PathBuf) -> BatchJob {
         let output = "a.png".to_owned();
         BatchJob { input, output, scene: None, flags: Vec::new(), line: None, fault: None }
     }
 
-    /// The key of a file, by itself.
+    /// Returns the key of a single file.
     fn content_key(input: &Path, settings: &str) -> String {
         KeyMaker::new(settings, Vec::new()).job_key(&job_of(input.to_owned()))
     }
 
     #[test]
-    fn the_models_and_the_includes_of_a_scene_change_its_key() {
+    fn models_and_includes_of_a_scene_change_its_key() {
         let folder = ReportFolder::new("key");
         let include = "(include: \"style.ron\", models: [(path: \"a.gltf\")])";
         folder.add_text("scene.ron", include.as_bytes());
@@ -248,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn libraries_and_textures_of_obj_change_the_key_and_devices_are_not_read() {
+    fn obj_libraries_and_textures_change_the_key_and_devices_are_not_read() {
         let folder = ReportFolder::new("key-obj");
         let of = |name: &str, content: &str| {
             folder.add_text(name, content.as_bytes());
@@ -276,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn flags_scenes_and_outputs_of_a_line_change_the_key() {
+    fn flags_scene_and_output_of_a_line_change_the_key() {
         let folder = ReportFolder::new("key-lines");
         folder.add_text("a.gltf", b"{}");
         folder.add_text("scene.ron", b"(models: [(path: \"{input}\")])");
@@ -303,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn all_of_a_large_file_counts_and_names_are_found_in_its_first_part() {
+    fn large_files_are_hashed_in_full_and_names_are_found_at_their_start() {
         let folder = ReportFolder::new("key-large");
         let json = b"{\"buffers\":[{\"uri\":\"a.bin\"}]} ";
         let mut glb = [b"glTF\x02\0\0\0".as_slice(), &200_000_u32.to_le_bytes()].concat();
@@ -316,9 +317,9 @@ mod tests {
             content_key(&folder.path().join("a.glb"), "")
         };
         let first = of("a.glb", &glb);
-        assert_ne!(first, of("a.bin", b"1"), "the buffer that it names");
+        assert_ne!(first, of("a.bin", b"1"), "the buffer it names changed");
         *glb.last_mut().unwrap() = 8;
-        assert_ne!(of("a.bin", b"1"), of("a.glb", &glb), "its last byte");
+        assert_ne!(of("a.bin", b"1"), of("a.glb", &glb), "its last byte changed");
     }
 
     #[test]

@@ -1,11 +1,11 @@
-//! Temporary files that a killed run left in the report folder.
+//! Cleanup of temporary files that killed runs left in the report folder.
 
 use super::report::host_name;
 use std::path::Path;
 
 /// Removes the temporary files of runs on this machine whose process is dead.
 ///
-/// Runs on other machines may share the folder; their processes are unknown here.
+/// Runs on other machines may share the folder, but their processes cannot be checked from here.
 pub(super) fn remove_left_over(reports: &Path) {
     let entries = std::fs::read_dir(reports);
     for entry in entries.into_iter().flatten().flatten() {
@@ -18,14 +18,15 @@ pub(super) fn remove_left_over(reports: &Path) {
     }
 }
 
-/// The process in a name such as `1-of-1.HOST.4711.3.0.part` or `1-of-1.HOST.4711.3.tar.part`.
+/// Returns the process ID in a name such as `1-of-1.HOST.4711.3.0.part` or
+/// `1-of-1.HOST.4711.3.tar.part`.
 fn process_of(name: &str, host: &str) -> Option<u32> {
     let parts: Vec<&str> = name.split('.').collect();
     let [_, of, process, _run, _slot, "part"] = parts[..] else { return None };
     process.parse().ok().filter(|_| of == host)
 }
 
-/// Whether the system reports that there is no such process; not all systems do.
+/// Returns whether the system reports that the process does not exist; not all systems can.
 fn is_dead(process: u32) -> bool {
     Path::new("/proc/self").exists() && !Path::new("/proc").join(process.to_string()).exists()
 }
@@ -35,7 +36,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_temporary_files_of_this_machine_have_a_process() {
+    fn process_ids_come_only_from_temporary_files_of_this_machine() {
         assert_eq!(process_of("1-of-1.a.4711.3.0.part", "a"), Some(4711));
         assert_eq!(process_of("1-of-1.a.4711.3.tar.part", "a"), Some(4711));
         for name in ["1-of-1.b.4711.3.0.part", "1-of-1.a.4711.3.jsonl", "a.part", "1.a.x.3.0.part"]

@@ -4,10 +4,10 @@
 //!  folders, lists ─► stream of jobs ─► this shard ─► not done yet ─► workers ─► pictures, tars
 //!                                                         ▲             │
 //!                                     records of earlier runs ◄── report ◄── counts, metrics
-//! ```
-//! A job is done if a report lists it with the same content and settings and its picture has the
-//! recorded size. A run that was stopped or killed can therefore resume. A model that is broken,
-//! hangs, crashes or uses up the memory is one line in the report and does not stop the others.
+//! ``` A job is done if a report lists it with the same content and settings and its picture has
+//! the recorded size. A run that was stopped or killed can therefore resume. A model that is
+//! broken, hangs, crashes its worker or exhausts memory becomes one line in the report and does not
+//! stop the others.
 //!
 //! Apart from the pictures, the output folder holds:
 //!
@@ -15,8 +15,8 @@
 //! - `report.jsonl`: the merged report, and `index.html`, the contact sheet; a run without shards
 //!   and [`merge_reports`] write both.
 //!
-//! Picture names and the assignment of jobs to shards depend only on the inputs, so that the number
-//! of threads or shards does not change the names.
+//! Picture names and the assignment of jobs to shards depend only on the inputs, so the number of
+//! threads or shards does not change the names.
 //!
 //! | module | subject |
 //! | --- | --- |
@@ -25,7 +25,7 @@
 //! | `template`, `picture_name`, `flag_table` | picture names, flags in list lines |
 //! | `key`, `content_digest`, `earlier_records` | jobs already done |
 //! | `pool`, `worker_process`, `protocol`, `outcome` | workers, and how they end |
-//! | `report`, `report_reader`, `merge`, `contact_sheet` | results of the jobs |
+//! | `report`, `report_reader`, `merge`, `contact_sheet` | job results |
 //! | `progress`, `metrics` | progress of a run |
 //! | `shard`, `tar_output`, `verify` | jobs divided between machines; tar files; verification |
 

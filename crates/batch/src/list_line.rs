@@ -51,7 +51,7 @@ pub(super) struct LineReader<'a> {
 }
 
 impl LineReader<'_> {
-    /// The jobs of a line.
+    /// Returns the jobs of a line.
     ///
     /// # Errors
     /// If a member is unknown, missing, or of the wrong type.
@@ -90,7 +90,7 @@ impl LineReader<'_> {
         Ok(JobGroup { jobs, bytes })
     }
 
-    /// The job for one of several pictures; its members override the line's.
+    /// Returns the job for one of several pictures; its members override the line's.
     fn read_picture(
         &self,
         given: &Path,
@@ -114,7 +114,8 @@ impl LineReader<'_> {
         self.read_job(given, &members, flags, number)
     }
 
-    /// A job with these flags; `number` is the picture's number, 0 for the only one of its line.
+    /// Returns a job with these flags. `number` is the picture's number within its line, or 0 for a
+    /// line without `pictures`.
     fn read_job(
         &self,
         given: &Path,
@@ -148,7 +149,7 @@ impl LineReader<'_> {
         })
     }
 
-    /// The flags among the members, in order of name.
+    /// Returns the flags among the members, sorted by name.
     fn flags_of(&self, members: &Map<String, Value>) -> Result<Vec<String>, String> {
         let mut words = Vec::new();
         for (name, value) in members {
@@ -165,12 +166,12 @@ impl LineReader<'_> {
     }
 }
 
-/// A path that names a file: `-` would be the standard input.
+/// Returns a path that always names a file, because `-` would mean the standard input.
 fn named_file(path: PathBuf) -> PathBuf {
     if path.as_os_str() == "-" { Path::new(".").join(path) } else { path }
 }
 
-/// A text member, if given.
+/// Returns a string member, or `None` if it is absent.
 fn text_member<'a>(members: &'a Map<String, Value>, name: &str) -> Result<Option<&'a str>, String> {
     match members.get(name) {
         None | Some(Value::Null) => Ok(None),
@@ -181,8 +182,8 @@ fn text_member<'a>(members: &'a Map<String, Value>, name: &str) -> Result<Option
 
 /// Adds a flag with the value of a member.
 ///
-/// `true` gives a flag without a value, `false` and `null` give no flag. A list of numbers is one
-/// value with commas; any other list repeats the flag.
+/// `true` adds the flag without a value; `false` and `null` add nothing. A list of numbers becomes
+/// one comma-separated value; any other list repeats the flag.
 fn push_flag(name: &str, value: &Value, words: &mut Vec<String>) -> Result<(), String> {
     match value {
         Value::Null | Value::Bool(false) => {}
@@ -198,7 +199,7 @@ fn push_flag(name: &str, value: &Value, words: &mut Vec<String>) -> Result<(), S
                 push_flag(name, value, words)?;
             }
         }
-        Value::Object(_) => return Err("is an object, which no flag takes".to_owned()),
+        Value::Object(_) => return Err("must not be an object".to_owned()),
     }
     Ok(())
 }

@@ -1,12 +1,12 @@
-//! Merges the reports of all runs and shards into one, sorted by output, with one record for each.
+//! Merges the reports of all runs and shards into one, sorted by output, with one record per
+//! output.
 //!
 //! ```text
 //!  reports/1-of-2.….jsonl ─┐
 //!  reports/2-of-2.….jsonl ─┼─► sorted chunks ─► one record per output ─► report.jsonl
 //!  report.jsonl ───────────┘   (in a temporary file, if they are many)
-//! ```
-//! It needs memory for only one chunk, however many records there are. No report is removed: an
-//! unfinished run may still append to it.
+//! ``` It needs memory for only one chunk, no matter how many records there are. No report is
+//! removed: an unfinished run may still append to it.
 
 mod sorted_chunks;
 
@@ -39,7 +39,7 @@ pub struct MergeCounts {
 
 /// The jobs of a run, used to restrict a merged report to them.
 ///
-/// It takes eight bytes per job, because a folder may have millions.
+/// It uses only eight bytes per job, because a folder may have millions of jobs.
 #[derive(Clone, Default, Debug)]
 pub(super) struct CurrentJobs {
     /// The hashes of outputs and keys.
@@ -68,7 +68,8 @@ impl CurrentJobs {
 /// the same key. With `current`, records of other jobs and keys are omitted.
 ///
 /// # Errors
-/// If a report cannot be read, or the merged one cannot be written; then the old one is unchanged.
+/// If a report cannot be read, or the merged report cannot be written; the old merged report is
+/// then unchanged.
 pub(super) fn merge_reports(
     out_dir: &Path,
     current: Option<CurrentJobs>,
@@ -76,7 +77,7 @@ pub(super) fn merge_reports(
     merge_in_chunks(out_dir, current, CHUNK_BYTES)
 }
 
-/// [`merge_reports`] with a given chunk size.
+/// Merges reports like [`merge_reports`], with this chunk size.
 fn merge_in_chunks(
     out_dir: &Path,
     mut current: Option<CurrentJobs>,
@@ -121,7 +122,7 @@ struct OutputGroup {
 }
 
 impl OutputGroup {
-    /// Adds a line; returns the previous output's record if the line begins another output.
+    /// Adds a line. If the line starts a new output, returns the record of the previous output.
     fn add_line(&mut self, line: SortedLine) -> Option<Vec<u8>> {
         let Some(last) = &mut self.last else {
             self.last = Some(line);
@@ -139,7 +140,7 @@ impl OutputGroup {
         None
     }
 
-    /// The record that counts.
+    /// Returns the record that counts.
     fn into_record(self) -> Option<Vec<u8>> {
         let last = self.last?;
         let Some(picture) = self.picture else { return Some(last.line) };
@@ -209,8 +210,8 @@ mod tests {
         (output.to_owned(), key.to_owned(), status.to_owned())
     }
 
-    /// Three runs: a model that changed, one that failed and then succeeded, one the other way
-    /// round, and one that failed again after it changed.
+    /// Three runs: a model that changed, one that failed and then succeeded, one that did the
+    /// opposite, and one that failed again after it changed.
     fn three_runs(name: &str) -> ReportFolder {
         let folder = ReportFolder::new(name);
         let first = [
@@ -228,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn each_output_has_its_last_record_and_a_picture_counts_more_than_a_failure() {
+    fn each_output_keeps_its_last_record_and_pictures_take_precedence_over_failures() {
         let folder = three_runs("merge");
         let expected = [
             row("broken.png", "k2", "failed"),
@@ -240,12 +241,12 @@ mod tests {
             let counts = merge_reports(folder.path(), None).unwrap();
             assert_eq!((counts.done, counts.failed, counts.bytes), (3, 1, 300));
             assert_eq!(counts.seconds, 1.0);
-            assert_eq!(merged(&folder), expected, "a merged report is merged again");
+            assert_eq!(merged(&folder), expected, "merging again changes nothing");
         }
     }
 
     #[test]
-    fn records_of_other_jobs_are_left_out() {
+    fn records_of_other_jobs_are_omitted() {
         let folder = three_runs("merge-current");
         let mut current = CurrentJobs::default();
         [("repaired.png", "k"), ("changed.png", "k1")]
@@ -290,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn without_reports_the_merged_one_is_empty() {
+    fn without_reports_the_merged_report_is_empty() {
         let folder = ReportFolder::new("merge-empty");
         assert_eq!(merge_reports(folder.path(), None).unwrap(), MergeCounts::default());
         assert_eq!(folder.read_text(MERGED_REPORT), "");

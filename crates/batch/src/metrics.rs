@@ -43,17 +43,17 @@ impl RunCounts {
         }
     }
 
-    /// The number of jobs that are settled, in this run or before.
+    /// Returns the number of jobs that are settled, in this run or an earlier one.
     pub(super) const fn settled(&self) -> u64 {
         self.worked() + self.up_to_date + self.failed_before
     }
 
-    /// The number of jobs of this run.
+    /// Returns the number of jobs of this run.
     pub(super) const fn worked(&self) -> u64 {
         self.rendered + self.failed
     }
 
-    /// The metrics as text. `elapsed` is the time since the start of the run, in seconds.
+    /// Returns the metrics as text. `elapsed` is the time since the start of the run, in seconds.
     fn to_metrics(self, elapsed: f64) -> String {
         let mut text = String::new();
         let jobs = [
@@ -91,7 +91,7 @@ impl RunCounts {
     }
 }
 
-/// Adds the lines before a metric: its description and its type.
+/// Adds the header of a metric: its description and its type.
 fn head(text: &mut String, name: &str, kind: &str, help: &str) {
     let _ = writeln!(text, "# HELP alberti_batch_{name} {help}");
     let _ = writeln!(text, "# TYPE alberti_batch_{name} {kind}");
@@ -103,14 +103,14 @@ pub(super) struct MetricsFile {
 }
 
 impl MetricsFile {
-    /// Creates a metrics file that is not written yet.
+    /// Creates a metrics file without writing it yet.
     pub(super) fn new(path: &Path) -> Self {
         Self { path: path.to_owned() }
     }
 
     /// Replaces the file.
     ///
-    /// It is not flushed to disk: the next one follows in a second.
+    /// It is not flushed to disk, because the next version follows within a second.
     ///
     /// # Errors
     /// If it cannot be written.
@@ -134,7 +134,7 @@ mod tests {
     use crate::test_records::{ReportFolder, done_record, failed_record};
 
     #[test]
-    fn buckets_are_cumulative_and_the_last_has_all() {
+    fn buckets_are_cumulative_and_the_last_counts_all_jobs() {
         let mut counts = RunCounts { up_to_date: 5, restarts: 1, ..RunCounts::default() };
         for seconds in [0.005, 0.02, 0.5, 0.5, 5000.0] {
             let mut record = done_record("a.png", "k");

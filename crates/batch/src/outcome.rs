@@ -10,7 +10,7 @@ use files::visible_text;
 /// The outcome of a step of a run.
 pub(super) type Outcome = Result<(), RunStop>;
 
-/// The reason why a run ends before its jobs.
+/// The reason why a run ends before all jobs are done.
 #[derive(Debug)]
 pub(super) enum RunStop {
     /// A list cannot be read, or the output folder cannot be written: not an error of a job.
@@ -25,7 +25,7 @@ impl From<BatchError> for RunStop {
     }
 }
 
-/// The maximum number of failures printed at the end of a run; the report has all.
+/// The maximum number of failures printed at the end of a run; the report lists them all.
 const MAX_TOLD: usize = 20;
 
 /// The failures that are printed at the end of a run: the first ones by picture name.
@@ -71,7 +71,7 @@ impl FailureList {
     }
 }
 
-/// The record of a job that failed.
+/// Returns the record of a job that failed.
 pub(super) fn failed_record(
     job: &BatchJob,
     key: String,
@@ -106,7 +106,7 @@ const SIGNALS: [(i32, &str); 9] = [
 ];
 
 impl WorkerEnd {
-    /// The signal, if it requests termination and says nothing about the job.
+    /// Returns the signal, if it requests termination and says nothing about the job.
     pub(super) fn interruption(&self) -> Option<i32> {
         match self {
             Self::Signal(signal @ (1 | 2 | 15)) => Some(*signal),
@@ -114,13 +114,14 @@ impl WorkerEnd {
         }
     }
 
-    /// Whether it was killed: by a system that is out of memory, or by someone who ends everything.
+    /// Returns whether it was killed, either by a system that is out of memory or by someone who
+    /// kills all processes.
     pub(super) fn is_killed(&self) -> bool {
         *self == Self::Signal(9)
     }
 }
 
-/// The message for a job whose worker ended: the way it ended, and the end of its standard error
+/// Returns the message for a job whose worker ended: the reason, and the end of its standard error
 /// output.
 pub(super) fn worker_end_message(end: &WorkerEnd, text: &str, policy: JobPolicy) -> String {
     let what = match end {
@@ -141,7 +142,7 @@ pub(super) fn worker_end_message(end: &WorkerEnd, text: &str, policy: JobPolicy)
         }
         WorkerEnd::Exit(code) => {
             let code = code.map_or_else(|| "none".to_owned(), |code| code.to_string());
-            format!("the worker ended without an answer (exit code {code})")
+            format!("the worker exited without an answer (exit code {code})")
         }
     };
     // Rust's allocator prints this before it aborts.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-/// The line of each output, by a hash of its name: there may be too many names for memory.
+/// The line of each output, by a hash of its name: there may be too many names to keep in memory.
 #[derive(Debug, Default)]
 pub(super) struct OutputNames {
     lines: BTreeMap<u64, u64>,
@@ -12,9 +12,9 @@ impl OutputNames {
     /// Records the output of a line.
     ///
     /// # Errors
-    /// If an earlier line has the same output: the number of that line.
+    /// If an earlier line has the same output; the error is the number of that line.
     pub(super) fn claim(&mut self, output: &str, line: u64) -> Result<(), u64> {
-        // Uses the hash of record keys: collisions are as unlikely as there.
+        // This is the hash that records use, so collisions are just as unlikely.
         let hash = super::earlier_records::record_hash(&same_file_name(output), "");
         match self.lines.insert(hash, line) {
             Some(earlier) if earlier != line => Err(earlier),
@@ -23,12 +23,13 @@ impl OutputNames {
     }
 }
 
-/// The name that a file system uses for an output: the file systems on these platforms ignore case.
+/// Returns the name of an output as the file system compares it: the file systems on these
+/// platforms ignore case.
 fn same_file_name(output: &str) -> String {
     if cfg!(any(windows, target_os = "macos")) { output.to_lowercase() } else { output.to_owned() }
 }
 
-/// The error for two lines with the same output.
+/// Returns the error for two lines with the same output.
 pub(super) fn same_output_fault(lines: [u64; 2], output: &str) -> String {
     let [first, second] = lines;
     let output = files::visible_text(output);

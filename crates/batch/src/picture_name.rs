@@ -26,10 +26,10 @@ pub(super) struct NameSource<'a> {
 }
 
 impl PictureName {
-    /// The template for lists that do not name their pictures.
+    /// Returns the template for lists that do not name their pictures.
     ///
-    /// Lines cannot be compared with each other, because a list may be larger than memory: the line
-    /// number makes the name unique.
+    /// Lines cannot be compared with each other, because a list may be larger than memory, so the
+    /// line number makes the name unique.
     pub(super) fn of_line(has_pictures: bool) -> Self {
         let text =
             if has_pictures { "{stem}-{line:08}-{picture}.png" } else { "{stem}-{line:08}.png" };
@@ -47,17 +47,17 @@ impl PictureName {
         Self::parse_fields(text).map(Self)
     }
 
-    /// The template with the fields of a batch.
+    /// Parses a template with the fields of a batch.
     fn parse_fields(text: &str) -> Result<NameTemplate, String> {
         NameTemplate::parse(text, &["stem", "name", "folder", "prefix"], &["line", "picture"])
     }
 
-    /// Whether the template has this field.
+    /// Returns whether the template has this field.
     pub(super) fn has_field(&self, field: &str) -> bool {
         self.0.has_field(field)
     }
 
-    /// The name of a picture.
+    /// Returns the name of a picture.
     ///
     /// `{prefix}` is computed from the name without it, so it stays the same when the name is
     /// computed again.
@@ -70,7 +70,7 @@ impl PictureName {
         self.expand(source, &format!("{first:02x}"))
     }
 
-    /// The name with this prefix, without empty parts.
+    /// Returns the name with this prefix, without empty parts.
     fn expand(&self, source: NameSource<'_>, prefix: &str) -> String {
         let part = |part: Option<&std::ffi::OsStr>| {
             part.unwrap_or_default().to_string_lossy().into_owned()
@@ -87,7 +87,8 @@ impl PictureName {
     }
 }
 
-/// A path without root, `.` and `..`, with `/` as separator: it stays below the output folder.
+/// Returns a path without root, `.` and `..`, with `/` as separator, so that it stays below the
+/// output folder.
 ///
 /// `../up/x.glb` and `/up/x.glb` both become `up/x.glb`. A list is often made by another program
 /// and must not be able to write outside the folder.
@@ -99,7 +100,7 @@ pub(super) fn normal_parts(path: &Path) -> String {
     normal.collect::<Vec<_>>().join("/")
 }
 
-/// Checks the name that a list gives to a picture.
+/// Checks the name that a list assigns to a picture.
 ///
 /// # Errors
 /// If it points outside the output folder, or does not end in `.png`.
@@ -120,7 +121,7 @@ pub(super) fn check_picture_name(name: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Whether a name ends in `.png`.
+/// Returns whether a name ends in `.png`.
 fn has_png_extension(name: &str) -> bool {
     Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"))
 }
@@ -147,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn prefixes_are_of_the_name() {
+    fn prefixes_are_hashes_of_the_name() {
         let template = PictureName::parse("{prefix}/{stem}.png").expect("a template");
         let name = |input: &str| {
             template.name_picture(NameSource { input: Path::new(input), line: 1, picture: 1 })
@@ -158,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn names_of_lists_stay_below_the_output_folder() {
+    fn names_from_lists_stay_below_the_output_folder() {
         for name in ["a.png", "a/b.PNG", "a b/ä.png"] {
             assert_eq!(check_picture_name(name), Ok(()), "{name}");
         }

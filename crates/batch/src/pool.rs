@@ -1,7 +1,7 @@
-//! The worker pool: each worker has a thread that gives it jobs and records the results.
+//! The worker pool: each worker has a thread that sends it jobs and records the results.
 //!
 //! One worker per core is faster for many small pictures than all cores on one picture: loading,
-//! decoding and encoding are serial, and take most of a thumbnail's time.
+//! decoding and encoding are serial and dominate the time of a thumbnail.
 
 use super::earlier_records::{EarlierRecord, EarlierRecords};
 use super::job::{BatchJob, JobGroup};
@@ -75,8 +75,8 @@ impl BatchRun<'_> {
     /// Runs the jobs that are not up to date, with this many workers at a time.
     ///
     /// Threads take the next jobs from the stream as they become free, so that large models do not
-    /// leave workers idle. The calling thread works as well. A worker is started for the first job
-    /// of its thread: if everything is done, none is started.
+    /// leave workers idle. The calling thread also runs jobs. A worker is started when its thread
+    /// has its first job, so none is started if everything is up to date.
     pub(super) fn run_jobs(&self, threads: usize) {
         std::thread::scope(|scope| {
             for slot in 1..threads {
@@ -98,7 +98,7 @@ impl BatchRun<'_> {
         }
     }
 
-    /// The next jobs; `None` at the end, and once the run is stopped.
+    /// Returns the next jobs, or `None` at the end or once the run is stopped.
     fn next_group(&self) -> Option<Result<JobGroup, RunStop>> {
         if self.stop.lock().unwrap_or_else(PoisonError::into_inner).is_some() {
             return None;
@@ -113,8 +113,8 @@ impl BatchRun<'_> {
 
     /// Runs those jobs of a group that are not up to date.
     ///
-    /// The key is taken before rendering: if the model changes in the meantime, the record has the
-    /// old key, and the next run renders it again.
+    /// The key is computed before rendering: if the model changes in the meantime, the record has
+    /// the old key, and the next run renders it again.
     fn run_group(
         &self,
         slot: usize,
@@ -136,7 +136,8 @@ impl BatchRun<'_> {
                 },
             }
         }
-        // The number of jobs left when a worker ended, perhaps not because of the first of them.
+        // The number of jobs left when a worker ended for a reason that may not be the first of
+        // them.
         let mut doubted = None;
         while !open.is_empty() {
             let running = match worker {
@@ -151,7 +152,8 @@ impl BatchRun<'_> {
             if let Some(signal) = end.interruption() {
                 return Err(RunStop::Signal(signal));
             }
-            // Earlier jobs may have corrupted the worker, and its killer may be about to kill all.
+            // Earlier jobs may have corrupted the worker, and whoever killed it may be killing all
+            // processes.
             let is_doubtful = (!is_fresh && end != WorkerEnd::TimedOut) || end.is_killed();
             if is_doubtful && doubted != Some(open.len()) {
                 doubted = Some(open.len());
@@ -166,7 +168,7 @@ impl BatchRun<'_> {
         Ok(())
     }
 
-    /// Whether a job that already ran had failed; `None` if it must be run.
+    /// Returns whether a job that already ran failed, or `None` if it must be run.
     fn settled(&self, job: &BatchJob, key: &str) -> Option<bool> {
         match self.earlier.as_ref()?.find(&job.output, key)? {
             EarlierRecord::Failed => (!self.policy.retries_failed).then_some(true),
@@ -201,7 +203,7 @@ impl BatchRun<'_> {
         Ok(Ok(()))
     }
 
-    /// The request for a picture.
+    /// Returns the request for a picture.
     fn picture_request(&self, slot: usize, job: &BatchJob) -> PictureRequest {
         let target = if self.tar.is_some() {
             PictureTarget::Pipe

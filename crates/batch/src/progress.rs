@@ -21,7 +21,7 @@ use std::time::{Duration, Instant};
 const TERMINAL_INTERVAL: Duration = Duration::from_millis(250);
 /// The interval between two lines of a log.
 const LOG_INTERVAL: Duration = Duration::from_mins(1);
-/// The interval between two versions of the `--metrics` file.
+/// The interval between two updates of the `--metrics` file.
 const METRICS_INTERVAL: Duration = Duration::from_secs(1);
 
 /// The destination of the progress display.
@@ -42,7 +42,7 @@ impl std::fmt::Debug for ProgressDisplay {
 
 /// Counts the jobs of a run and shows its progress; the threads share one instance.
 ///
-/// Finish it before printing messages, which would be appended to the line.
+/// Finish it before printing messages, which would otherwise be appended to the line.
 pub(super) struct RunProgress {
     state: Arc<Mutex<ProgressState>>,
     begin: Instant,
@@ -130,14 +130,14 @@ impl RunProgress {
     }
 }
 
-/// Even a run that ends early leaves no line on the terminal.
+/// Removes the line from the terminal even if the run ends early.
 impl Drop for RunProgress {
     fn drop(&mut self) {
         self.end_display();
     }
 }
 
-/// Locks the state; its numbers stay valid even if another thread panicked.
+/// Locks the state, whose numbers stay valid even if another thread panicked.
 fn lock(state: &Mutex<ProgressState>) -> MutexGuard<'_, ProgressState> {
     state.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -198,7 +198,7 @@ impl JobRate {
     /// The time between two marks in seconds.
     const MARK_SECONDS: f64 = 60.0;
 
-    /// The rate now; `None` if nothing is done yet.
+    /// Returns the rate now, or `None` if nothing is done yet.
     fn measure(&mut self, elapsed: f64, worked: u64) -> Option<f64> {
         if elapsed - self.marks[1].0 >= Self::MARK_SECONDS {
             self.marks = [self.marks[1], (elapsed, worked)];
@@ -209,7 +209,7 @@ impl JobRate {
     }
 }
 
-/// The progress line; `elapsed` is the time since the start of the run, in seconds.
+/// Returns the progress line; `elapsed` is the time since the start of the run, in seconds.
 ///
 /// The remaining time follows from the fraction of the inputs read so far. All remaining jobs count
 /// as jobs to render, though some may turn out to be up to date.
@@ -232,7 +232,7 @@ fn progress_line(state: &ProgressState, rate: &mut JobRate, elapsed: f64) -> Str
     line
 }
 
-/// A duration in words, from seconds to days.
+/// Returns a duration in words, from seconds to days.
 fn duration_words(seconds: f64) -> String {
     match seconds {
         s if s < 100.0 => format!("{s:.0} s"),
@@ -248,7 +248,7 @@ mod tests {
     use crate::test_records::{ReportFolder, done_record, failed_record};
 
     #[test]
-    fn the_line_has_count_rate_failures_and_the_time_left() {
+    fn the_line_shows_count_rate_failures_and_remaining_time() {
         let counts =
             RunCounts { rendered: 90, failed: 10, up_to_date: 100, ..RunCounts::default() };
         let mut state = ProgressState { counts, fraction: Some(0.25) };
@@ -263,9 +263,9 @@ mod tests {
     }
 
     #[test]
-    fn the_rate_is_that_of_the_last_minutes() {
+    fn the_rate_covers_the_last_minutes() {
         let mut rate = JobRate::default();
-        // One job per second for 5 minutes, then ten.
+        // One job per second for 5 minutes, then ten per second.
         for second in 1..=300_u32 {
             rate.measure(f64::from(second), second.into());
         }
@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn durations_are_said_in_the_unit_that_fits() {
+    fn durations_use_a_suitable_unit() {
         let words = [0.4, 99.0, 100.0, 7200.0, 400_000.0].map(duration_words);
         assert_eq!(words, ["0 s", "99 s", "2 min", "2.0 h", "4.6 days"]);
     }

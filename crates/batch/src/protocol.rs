@@ -42,7 +42,7 @@ pub enum PictureTarget {
         #[serde(with = "any_path")]
         partial: PathBuf,
     },
-    /// Through the pipe, right after the line of the answer.
+    /// Through the pipe, right after the answer line.
     Pipe,
 }
 
@@ -61,11 +61,11 @@ pub struct FramedAnswer {
 pub enum WorkAnswer {
     /// It was rendered, and written unless it follows through the pipe.
     Done {
-        /// Time in seconds, including loading, if this picture caused it.
+        /// Time in seconds, including loading if this picture triggered it.
         seconds: f64,
         /// The number of warnings.
         warnings: usize,
-        /// The first warning; empty without one.
+        /// The first warning; empty if there are none.
         message: String,
         /// The size of the picture.
         bytes: u64,

@@ -8,9 +8,8 @@
 //! ```text
 //! {"input":"models/fox.glb","output":"fox.png","status":"done","key":"90a1…","seconds":0.41,
 //!  "warnings":0,"message":"","bytes":20117,"sha256":"5d02…"}
-//! ```
-//! `RUN` is one more than the highest number in the folder. It shows which records are newer, which
-//! the clocks of several machines cannot.
+//! ``` `RUN` is one more than the highest number in the folder. It determines which records are
+//! newer, because the clocks of different machines may disagree.
 
 use super::Shard;
 use super::left_over::remove_left_over;
@@ -24,8 +23,7 @@ use std::time::{Duration, Instant};
 
 /// The report folder, below the output folder.
 pub(super) const REPORTS_FOLDER: &str = "reports";
-/// The time after which records are flushed to disk. A power failure loses at most the work of this
-/// time.
+/// The time after which records are flushed to disk. A power failure loses at most this much work.
 const SYNC_INTERVAL: Duration = Duration::from_secs(5);
 /// The maximum length of a host name in a report name.
 const MAX_HOST_LENGTH: usize = 64;
@@ -33,7 +31,7 @@ const MAX_HOST_LENGTH: usize = 64;
 /// The outcome of one job.
 #[derive(Clone, PartialEq, Debug, serde::Serialize)]
 pub(super) struct JobRecord {
-    /// The path of the input, as given.
+    /// The path of the input, as specified.
     pub(super) input: String,
     /// The path of the picture below the output folder.
     pub(super) output: String,
@@ -64,7 +62,7 @@ pub(super) const DONE: &str = "done";
 pub(super) const FAILED: &str = "failed";
 
 impl JobRecord {
-    /// The record as one line of JSON.
+    /// Returns the record as one line of JSON.
     ///
     /// A time that is not finite, which no clock reports, is written as `null`.
     pub(super) fn to_line(&self) -> String {
@@ -115,14 +113,14 @@ impl ReportWriter {
                     let open = OpenReport { file, has_records: false, synced: Instant::now() };
                     return Ok(Self { run_name, path, open: Mutex::new(open) });
                 }
-                // Another host with this name, such as a container, has a process with this number.
+                // Another host with this name, such as a container, has a process with this ID.
                 Err(cause) if cause.kind() == ErrorKind::AlreadyExists && run < u64::MAX => {}
                 Err(cause) => return Err(write_error(&path, &cause)),
             }
         }
     }
 
-    /// The name of the run, which is unique in the output folder.
+    /// Returns the name of the run, which is unique in the output folder.
     pub(super) fn run_name(&self) -> &str {
         &self.run_name
     }
@@ -134,7 +132,7 @@ impl ReportWriter {
     /// half-written state.
     ///
     /// # Errors
-    /// If it cannot be written: the disk is full, or the folder is gone.
+    /// If it cannot be written, for example because the disk is full or the folder is gone.
     pub(super) fn append_record(&self, record: &JobRecord) -> Result<(), BatchError> {
         self.append_records(std::slice::from_ref(record))
     }
@@ -142,7 +140,7 @@ impl ReportWriter {
     /// Appends several records in one call.
     ///
     /// # Errors
-    /// If they cannot be written; then some of them may be in the report.
+    /// If they cannot be written; some of them may then be in the report.
     pub(super) fn append_records(&self, records: &[JobRecord]) -> Result<(), BatchError> {
         let lines: String = records.iter().map(JobRecord::to_line).collect();
         let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
@@ -171,12 +169,12 @@ impl ReportWriter {
     }
 }
 
-/// The error for a file or folder that cannot be written.
+/// Returns the error for a file or folder that cannot be written.
 pub(super) fn write_error(path: &Path, cause: &std::io::Error) -> BatchError {
     BatchError::Unusable(format!("cannot write {}: {cause}", visible_path(path)))
 }
 
-/// The run number in a report name: the part before the extension.
+/// Returns the run number in a report name: the part before the extension.
 ///
 /// ```text
 /// 2-of-8.node17.4711.3.jsonl  ─►  3
@@ -186,7 +184,7 @@ pub(super) fn run_number(path: &Path) -> u64 {
     stem.rsplit('.').next().and_then(|number| number.parse().ok()).unwrap_or(0)
 }
 
-/// The highest run number among the reports in a folder; 0 if there are none.
+/// Returns the highest run number among the reports in a folder, or 0 if there are none.
 fn last_run(folder: &Path) -> std::io::Result<u64> {
     let mut last = 0;
     for entry in std::fs::read_dir(folder)? {
@@ -198,10 +196,10 @@ fn last_run(folder: &Path) -> std::io::Result<u64> {
     Ok(last)
 }
 
-/// The name of this machine, for file names; `host` if unknown.
+/// Returns the name of this machine, for file names, or `host` if unknown.
 ///
-/// Letters, digits and `-` are kept. It need not be unique, but helps to find the machine that
-/// wrote a record.
+/// Only letters, digits and `-` are kept. The name need not be unique, but helps to find the
+/// machine that wrote a record.
 pub(super) fn host_name() -> String {
     let name = std::fs::read_to_string("/proc/sys/kernel/hostname").ok();
     let name = name.or_else(|| std::env::var("COMPUTERNAME").ok()).unwrap_or_default();
@@ -228,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn runs_at_the_same_time_have_reports_of_their_own_and_later_ones_higher_numbers() {
+    fn concurrent_runs_have_separate_reports_and_later_runs_have_higher_numbers() {
         let folder = ReportFolder::new("writer");
         let out = folder.path();
         let first = ReportWriter::create(out, Shard::ALL_JOBS).unwrap();
@@ -245,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn names_of_reports_are_plain() {
+    fn report_names_have_a_run_number_and_a_plain_host_name() {
         assert_eq!(run_number(Path::new("2-of-8.node17.4711.3.jsonl")), 3);
         assert_eq!(run_number(Path::new("report.jsonl")), 0);
         assert!(host_name().chars().all(|c| c.is_ascii_alphanumeric() || c == '-'));

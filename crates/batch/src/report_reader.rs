@@ -20,11 +20,11 @@ const BUFFER_BYTES: usize = 1 << 18;
 
 /// A record as parsed from a line. All members except `tar` are required.
 ///
-/// Further members are ignored, so that reports from newer versions can be read. A line from an
+/// Unknown members are ignored, so that reports from newer versions can be read. A line from an
 /// older version that lacks a member is skipped, and its job is run again.
 #[derive(Debug, serde::Deserialize)]
 pub(super) struct RecordLine<'a> {
-    /// The path of the input, as given.
+    /// The path of the input, as specified.
     #[serde(borrow)]
     pub(super) input: Cow<'a, str>,
     /// The path of the picture below the output folder.
@@ -58,7 +58,7 @@ impl<'a> RecordLine<'a> {
         matches!(&*record.status, DONE | FAILED).then_some(record)
     }
 
-    /// Whether there is a picture.
+    /// Returns whether the picture was rendered.
     pub(super) fn is_done(&self) -> bool {
         self.status == DONE
     }
@@ -89,13 +89,13 @@ pub(super) fn read_report(
     path: &Path,
     mut visit: impl FnMut(&RecordLine<'_>, &[u8]) -> Result<(), BatchError>,
 ) -> Result<(), BatchError> {
-    // A pipe with this name would block, and a folder cannot be read.
+    // A pipe would block, and a folder cannot be read.
     if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {
         return Ok(());
     }
     let file = match File::open(path) {
         Ok(file) => file,
-        // This is an empty report that its run has just removed.
+        // The run has just removed its empty report.
         Err(cause) if cause.kind() == ErrorKind::NotFound => return Ok(()),
         Err(cause) => return Err(read_error(path, &cause)),
     };
@@ -116,7 +116,7 @@ pub(super) fn read_report(
     }
 }
 
-/// The paths of all reports: the merged one, then the runs by number and name.
+/// Returns the paths of all reports: the merged one, then the runs by number and name.
 ///
 /// # Errors
 /// If the folder cannot be read.
@@ -140,7 +140,7 @@ pub(super) fn report_paths(out_dir: &Path) -> Result<Vec<PathBuf>, BatchError> {
     Ok(paths)
 }
 
-/// The error for a report that cannot be read.
+/// Returns the error for a report that cannot be read.
 fn read_error(path: &Path, cause: &std::io::Error) -> BatchError {
     BatchError::Unusable(format!("cannot read {}: {cause}", visible_path(path)))
 }
@@ -150,7 +150,7 @@ mod tests {
     use super::*;
     use crate::test_records::{ReportFolder, done_record, failed_record};
 
-    /// The outputs of all records, in reading order.
+    /// Returns the outputs of all records, in reading order.
     fn outputs(folder: &ReportFolder) -> Vec<String> {
         let mut outputs = Vec::new();
         let visited = read_reports(folder.path(), |record, _| {
@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn runs_are_read_by_their_numbers() {
+    fn runs_are_read_in_numeric_order() {
         let folder = ReportFolder::new("reader");
         assert!(outputs(&folder).is_empty(), "a folder without reports has no records");
         folder.add_report("reports/2-of-2.a.9.10.jsonl", &[done_record("c.png", "k")]);
@@ -172,14 +172,14 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_read_whole_or_not_at_all() {
+    fn truncated_lines_are_skipped() {
         let folder = ReportFolder::new("truncated");
         let whole = done_record("first.png", "k").to_line();
         for cut in 0..whole.len() {
             let text = format!("{whole}{}", &whole.replace("first", "second")[..cut]);
             folder.add_text("reports/1-of-1.a.1.1.jsonl", text.as_bytes());
             let read = outputs(&folder);
-            // A line without its line break is complete as well; `second` is one letter longer.
+            // A line without its line break is complete as well; `second` is one character longer.
             assert_eq!(read.len(), 1, "{cut}: {read:?}");
         }
         let torn = format!("{}{whole}\0\0\0\n{{}}\nno JSON\n[1]\n{whole}", &whole[..40]);
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn words_with_escapes_are_read() {
+    fn strings_with_escapes_are_read() {
         let folder = ReportFolder::new("escapes");
         folder.add_report("report.jsonl", &[failed_record("ä \"b\" \\ \u{1}.png", "k")]);
         assert_eq!(outputs(&folder), ["ä \"b\" \\ \u{1}.png"]);

@@ -35,13 +35,13 @@ pub struct BatchOptions {
     pub picture_name: Option<PictureName>,
     /// The output folder.
     pub out_dir: PathBuf,
-    /// The shard of the jobs to run.
+    /// The shard to run.
     pub shard: Shard,
     /// The flags of all pictures, as words such as `--size=64x64`.
     pub flags: Vec<String>,
-    /// The flags that lines of a list may have, and which of them conflict.
+    /// The flags that list lines may set, and their conflicts.
     pub flag_table: FlagTable,
-    /// Allowed folders outside the scenes' own, and files named by flags.
+    /// Allowed folders outside the scenes' own folders, and files named by flags.
     pub allowed: Vec<PathBuf>,
     /// The time limit for one picture.
     pub job_time: Option<Duration>,
@@ -75,7 +75,7 @@ impl BatchOptions {
         JobStream::open(&source, self.shard).map(ShardJobs)
     }
 
-    /// The maker of the keys that identify finished jobs.
+    /// Creates the maker of the keys that identify finished jobs.
     fn keys(&self) -> KeyMaker {
         KeyMaker::new(&format!("{:?}", self.flags), self.allowed.clone())
     }
@@ -109,8 +109,8 @@ pub fn merge_reports(out_dir: &Path) -> Result<MergeCounts, BatchError> {
     Ok(counts)
 }
 
-/// Checks that every job has a record and every picture is intact; `tell` gets the problems, one
-/// line per picture, then the counts. Returns true if there are none.
+/// Checks that every job has a record and every picture is intact; `tell` receives the problems,
+/// one line per picture, and then the counts. Returns true if there are no problems.
 ///
 /// # Errors
 /// If a list or a report cannot be read, or `tell` fails.
@@ -122,7 +122,7 @@ pub fn verify_jobs<E: From<BatchError>>(
     verify::verify_jobs(jobs.0, &options.keys(), &options.out_dir, tell)
 }
 
-/// Runs the jobs; `tell_failure` gets the messages of failed jobs at the end.
+/// Runs the jobs; `tell_failure` receives the messages of failed jobs at the end.
 ///
 /// The reports of all shards in the folder count as earlier work, so a run may resume with a
 /// different number of shards.

@@ -1,8 +1,8 @@
-//! Shards: the jobs of a batch divided between several machines.
+//! Shards, which divide the jobs of a batch between several machines.
 //!
 //! Every machine runs the same command with its own shard, and needs nothing from the others except
-//! a common view of the inputs. Each goes through all jobs in the same order and takes the jobs
-//! that [`ShardBalance`] assigns to its shard.
+//! the same inputs. Each machine goes through all jobs in the same order and takes the jobs that
+//! [`ShardBalance`] assigns to its shard.
 //!
 //! ```text
 //! alberti batch models --out-dir out --shard 2/8
@@ -32,7 +32,7 @@ impl Shard {
     /// The only shard of a run on one machine.
     pub const ALL_JOBS: Self = Self { index: 0, count: 1 };
 
-    /// Whether there is only one shard.
+    /// Returns whether there is only one shard.
     ///
     /// Only then can the run merge the reports: a shard does not know when the others are done.
     #[must_use]
@@ -40,7 +40,7 @@ impl Shard {
         self.count == 1
     }
 
-    /// The shard in file names, counted from 1 as on the command line: `2-of-8`.
+    /// Returns the shard in file names, counted from 1 as on the command line: `2-of-8`.
     ///
     /// Each shard has its own files, because appending to one file from several machines is not
     /// safe on network file systems.
@@ -56,12 +56,12 @@ impl Shard {
 
 /// The jobs of one shard, balanced by the bytes of their inputs.
 ///
-/// Each job goes to the shard with the fewest bytes so far; among several, to the first. Large
-/// models are often neighbors in a folder, and one of them may be as large as a thousand others.
-/// Each machine counts the jobs of all shards, so the shards need not communicate.
+/// Each job goes to the shard with the fewest bytes so far, and to the first of them in case of a
+/// tie. Large models are often neighbors in a folder, and one of them may be as large as a thousand
+/// others. Each machine counts the jobs of all shards, so the shards need not communicate.
 #[derive(Clone, Debug)]
 pub(super) struct ShardBalance {
-    /// The shard whose jobs are wanted.
+    /// The shard whose jobs are selected.
     shard: Shard,
     /// The bytes and the index of each shard, with the fewest bytes on top.
     loads: BinaryHeap<Reverse<(u64, usize)>>,
@@ -95,7 +95,7 @@ pub fn parse_shard(text: &str) -> Result<Shard, String> {
     parse_shard_with(text, |name| std::env::var(name).ok().as_deref().and_then(parse_count))
 }
 
-/// [`parse_shard`] with the given environment variables.
+/// Parses a shard like [`parse_shard`], with these environment variables.
 fn parse_shard_with(text: &str, variable: impl Fn(&str) -> Option<usize>) -> Result<Shard, String> {
     let fault = || "expected I/N with I from 1 to N, such as 2/8, or auto, or auto/N".to_owned();
     if text == "auto" {
@@ -126,7 +126,7 @@ struct Scheduler {
     first: FirstIndex,
     /// The number of tasks.
     count: TaskCount,
-    /// The difference between successive indices; 1 if it has no variable.
+    /// The difference between successive indices, which is 1 if there is no variable for it.
     step: Option<&'static str>,
 }
 
@@ -146,14 +146,14 @@ enum TaskCount {
     Variable(&'static str),
     /// The variable holds the index of the last task; the count follows from the first index.
     Last(&'static str),
-    /// The scheduler does not report it, so `auto/N` must give it.
+    /// The scheduler does not report it, so `auto/N` must specify it.
     Unknown,
 }
 
 /// The known job schedulers.
 ///
 /// The order is: Slurm, AWS Batch, Cloud Run jobs, Google Batch, Grid Engine, LSF, PBS, Buildkite,
-/// GitLab CI, and Kubernetes, which comes last because other schedulers run their tasks in it.
+/// GitLab CI, and Kubernetes, which comes last because other schedulers may run their tasks in it.
 const SCHEDULERS: &[Scheduler] = &[
     Scheduler {
         index: "SLURM_ARRAY_TASK_ID",
@@ -218,7 +218,7 @@ const SCHEDULERS: &[Scheduler] = &[
 ];
 
 impl Scheduler {
-    /// The index of this task, from 0, and the number of tasks if known.
+    /// Returns the index of this task, from 0, and the number of tasks if known.
     ///
     /// `None` outside an array job, or if the index does not match the other variables.
     fn task(&self, variable: &impl Fn(&str) -> Option<usize>) -> Option<(usize, Option<usize>)> {
@@ -239,7 +239,7 @@ impl Scheduler {
     }
 }
 
-/// The shard of the first scheduler whose variables are set.
+/// Returns the shard of the first scheduler whose variables are set.
 ///
 /// `wanted` is the number of shards in `auto/N`. If the number of tasks is known, it must be the
 /// same: jobs of shards without a task would never be rendered.
@@ -296,7 +296,7 @@ mod tests {
     }
 
     #[test]
-    fn shards_are_a_partition_with_nearly_equal_bytes() {
+    fn shards_partition_the_jobs_into_nearly_equal_bytes() {
         let count = 7;
         let mut shards: Vec<ShardBalance> =
             (0..count).map(|index| ShardBalance::new(Shard { index, count })).collect();
@@ -310,7 +310,7 @@ mod tests {
             let takers: Vec<usize> =
                 (0..count).filter(|at| shards[*at].takes_group(bytes)).collect();
             assert_eq!(takers.len(), 1, "each job is in one shard");
-            assert_eq!(loads[takers[0]], *loads.iter().min().unwrap(), "the lightest has it");
+            assert_eq!(loads[takers[0]], *loads.iter().min().unwrap(), "the shard with the fewest bytes has it");
             loads[takers[0]] += bytes;
         }
         let (least, most) = (loads.iter().min().unwrap(), loads.iter().max().unwrap());
@@ -318,14 +318,14 @@ mod tests {
     }
 
     #[test]
-    fn inputs_without_bytes_are_dealt_out_as_well() {
+    fn empty_inputs_are_distributed_evenly() {
         let mut shard = ShardBalance::new(Shard { index: 1, count: 3 });
         let taken: Vec<bool> = (0..6).map(|_| shard.takes_group(0)).collect();
         assert_eq!(taken, [false, true, false, false, true, false]);
     }
 
     #[test]
-    fn array_jobs_are_known_by_their_variables() {
+    fn array_jobs_are_detected_by_their_variables() {
         let slurm = [
             ("SLURM_ARRAY_TASK_ID", 5),
             ("SLURM_ARRAY_TASK_MIN", 1),
@@ -345,7 +345,7 @@ mod tests {
     }
 
     #[test]
-    fn where_the_number_of_tasks_is_unknown_it_is_given() {
+    fn an_unknown_number_of_tasks_must_be_specified() {
         let kubernetes = [("JOB_COMPLETION_INDEX", 11)];
         assert_eq!(shard_with("auto/12", &kubernetes), Ok(Shard { index: 11, count: 12 }));
         assert!(shard_with("auto", &kubernetes).is_err_and(|fault| fault.contains("auto/N")));

@@ -1,9 +1,9 @@
 //! Reads and writes tar archives (POSIX.1-1988 `ustar`) of regular files.
 //!
 //! A file is a header of 512 bytes, then its content, padded to a multiple of 512 bytes; two blocks
-//! of zeros end the archive. A name that is too long for the header is in a separate record before
-//! it (POSIX.1-2001 `pax`, type `x`). Owner, permissions and time are the same for all files, so
-//! that the same files give the same bytes.
+//! of zeros end the archive. A name that is too long for the header goes in a separate record
+//! before it (POSIX.1-2001 `pax`, type `x`). Owner, permissions and time are the same for all
+//! files, so that the same files give the same bytes.
 
 use std::io::{Error, ErrorKind, Read, Result, Write};
 use std::ops::Range;
@@ -39,7 +39,7 @@ pub(super) fn append_file(writer: &mut impl Write, name: &str, content: &[u8]) -
         let mut before = [0; BLOCK_BYTES];
         before[NAME][..9].copy_from_slice(b"PaxHeader");
         append_block(writer, before, b'x', record.as_bytes())?;
-        // This name is for readers that do not know the record.
+        // This name is for readers that do not understand the record.
         let cut =
             name.char_indices().map(|(at, c)| at + c.len_utf8()).take_while(|end| *end <= 100);
         let cut = cut.last().unwrap_or(0);
@@ -88,7 +88,7 @@ fn append_block(
     writer.write_all(&[0; BLOCK_BYTES][..padding])
 }
 
-/// The sum of a header's bytes, with spaces where the sum goes.
+/// Returns the sum of a header's bytes, with spaces where the sum goes.
 fn header_sum(header: &[u8; BLOCK_BYTES]) -> u32 {
     let spaces = CHECKSUM.len() as u32 * u32::from(b' ');
     let all: u32 = header.iter().map(|byte| u32::from(*byte)).sum();
@@ -107,7 +107,8 @@ fn split_name(name: &str) -> Option<(&str, &str)> {
     slashes.into_iter().find(|(prefix, rest)| fits(prefix, rest) && !rest.is_empty())
 }
 
-/// A `pax` record: its own length in decimal, a space, `KEY=VALUE` and a line break.
+/// Returns a `pax` record, which consists of its own length in decimal, a space, `KEY=VALUE` and a
+/// line break.
 fn pax_record(key: &str, value: &str) -> String {
     let rest = format!(" {key}={value}\n");
     let mut length = rest.len();
@@ -118,8 +119,8 @@ fn pax_record(key: &str, value: &str) -> String {
     format!("{length}{rest}")
 }
 
-/// Reads an archive written by [`append_file`]: `visit` gets the name and content of each file, and
-/// need not read it to the end.
+/// Reads an archive written by [`append_file`]: `visit` receives the name and content of each file
+/// and need not read the content to the end.
 ///
 /// # Errors
 /// If it cannot be read, is truncated, or has a damaged header.
@@ -141,7 +142,7 @@ pub(super) fn read_archive(
             u64::from_str_radix(text.trim_end_matches(['\0', ' ']), 8).ok()
         };
         if number(CHECKSUM) != Some(header_sum(&header).into()) {
-            return Err(damaged("the checksum of a header is wrong"));
+            return Err(damaged("a header has a wrong checksum"));
         }
         let size = number(SIZE).ok_or_else(|| damaged("a size is not a number"))?;
         let mut content = reader.take(size);
@@ -162,7 +163,7 @@ pub(super) fn read_archive(
     }
 }
 
-/// The name in the two fields of a header.
+/// Returns the name in the two fields of a header.
 fn header_name(header: &[u8; BLOCK_BYTES]) -> String {
     let text = |field: Range<usize>| {
         let bytes = header[field].split(|byte| *byte == 0).next().unwrap_or_default();
@@ -178,7 +179,7 @@ fn header_name(header: &[u8; BLOCK_BYTES]) -> String {
 mod tests {
     use super::*;
 
-    /// The names and contents in an archive.
+    /// Returns the names and contents in an archive.
     fn files_in(mut archive: &[u8]) -> Result<Vec<(String, Vec<u8>)>> {
         let mut files = Vec::new();
         read_archive(&mut archive, |name, content| {
@@ -227,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn fields_are_where_the_standard_has_them() {
+    fn fields_are_at_the_offsets_of_the_standard() {
         let archive = archive_of(&[("folder/a.png".to_owned(), b"12345678".to_vec())]);
         assert_eq!(archive.len(), 4 * 512);
         let text = |range: Range<usize>| std::str::from_utf8(&archive[range]).unwrap();
@@ -244,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn records_of_long_names_count_their_own_length() {
+    fn pax_records_count_their_own_length() {
         // 97 + 3 digits is 100, one more than with 2 digits.
         for length in 85..100 {
             let record = pax_record("path", &"n".repeat(length));
@@ -254,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn damage_is_noticed() {
+    fn damage_is_detected() {
         let archive = archive_of(&test_files());
         for cut in [0, 100, 512, 513, archive.len() / 2, archive.len() - 1024] {
             assert!(files_in(&archive[..cut]).is_err(), "{cut}");

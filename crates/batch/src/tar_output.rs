@@ -46,7 +46,8 @@ struct OpenTar {
 }
 
 impl TarOutput {
-    /// Creates an output without a tar file yet. `run_name` is the report's: `1-of-8.HOST.PID.RUN`.
+    /// Creates an output that has no tar file yet. `run_name` is the name of the run, such as
+    /// `1-of-8.HOST.PID.RUN`.
     pub(super) fn new(out_dir: &Path, run_name: &str, samples: u32) -> Self {
         let shard = run_name.split('.').next().unwrap_or(run_name);
         Self {
@@ -100,7 +101,8 @@ impl TarOutput {
         last.map_or(Ok(()), |open| self.finish_tar(open, &mut state.next, report))
     }
 
-    /// The tar file being written. A panic in another thread may have left half a sample.
+    /// Locks the state. If another thread panicked, the open tar file may contain half a sample and
+    /// is dropped.
     fn lock(&self) -> MutexGuard<'_, TarState> {
         self.state.lock().unwrap_or_else(|poison| {
             let mut state = PoisonError::into_inner(poison);
@@ -132,7 +134,7 @@ impl TarOutput {
         report.append_records(&records)
     }
 
-    /// Gives the temporary file the first free name, and returns it.
+    /// Renames the temporary file to the first free name, and returns the name.
     ///
     /// A hard link fails if another run has just taken the name; renaming would replace its file.
     fn name_tar(&self, next: &mut u32) -> Result<String, BatchError> {
@@ -154,7 +156,7 @@ impl TarOutput {
     }
 }
 
-/// A run that ends early leaves no temporary file.
+/// Removes the temporary file if the run ends early.
 impl Drop for TarOutput {
     fn drop(&mut self) {
         if self.lock().open.take().is_some() {
@@ -163,7 +165,7 @@ impl Drop for TarOutput {
     }
 }
 
-/// The name of an output in a tar file.
+/// Returns the name of an output in a tar file.
 ///
 /// Readers take the part of a file name before the first dot as the sample's key. Dots before the
 /// last are therefore written as `%2E`, and `%` as `%25`, so that different outputs have different
@@ -182,7 +184,7 @@ pub(super) fn sample_name(output: &str) -> String {
     format!("{folder}{stem}.{extension}")
 }
 
-/// An output with its extension replaced by `.json`.
+/// Returns an output with its extension replaced by `.json`.
 fn with_extension_json(output: &str) -> String {
     let stem = output.rsplit_once('.').filter(|(_, extension)| !extension.contains('/'));
     format!("{}.json", stem.map_or(output, |(stem, _)| stem))
@@ -196,7 +198,7 @@ mod tests {
     use crate::tar_format::read_archive;
     use crate::test_records::{ReportFolder, done_record};
 
-    /// The file names in a tar file.
+    /// Returns the file names in a tar file.
     fn names_in(folder: &ReportFolder, tar: &str) -> Vec<String> {
         let mut names = Vec::new();
         let mut file = File::open(folder.path().join(tar)).unwrap();
@@ -208,7 +210,7 @@ mod tests {
         names
     }
 
-    /// The output and tar file of each record.
+    /// Returns the output and tar file of each record.
     fn records_in(folder: &ReportFolder) -> Vec<(String, String)> {
         let mut records = Vec::new();
         read_reports(folder.path(), |record, _| {
@@ -242,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn runs_of_the_same_shard_take_other_names() {
+    fn runs_of_the_same_shard_use_different_names() {
         let folder = ReportFolder::new("tar-names");
         let runs = [0, 1].map(|_| {
             let report = ReportWriter::create(folder.path(), Shard::ALL_JOBS).unwrap();
@@ -262,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_that_ends_early_leaves_nothing() {
+    fn a_run_that_ends_early_leaves_no_files() {
         let folder = ReportFolder::new("tar-early");
         let report = ReportWriter::create(folder.path(), Shard::ALL_JOBS).unwrap();
         let tars = TarOutput::new(folder.path(), report.run_name(), 10);
@@ -273,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn names_of_samples_have_one_dot_and_are_different() {
+    fn sample_names_have_one_dot_and_are_different() {
         let outputs = ["a.b.png", "a%2Eb.png", "a_b.png", "x.y/a.png", "a", "..png"];
         let names = outputs.map(sample_name);
         let expected = ["a%2Eb.png", "a%252Eb.png", "a_b.png", "x.y/a.png", "a.", "%2E.png"];

@@ -1,4 +1,4 @@
-//! Templates of output names, such as `{stem}_{view}.png` or `frames/{frame:04}.png`.
+//! Output name templates, such as `{stem}_{view}.png` or `frames/{frame:04}.png`.
 //!
 //! ```text
 //! {stem}_{view}.png       fox_front.png
@@ -28,7 +28,7 @@ enum TemplatePart {
     Number(&'static str, usize),
 }
 
-/// The replacement for `%04d` (printf, ffmpeg) or `####` (Blender), if a name has one.
+/// Returns the replacement for `%04d` (printf, ffmpeg) or `####` (Blender), if a name contains one.
 fn counter_of_others(text: &str, number: &str) -> Option<String> {
     let hashes =
         text.find("##").map(|at| at..at + text[at..].chars().take_while(|c| *c == '#').count());
@@ -58,8 +58,8 @@ impl NameTemplate {
     /// a field up to the next `}`.
     ///
     /// # Errors
-    /// If a brace has no partner or a field is unknown; the message lists the known fields. Also if
-    /// there is another program's counter, `%04d` or `####`.
+    /// If a brace is unmatched, a field is unknown, or the name contains another program's counter,
+    /// `%04d` or `####`. The message about an unknown field lists the known ones.
     pub fn parse(
         text: &str,
         words: &[&'static str],
@@ -89,9 +89,9 @@ impl NameTemplate {
         Ok(Self { parts })
     }
 
-    /// Whether the template has this field.
+    /// Returns whether the template has this field.
     ///
-    /// Commands use it to tell a name for many files from a name for one.
+    /// Commands use it to distinguish a name for many files from a name for one file.
     #[must_use]
     pub fn has_field(&self, field: &str) -> bool {
         self.parts.iter().any(|part| match part {
@@ -102,7 +102,7 @@ impl NameTemplate {
 
     /// Returns the name with every field replaced by its value.
     ///
-    /// Characters that are not valid in a file name become `_`, so that a value cannot lead to
+    /// Characters that are not valid in a file name become `_`, so that a value cannot point to
     /// another folder. Only the field `{folder}` keeps its `/`.
     #[must_use]
     pub fn expand_fields(
@@ -163,7 +163,7 @@ fn parse_field(
     match (found(words), format) {
         (Some(word), None) => Ok(TemplatePart::Word(word)),
         (Some(_), Some(_)) => Err(format!(
-            "`{{{field}}}` in the template {text} is text and takes no digits\n  = help: write {{{name}}}"
+            "`{{{field}}}` in the template {text} is a text field and allows no digits\n  = help: write {{{name}}}"
         )),
         (None, _) => {
             let known = words.iter().chain(numbers).map(|name| format!("{{{name}}}"));
@@ -175,8 +175,7 @@ fn parse_field(
     }
 }
 
-/// Makes a value part of a file name: separators and characters that some system forbids become
-/// `_`.
+/// Makes a value part of a file name: separators and characters that any system forbids become `_`.
 ///
 /// The list follows Windows, which forbids all separators and control characters. The literal text
 /// of a template is not changed, because it may name folders.

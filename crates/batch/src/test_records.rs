@@ -3,7 +3,7 @@
 use super::report::{DONE, FAILED, JobRecord};
 use std::path::{Path, PathBuf};
 
-/// A record of a picture with 100 bytes.
+/// Returns the record of a picture with 100 bytes.
 pub(super) fn done_record(output: &str, key: &str) -> JobRecord {
     JobRecord {
         input: format!("models/{output}.glb"),
@@ -19,7 +19,7 @@ pub(super) fn done_record(output: &str, key: &str) -> JobRecord {
     }
 }
 
-/// A record of a failed job.
+/// Returns the record of a failed job.
 pub(super) fn failed_record(output: &str, key: &str) -> JobRecord {
     JobRecord {
         status: FAILED.to_owned(),
@@ -34,7 +34,7 @@ pub(super) fn failed_record(output: &str, key: &str) -> JobRecord {
 pub(super) struct ReportFolder(PathBuf);
 
 impl ReportFolder {
-    /// An empty folder named after the test.
+    /// Creates an empty folder named after the test.
     pub(super) fn new(name: &str) -> Self {
         let name = format!("alberti-batch-{name}-{}", std::process::id());
         let folder = std::env::temp_dir().join(name);
@@ -58,7 +58,7 @@ impl ReportFolder {
         self.add_text(name, text.as_bytes());
     }
 
-    /// The content of a file.
+    /// Returns the content of a file.
     pub(super) fn read_text(&self, name: &str) -> String {
         std::fs::read_to_string(self.0.join(name)).expect("a file")
     }

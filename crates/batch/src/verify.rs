@@ -55,7 +55,7 @@ enum Verdict {
     Whole,
     /// There is no record with its key, or no picture, for this reason.
     Missing(&'static str),
-    /// The picture is not the recorded one, for this reason.
+    /// The picture does not match its record, for this reason.
     Wrong(String),
     /// The job failed.
     Failed,
@@ -108,7 +108,7 @@ struct Verifier<'a> {
     contents: BTreeMap<u32, TarContent>,
 }
 
-/// The pictures of a tar file by the hashes of their names, or the reason why it cannot be read.
+/// The pictures in a tar file by the hashes of their names, or the reason why it cannot be read.
 type TarContent = Result<BTreeMap<u64, ContentDigest>, String>;
 
 /// A picture as recorded. Rendered pictures sort first.
@@ -140,8 +140,8 @@ impl<'a> Verifier<'a> {
         Ok(Self { out_dir, records, tars: names, contents: BTreeMap::new() })
     }
 
-    /// Whether a job's picture is intact according to any of its records; if not, the problem with
-    /// the last record.
+    /// Returns the verdict on a job's picture, which is intact if any of its records matches;
+    /// otherwise the verdict is the problem with its last record.
     fn verify_job(&mut self, job: &BatchJob, key: &str) -> Verdict {
         let hash = record_hash(&job.output, key);
         let begin = self.records.partition_point(|(other, _)| *other < hash);
@@ -188,12 +188,12 @@ impl<'a> Verifier<'a> {
         };
         match found {
             Ok(found) if found == recorded => Verdict::Whole,
-            Ok(_) => Verdict::Wrong("its SHA-256 is not the recorded one".to_owned()),
+            Ok(_) => Verdict::Wrong("its SHA-256 does not match the record".to_owned()),
             Err(fault) => Verdict::Wrong(fault),
         }
     }
 
-    /// The picture in a tar file; each tar file is read only once.
+    /// Returns the picture in a tar file; each tar file is read only once.
     fn picture_in_tar(&mut self, output: &str, tar: u32) -> Result<ContentDigest, String> {
         let (name, out_dir) = (&self.tars[tar as usize], self.out_dir);
         let content = self.contents.entry(tar).or_insert_with(|| read_tar(&out_dir.join(name)));
@@ -208,7 +208,7 @@ fn open_file(path: &Path) -> std::io::Result<File> {
     if path.metadata()?.is_file() { File::open(path) } else { Err(ErrorKind::NotFound.into()) }
 }
 
-/// The size and SHA-256 of each picture in a tar file.
+/// Returns the size and SHA-256 of each picture in a tar file.
 fn read_tar(path: &Path) -> TarContent {
     let mut pictures = BTreeMap::new();
     let file = open_file(path).map_err(|cause| cause.to_string())?;
@@ -220,7 +220,7 @@ fn read_tar(path: &Path) -> TarContent {
 }
 
 impl RecordedPicture {
-    /// The picture of a record; `None` if its SHA-256 is invalid.
+    /// Returns the picture of a record, or `None` if its SHA-256 is invalid.
     fn from_line(record: &RecordLine<'_>, tar: Option<u32>) -> Option<Self> {
         if !record.is_done() {
             return Some(Self::Failed);
@@ -240,13 +240,13 @@ mod tests {
     use crate::test_records::{ReportFolder, done_record, failed_record};
     use std::path::PathBuf;
 
-    /// The record of a picture with these bytes.
+    /// Returns the record of a picture with these bytes.
     fn record_of(output: &str, picture: &[u8]) -> JobRecord {
         let sha256 = hexadecimal_sha256(picture);
         JobRecord { bytes: picture.len() as u64, sha256, ..done_record(output, "k") }
     }
 
-    /// The verdict on an output with the key `k`.
+    /// Returns the verdict on an output with the key `k`.
     fn verdict(folder: &ReportFolder, output: &str) -> Verdict {
         let (input, output) = (PathBuf::from("a.glb"), output.to_owned());
         let job =
@@ -255,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_are_whole_missing_wrong_or_failed() {
+    fn pictures_are_intact_missing_wrong_or_failed() {
         let folder = ReportFolder::new("verify");
         let mut other_key = record_of("old.png", b"1");
         other_key.key = "k0".to_owned();
@@ -313,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn counts_say_whether_all_is_whole() {
+    fn counts_show_whether_every_picture_is_intact() {
         let mut counts = VerdictCounts::default();
         assert_eq!(counts.count_verdict(&Verdict::Whole), None);
         assert!(counts.is_all_whole());

@@ -15,7 +15,7 @@ const MAX_ERROR_BYTES: usize = 2_048;
 /// The maximum size of a picture that is sent through the pipe.
 const MAX_PICTURE_BYTES: u64 = 1 << 32;
 
-/// Makes the command for the program whose hidden command `batch-worker` is a worker.
+/// Creates the command for the program, whose hidden command `batch-worker` is a worker.
 pub type WorkerProgram<'a> = &'a (dyn Fn() -> std::io::Result<Command> + Sync);
 
 /// A running worker.
@@ -26,14 +26,14 @@ pub(super) struct WorkerProcess {
     /// The end of its standard error output, and the thread that reads it.
     error_text: Arc<Mutex<Vec<u8>>>,
     error_reader: Option<JoinHandle<()>>,
-    /// The number of its answers.
+    /// The number of answers so far.
     answer_count: u64,
 }
 
-/// The reason why a worker gave no answer.
+/// The reason why a worker did not answer.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum WorkerEnd {
-    /// It exceeded its time limit and was ended.
+    /// It exceeded its time limit and was killed.
     TimedOut,
     /// A signal ended it, from inside or outside.
     Signal(i32),
@@ -74,7 +74,8 @@ impl WorkerProcess {
         Ok(Self { child, requests, answers, error_text, error_reader, answer_count: 0 })
     }
 
-    /// Whether the worker has not answered anything yet, so no earlier job can have corrupted it.
+    /// Returns whether the worker has not answered any request yet, so no earlier job can have
+    /// corrupted it.
     pub(super) const fn is_fresh(&self) -> bool {
         self.answer_count == 0
     }
@@ -93,7 +94,7 @@ impl WorkerProcess {
         Ok(())
     }
 
-    /// The next answer, and the picture that comes with it.
+    /// Returns the next answer and the picture that follows it.
     ///
     /// # Errors
     /// If there is no answer in time, or the worker has ended; the worker is then gone.
@@ -185,7 +186,7 @@ fn read_answers(stdout: ChildStdout, sender: &Sender<(WorkAnswer, Vec<u8>)>) {
     }
 }
 
-/// Stores the end of a standard error stream.
+/// Stores the last bytes of a standard error stream.
 fn keep_error_text(mut stderr: ChildStderr, text: &Mutex<Vec<u8>>) {
     let mut buffer = [0; 1_024];
     while let Ok(length @ 1..) = stderr.read(&mut buffer) {

@@ -66,12 +66,12 @@ pub const ENTRIES: &[Entry] = &[
     }),
 ];
 
-/// The basis of **g** and **t**.
+/// Returns the basis of **g** and **t**.
 fn basis(v: &Inputs<'_>) -> Result<Basis, Box<dyn Error>> {
     Ok(Basis::from_gaze(v.vector("g")?.into(), v.vector("t")?.into())?)
 }
 
-/// The camera of **e**, **g** and **t**.
+/// Returns the camera of **e**, **g** and **t**.
 pub fn camera(v: &Inputs<'_>) -> Result<Camera, Box<dyn Error>> {
     let (e, g, t) = (v.vector("e")?, v.vector("g")?, v.vector("t")?);
     Ok(Camera::look_to(e.into(), g.into(), t.into())?)
@@ -104,7 +104,8 @@ fn components(
     names.into_iter().zip(<[f64; 3]>::from(vector)).map(|(name, number)| (name, number.into()))
 }
 
-/// The position of a pixel on the window: back through the viewport and the box of the window.
+/// Returns the position of a pixel on the window: back through the viewport and the box of the
+/// window.
 fn place_on_window(
     [l, r, b, t]: [f64; 4],
     [n_x, n_y]: [f64; 2],

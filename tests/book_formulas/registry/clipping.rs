@@ -41,7 +41,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry::new("IN-2.triangle", IN_TRIANGLE, triangle_attribute),
 ];
 
-/// The values of planes at a point: a number for one plane, a column for several.
+/// Returns the values of planes at a point: a number for one plane, a column for several.
 fn distances<const N: usize>(
     volume: &Volume,
     planes: [PlaneIndex; N],
@@ -57,8 +57,8 @@ fn along_x<const N: usize>(v: &Inputs<'_>, planes: [PlaneIndex; N]) -> Answer {
     distances(&Volume::OPENGL, planes, HPoint::new(x, 0.0, 0.0, w))
 }
 
-/// A segment in clip space whose ends have these values at the left plane, up to a common factor,
-/// and are inside the other planes.
+/// Returns a segment in clip space whose ends have these values at the left plane, up to a common
+/// factor, and are inside the other planes.
 fn segment_parameter([a, b]: [f64; 2]) -> Answer {
     let largest = a.abs().max(b.abs());
     let end = |value: f64| HPoint::new(value / largest - 1.0, 0.0, 0.0, 1.0);
@@ -70,7 +70,7 @@ fn segment_parameter([a, b]: [f64; 2]) -> Answer {
     }
 }
 
-/// A triangle whose edge from the first to the second vertex crosses the left plane.
+/// Returns a triangle whose edge from the first to the second vertex crosses the left plane.
 fn polygon_parameter(v: &Inputs<'_>) -> Result<f64, Box<dyn Error>> {
     let [inside, outside] = v.these::<2>("d_a d_b")?;
     if inside < 0.0 || outside >= 0.0 {

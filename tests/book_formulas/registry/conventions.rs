@@ -79,7 +79,7 @@ fn endless(
     Ok(matrix(theta, aspect, near)?)
 }
 
-/// An entry of the third row.
+/// Returns an entry of the third row.
 fn entry_of(matrix: Matrix, column: usize) -> Answer {
     give(matrix.rows()[2][column])
 }

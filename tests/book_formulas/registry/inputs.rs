@@ -21,7 +21,7 @@ impl<'a> Inputs<'a> {
         Self { variables, values }
     }
 
-    /// All variables of an entry that has only numbers, in order.
+    /// Returns all variables of an entry that has only numbers, in order.
     pub fn numbers<const N: usize>(&self) -> Result<[f64; N], Box<dyn Error>> {
         self.these(self.variables)
     }
@@ -34,7 +34,7 @@ impl<'a> Inputs<'a> {
         numbers.try_into().map_err(|_| format!("{count} variables, not {N}").into())
     }
 
-    /// A number; z-coordinates of planes are also found from distances, and vice versa.
+    /// Returns a number; z-coordinates of planes are also found from distances, and vice versa.
     pub fn number(&self, name: &str) -> Result<f64, String> {
         let key = Name::parse(name).key();
         if let Some(value) = self.values.get(&key) {
@@ -51,7 +51,7 @@ impl<'a> Inputs<'a> {
         value.ok_or_else(|| format!("`{key}` has no value"))
     }
 
-    /// A bold name, or its components `p_x p_y p_z` or `x_p y_p z_p`.
+    /// Returns a bold name, or its components `p_x p_y p_z` or `x_p y_p z_p`.
     pub fn vector(&self, letter: &str) -> Result<[f64; 3], String> {
         if let Some(value) = self.values.get(&Name::bold(letter)) {
             return value.to_column().map_err(|error| format!("`{letter}`: {error}"));
@@ -62,7 +62,7 @@ impl<'a> Inputs<'a> {
         Ok([x?, y?, z?])
     }
 
-    /// Whether an entry with these variables takes a value for this name.
+    /// Returns whether an entry with these variables takes a value for this name.
     pub fn takes(variables: &str, name: &Name) -> bool {
         variables.split_whitespace().any(|variable| {
             let wanted = Name::parse(variable).key();

@@ -85,7 +85,7 @@ fn unprojector(v: &Inputs<'_>) -> Result<Unprojector<World>, Box<dyn Error>> {
     Ok(screen(v)?.unprojector(clip_to_world))
 }
 
-/// The unprojected points on the near and the far plane, which are at depth 1 and −1.
+/// Returns the unprojected points on the near and the far plane, which are at depth 1 and −1.
 fn ray_extras(v: &Inputs<'_>) -> Extras {
     let [x, y] = v.these("x_s y_s")?;
     let unprojector = unprojector(v)?;
@@ -101,7 +101,7 @@ fn plane(v: &Inputs<'_>) -> Result<Plane<World>, Box<dyn Error>> {
     Ok(Plane::through(v.vector("p")?.into(), Normal::new(x, y, z)))
 }
 
-/// The segment clipped by the plane, in a volume that is wide enough.
+/// Returns the segment clipped by the plane, in a volume that is wide enough.
 fn crossing(v: &Inputs<'_>) -> Answer {
     let end = |letter| v.vector(letter).map(|[x, y, z]| HPoint::<Clip>::new(x, y, z, 1.0));
     let shrink = |p: HPoint<Clip>| HPoint::new(p.x(), p.y(), p.z(), 1024.0 * p.w());

@@ -70,7 +70,7 @@ pub const ENTRIES: &[Entry] = &[
     }),
 ];
 
-/// A whole number of pixels or rows, at least 0.
+/// Returns a whole number of pixels or rows, at least 0.
 pub fn pixels(number: f64) -> Result<u32, String> {
     let whole = (0..=16384).find(|&whole: &u32| f64::from(whole) == number);
     whole.ok_or_else(|| format!("{number} is not a number of pixels"))
@@ -133,7 +133,7 @@ fn corners(v: &Inputs<'_>) -> Result<[ScreenVertex; 3], Box<dyn Error>> {
     Ok([vertex(x_0, y_0)?, vertex(x_1, y_1)?, vertex(x_2, y_2)?])
 }
 
-/// The edge functions at (x, y), each for the edge opposite its vertex.
+/// Returns the edge functions at (x, y), each for the edge opposite its vertex.
 fn edges(v: &Inputs<'_>) -> Result<[f64; 3], Box<dyn Error>> {
     let ([a, b, c], [x, y]) = (corners(v)?, v.these("x y")?);
     let sample = vertex(x, y)?;

@@ -99,7 +99,7 @@ fn triple(numbers: &mut Numbers<'_>) -> [f64; 3] {
     [(); 3].map(|()| number(numbers))
 }
 
-/// A number: any 64 bits, or one of ordinary size.
+/// Returns a number: any 64 bits, or one of ordinary size.
 fn number(numbers: &mut Numbers<'_>) -> f64 {
     match numbers.byte() % 8 {
         0 => f64::from_le_bytes(numbers.take()),

@@ -33,7 +33,7 @@ pub fn run(work: impl Fn()) {
     }
 }
 
-/// The time that all threads of this process have run.
+/// Returns the time that all threads of this process have run.
 fn processor_time() -> Duration {
     let Ok(usage) = getrusage(UsageWho::RUSAGE_SELF) else { return Duration::ZERO };
     let micros = |time: nix::sys::time::TimeVal| {

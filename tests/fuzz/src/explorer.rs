@@ -51,7 +51,7 @@ pub fn query(bytes: &[u8]) {
     });
 }
 
-/// The size of the picture, if a query names one.
+/// Returns the size of the picture, if a query names one.
 fn pixels(query: &str) -> Option<u64> {
     let size = query.split('&').find_map(|pair| pair.strip_prefix("size="))?;
     let sides = size.split(['x', '%']).map(|side| side.parse::<u64>().unwrap_or(0));

@@ -5,8 +5,8 @@ mod write;
 
 pub use write::encode_glb as glb;
 
-/// The JSON and the binary chunk of a file, or of a bare JSON text. Declared lengths are not
-/// trusted: the second chunk is where its name is.
+/// Returns the JSON and the binary chunk of a file, or of a bare JSON text. Declared lengths are
+/// not trusted: the second chunk is where its name is.
 pub fn parts(file: &[u8]) -> (&[u8], &[u8]) {
     if !file.starts_with(b"glTF") || file.len() < 20 {
         return (file, &[]);

@@ -27,7 +27,7 @@ pub fn list(bytes: &[u8]) {
     assert!(code == 1 || code == 0 && !has_jobs(list), "`batch --verify` ends with {code}");
 }
 
-/// Whether there is more than white space and a header in a list.
+/// Returns whether there is more than white space and a header in a list.
 fn has_jobs(list: &[u8]) -> bool {
     list.split(|byte| *byte == b'\n').filter(|line| !line.trim_ascii().is_empty()).count() > 1
 }

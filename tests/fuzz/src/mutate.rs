@@ -20,7 +20,8 @@ impl Random {
     }
 }
 
-/// A variation of the file's JSON with its data unchanged; `None` if it is better to change bytes.
+/// Returns a variation of the file's JSON with its data unchanged, or `None` if it is better to
+/// change bytes.
 pub fn file(file: &[u8], seed: u32) -> Option<Vec<u8>> {
     let mut random = Random(seed.into());
     if random.below(4) == 0 {
@@ -36,7 +37,7 @@ pub fn file(file: &[u8], seed: u32) -> Option<Vec<u8>> {
     Some(if is_binary { glb::glb(text.as_bytes(), binary) } else { text.into_bytes() })
 }
 
-/// The number of values, including the value itself.
+/// Returns the number of values, including the value itself.
 fn size(value: &Value) -> usize {
     1 + match value {
         Value::Array(elements) => elements.iter().map(size).sum(),
@@ -45,7 +46,7 @@ fn size(value: &Value) -> usize {
     }
 }
 
-/// The value with a number, counted from the value itself.
+/// Returns the value with a number, counted from the value itself.
 fn nth(value: &mut Value, mut number: usize) -> Option<&mut Value> {
     if number == 0 {
         return Some(value);
@@ -96,7 +97,7 @@ fn change(document: &mut Value, random: &mut Random) {
     }
 }
 
-/// A number near another one.
+/// Returns a number near another one.
 fn near(number: &Value, random: &mut Random) -> Value {
     let step = [1i64, -1, 2, 4, 100][random.below(5)];
     match (number.as_i64(), number.as_f64()) {

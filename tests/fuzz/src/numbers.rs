@@ -4,7 +4,7 @@
 pub struct Numbers<'a>(pub &'a [u8]);
 
 impl Numbers<'_> {
-    /// The next bytes.
+    /// Returns the next bytes.
     pub fn take<const N: usize>(&mut self) -> [u8; N] {
         let (now, later) = self.0.split_at(N.min(self.0.len()));
         self.0 = later;
@@ -13,7 +13,7 @@ impl Numbers<'_> {
         bytes
     }
 
-    /// The next byte.
+    /// Returns the next byte.
     pub fn byte(&mut self) -> u8 {
         u8::from_le_bytes(self.take())
     }

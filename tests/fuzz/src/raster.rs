@@ -6,7 +6,8 @@ use homog::{PixelRect, Point};
 use raster::{Frame, Opacity, Samples, ScreenVertex, SimdLevel, VisibilityBuffer};
 
 impl Numbers<'_> {
-    /// A coordinate: any 64 bits, or one near the picture, on the grid or between its steps.
+    /// Returns a coordinate: any 64 bits, or one near the picture, on the grid or between its
+    /// steps.
     fn number(&mut self) -> f64 {
         match self.byte() % 8 {
             0 => f64::from_le_bytes(self.take()),

@@ -146,7 +146,7 @@ pub fn image(bytes: &[u8]) {
 const CORNERS: &str =
     "data:application/octet-stream;base64,AAECAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAA==";
 
-/// The file for a document without the boilerplate.
+/// Returns the file for a document without the boilerplate.
 fn whole(mut document: Value, bytes: &[u8]) -> Vec<u8> {
     document["asset"] = json!({"version": "2.0"});
     document["scene"] = json!(0);

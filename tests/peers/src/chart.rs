@@ -16,7 +16,7 @@ const HEADING: f64 = 34.0;
 const LEAST: f64 = 0.25;
 const MOST: f64 = 256.0;
 
-/// The SVG.
+/// Returns the SVG.
 pub fn svg(figures: &Figures) -> String {
     let rows = |heat: &Heat| HEADING + ROW * heat.series.len() as f64;
     let height = 60.0 + figures.scenes.iter().map(rows).sum::<f64>();
@@ -34,7 +34,7 @@ pub fn svg(figures: &Figures) -> String {
     text + "</svg>\n"
 }
 
-/// The position of a ratio on the scale.
+/// Returns the position of a ratio on the scale.
 fn place(ratio: f64) -> f64 {
     let share = libm::log2(ratio.clamp(LEAST, MOST) / LEAST) / libm::log2(MOST / LEAST);
     LEFT + share * (RIGHT - LEFT)

@@ -16,7 +16,7 @@ pub struct Took {
     pub wall: Duration,
 }
 
-/// The CPU time this process has used so far.
+/// Returns the CPU time this process has used so far.
 fn cpu() -> Duration {
     clock_gettime(ClockId::CLOCK_PROCESS_CPUTIME_ID).map_or(Duration::ZERO, Duration::from)
 }
@@ -39,8 +39,8 @@ pub struct Cost {
     pub peak: u64,
 }
 
-/// The cost of the programs that this process has started and that have ended. Start only one,
-/// because the peak is the largest program's.
+/// Returns the cost of the programs that this process has started and that have ended. Start only
+/// one, because the peak is the largest program's.
 pub fn children(wall: Duration) -> Option<Cost> {
     let usage = getrusage(UsageWho::RUSAGE_CHILDREN).ok()?;
     let time = |t: nix::sys::time::TimeVal| {

@@ -19,7 +19,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// Whether to measure something with this name.
+    /// Returns whether to measure something with this name.
     pub fn wants(&self, name: &str) -> bool {
         self.only.is_empty() || self.only.iter().any(|part| name.contains(part.as_str()))
     }
@@ -106,7 +106,7 @@ fn heat(scene: &Scene, gl: Option<&Rc<Context>>, count: usize) -> Result<Heat, S
     Ok(Heat { scene: scene.name, about: scene.about.clone(), series, agreements })
 }
 
-/// All contestants that can draw the scene.
+/// Returns all contestants that can draw the scene.
 fn peers<'a>(
     scene: &'a Scene,
     gl: Option<&Rc<Context>>,
@@ -162,8 +162,8 @@ fn agreement(peer: String, ours: &[[u8; 4]], theirs: &[[u8; 4]]) -> Agreement {
     found
 }
 
-/// The limits, measured in the same rounds as the scenes that are compared with them. The first
-/// kernel is called `kernel`; the others are named after their instructions.
+/// Returns the limits, measured in the same rounds as the scenes that are compared with them. The
+/// first kernel is called `kernel`; the others are named after their instructions.
 pub fn bounds(count: usize) -> Result<Vec<Series>, String> {
     eprintln!("limits: clearing, the innermost loop, layers");
     let back = layers("back to front, flat", 50, Order::BackToFront, false)?;

@@ -103,7 +103,7 @@ fn f3d() -> Result<Viewer, String> {
     Ok(Viewer { name: "f3d", program, display: Some(display) })
 }
 
-/// The first line of f3d's description of itself.
+/// Returns the first line of f3d's description of itself.
 pub fn f3d_version() -> Option<String> {
     let output = Command::new("f3d").arg("--version").output().ok()?;
     let text = String::from_utf8_lossy(&output.stdout).into_owned();

@@ -152,7 +152,7 @@ impl Context {
         Ok(Some(Self { gl, _picture: RefCell::new(picture), _context: context }))
     }
 
-    /// The renderer's name, with its version.
+    /// Returns the renderer's name, with its version.
     pub fn renderer(&self) -> String {
         let text = |which| {
             // SAFETY: the result is null or a static string that ends in 0.
@@ -166,7 +166,7 @@ impl Context {
         format!("{}, {}", text(name::RENDERER), text(name::VERSION))
     }
 
-    /// A picture of 8-bit RGBA with 32-bit float depth.
+    /// Returns a picture of 8-bit RGBA with 32-bit float depth.
     pub fn framebuffer(&self, size: (u32, u32), samples: u32) -> Result<Framebuffer, String> {
         let samples = if samples == 1 { 0 } else { samples as c_int };
         let mut framebuffer = 0;
@@ -357,7 +357,7 @@ impl Context {
         unsafe { (self.gl.finish)() }
     }
 
-    /// The pixels of a picture with one sample, rows from the top.
+    /// Returns the pixels of a picture with one sample, rows from the top.
     pub fn read(&self, from: &Framebuffer) -> Vec<[u8; 4]> {
         let (width, height) = from.size;
         let mut pixels = vec![[0_u8; 4]; width as usize * height as usize];
@@ -375,7 +375,7 @@ impl Context {
 }
 
 impl Geometry {
-    /// The triangles of a range of indices.
+    /// Returns the triangles of a range of indices.
     pub fn part(
         &self,
         indices: Range<usize>,

@@ -20,7 +20,7 @@ pub struct Goal {
 }
 
 impl Goal {
-    /// Whether the median keeps the bound.
+    /// Returns whether the median keeps the bound.
     pub fn met(&self) -> bool {
         if self.at_least {
             self.reached.median >= self.wanted
@@ -51,7 +51,7 @@ const FASTER: [(&str, &str, f64); 14] = [
 /// The models whose CPU time must be at most a fifth of f3d's.
 const HELD_TO_F3D: [&str; 2] = ["flight-helmet", "cave"];
 
-/// The goals that have figures.
+/// Returns the goals that have figures.
 pub fn goals(figures: &Figures) -> Vec<Goal> {
     let mut found = faster(figures);
     found.extend(instructions(figures));
@@ -160,7 +160,7 @@ fn files(figures: &Figures) -> Vec<Goal> {
     found
 }
 
-/// The first time as a multiple of the second.
+/// Returns the first time as a multiple of the second.
 fn over(series: &[Series], first: &str, second: &str) -> Option<Spread> {
     let find = |name: &str| series.iter().find(|series| series.name == name);
     find(first)?.over(find(second)?)

@@ -51,7 +51,7 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    /// One for each set of vector instructions from AVX2 (or the best available) upward.
+    /// Returns one for each set of vector instructions from AVX2 (or the best available) upward.
     pub fn all() -> Vec<Self> {
         let best = Level::new();
         let mut levels = vec![best];
@@ -67,7 +67,7 @@ impl Kernel {
         Self { depth: vec![0.0; TILE], number: vec![0; TILE], level }
     }
 
-    /// The instructions in use.
+    /// Returns the instructions in use.
     pub fn level(&self) -> String {
         let text = format!("{:?}", self.level);
         text.split('(').next().unwrap_or(&text).to_owned()

@@ -118,7 +118,7 @@ fn run(arguments: &[String]) -> Result<(), String> {
     write("raster.svg", chart::svg(&figures))
 }
 
-/// The llvmpipe context; warns clearly if there is none.
+/// Returns the llvmpipe context; warns clearly if there is none.
 fn llvmpipe() -> Result<Option<Rc<gl::Context>>, String> {
     // Mesa reads it when loaded; its threads would make CPU times incomparable.
     if std::env::var_os("LP_NUM_THREADS").is_none_or(|threads| threads != "0") {

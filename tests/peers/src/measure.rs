@@ -57,8 +57,8 @@ pub fn rounds(contestants: &mut [Contestant<'_>], rounds: usize) -> Vec<Series> 
     series
 }
 
-/// Whether a contestant that took `warm` to warm up runs in this round; its rounds are spread over
-/// all.
+/// Returns whether a contestant that took `warm` to warm up runs in this round; its rounds are
+/// spread over all.
 fn takes_part(warm: Duration, round: usize, rounds: usize) -> bool {
     let affordable = PATIENCE.as_secs_f64() / warm.as_secs_f64().max(1e-9);
     let runs = (affordable as usize).clamp(3.min(rounds), rounds);
@@ -66,12 +66,12 @@ fn takes_part(warm: Duration, round: usize, rounds: usize) -> bool {
 }
 
 impl Series {
-    /// Its times in seconds.
+    /// Returns its times in seconds.
     pub fn spread(&self) -> Option<Spread> {
         Spread::of(self.times.iter().flatten().copied())
     }
 
-    /// Its times as multiples of those for `other`, round by round.
+    /// Returns its times as multiples of those for `other`, round by round.
     pub fn over(&self, other: &Self) -> Option<Spread> {
         let both = self.times.iter().zip(&other.times);
         Spread::of(both.filter_map(|(mine, its)| Some((*mine)? / (*its)?)))
@@ -79,7 +79,7 @@ impl Series {
 }
 
 impl Spread {
-    /// The spread of some figures; `None` if there are none.
+    /// Returns the spread of some figures, or `None` if there are none.
     pub fn of(figures: impl Iterator<Item = f64>) -> Option<Self> {
         let mut sorted: Vec<f64> = figures.collect();
         sorted.sort_by(f64::total_cmp);
@@ -91,7 +91,7 @@ impl Spread {
         Some(Self { low, median, high })
     }
 
-    /// A copy with every figure multiplied.
+    /// Creates a copy with every figure multiplied.
     pub fn times(self, factor: f64) -> Self {
         Self { low: self.low * factor, median: self.median * factor, high: self.high * factor }
     }

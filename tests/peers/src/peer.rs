@@ -16,17 +16,17 @@ use ::raster::{F32x8, LANES};
 
 /// A rasterizer with a scene in its buffers.
 pub trait Peer {
-    /// The name in reports.
+    /// Returns the name in reports.
     fn name(&self) -> String;
 
-    /// Whether its picture can be compared with ours: same colors, one sample per pixel.
+    /// Returns whether its picture can be compared with ours: same colors, one sample per pixel.
     fn is_comparable(&self) -> bool;
 
     /// Draws one frame from the buffers, including the clear but not the readback. This is
     /// measured.
     fn draw(&mut self);
 
-    /// The last frame drawn, rows from the top; alpha is 0 where nothing was drawn.
+    /// Returns the last frame drawn, rows from the top; alpha is 0 where nothing was drawn.
     fn pixels(&mut self) -> Vec<[u8; 4]>;
 }
 

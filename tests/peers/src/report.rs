@@ -27,7 +27,7 @@ pub struct Figures {
     pub files: Vec<FileHeat>,
 }
 
-/// The table of a scene. Writing to a `String` cannot fail, here and below.
+/// Returns the table of a scene. Writing to a `String` cannot fail, here and below.
 pub fn scene(heat: &Heat) -> String {
     let mut text = format!("\n{}: {}\n", heat.scene, heat.about);
     table(&mut text, &heat.series, ["raster", "render"]);
@@ -41,14 +41,14 @@ pub fn scene(heat: &Heat) -> String {
     text
 }
 
-/// The table of the limits.
+/// Returns the table of the limits.
 pub fn limits(series: &[Series]) -> String {
     let mut text = format!("\nlimits: fifty layers, and the kernel, are {KERNEL_PIXELS} pixels\n");
     table(&mut text, series, ["clear", "kernel"]);
     text
 }
 
-/// The table of the shading's features.
+/// Returns the table of the shading's features.
 pub fn features(series: &[Series]) -> String {
     let mut text = String::new();
     if !series.is_empty() {
@@ -58,7 +58,7 @@ pub fn features(series: &[Series]) -> String {
     text
 }
 
-/// The table for a model that was drawn from its file.
+/// Returns the table for a model that was drawn from its file.
 pub fn file(heat: &FileHeat) -> String {
     let mut text = format!("\n{}: file to PNG, CPU time of the process\n", heat.model);
     table(&mut text, &heat.cpu, ["alberti", "f3d"]);
@@ -87,7 +87,7 @@ fn table(text: &mut String, series: &[Series], bases: [&str; 2]) {
     }
 }
 
-/// The table of the threads.
+/// Returns the table of the threads.
 pub fn threads(threads: &[Threads]) -> String {
     let mut text = String::new();
     if !threads.is_empty() {
@@ -104,7 +104,7 @@ pub fn threads(threads: &[Threads]) -> String {
     text
 }
 
-/// The goals with their results.
+/// Returns the goals with their results.
 pub fn held_to(figures: &Figures) -> String {
     let mut text = String::from("\ngoals\n");
     for goal in goals(figures) {
@@ -117,12 +117,12 @@ pub fn held_to(figures: &Figures) -> String {
     text
 }
 
-/// A median with its spread.
+/// Returns a median with its spread.
 fn shown(Spread { low, median, high }: Spread) -> String {
     format!("{median:.2} ({low:.2} … {high:.2})")
 }
 
-/// The figures for other programs.
+/// Returns the figures for other programs.
 pub fn to_json(figures: &Figures) -> Value {
     let scenes = figures.scenes.iter().map(|heat| {
         let apart = heat.agreements.iter().map(|found| {

@@ -95,7 +95,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The number of triangles.
+    /// Returns the number of triangles.
     pub fn triangles(&self) -> usize {
         self.indices.len() / 3
     }
@@ -105,7 +105,7 @@ impl Scene {
         self.camera.world_to_view().then_project(self.view_to_clip(convention))
     }
 
-    /// The projection's matrix in a convention.
+    /// Returns the projection's matrix in a convention.
     pub fn view_to_clip(&self, convention: Convention) -> Projective<homog::View, Clip> {
         match self.lens {
             Lens::Perspective(lens) => lens.view_to_clip(convention),
@@ -118,8 +118,8 @@ impl Scene {
 pub const TEXTURE_SCALE: f32 = 1.0 / 255.0;
 
 impl Texture {
-    /// A board of two colors with softly varying brightness, `size` × `size` texels in `fields` ×
-    /// `fields` squares.
+    /// Creates a board of two colors with softly varying brightness, `size` × `size` texels in
+    /// `fields` × `fields` squares.
     pub fn board(size: usize, fields: usize, colors: [[u8; 3]; 2]) -> Self {
         let texel = |n: usize| {
             let (x, y) = (n % size, n / size);
@@ -130,8 +130,8 @@ impl Texture {
         Self { width: size, height: size, rgba: (0..size * size).map(texel).collect() }
     }
 
-    /// The color at texture coordinates, 0 to 1 each: the shaders of all Rust rasterizers read it
-    /// like this.
+    /// Returns the color at texture coordinates, 0 to 1 each: the shaders of all Rust rasterizers
+    /// read it like this.
     #[inline]
     pub fn bilinear(&self, [u, v]: [f32; 2]) -> [f32; 3] {
         let (x, y) = (u * self.width as f32 - 0.5, v * self.height as f32 - 0.5);
@@ -149,14 +149,14 @@ impl Texture {
     }
 }
 
-/// The largest whole number not above `x`.
+/// Returns the largest whole number not above `x`.
 #[inline(always)]
 pub fn floor_of(x: f32) -> i32 {
     let cut = x as i32;
     cut - i32::from(cut as f32 > x)
 }
 
-/// The texel that is read for number `at` of a repeated row.
+/// Returns the texel that is read for number `at` of a repeated row.
 #[inline(always)]
 pub fn wrap(at: i32, size: usize) -> usize {
     if size.is_power_of_two() {
@@ -165,7 +165,7 @@ pub fn wrap(at: i32, size: usize) -> usize {
     at.rem_euclid(size as i32) as usize
 }
 
-/// The share of light that a surface with this normal sends to the eye.
+/// Returns the share of light that a surface with this normal sends to the eye.
 #[inline(always)]
 pub fn light(normal: [f32; 3]) -> f32 {
     let [x, y, z] = normal;

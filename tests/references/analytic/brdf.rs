@@ -23,17 +23,17 @@ pub struct Material {
 }
 
 impl Material {
-    /// An opaque dielectric.
+    /// Creates an opaque dielectric.
     pub fn dielectric(base_color: [f64; 3], roughness: f64) -> Self {
         Self { base_color, alpha: 1.0, metallic: 0.0, roughness, unlit: false }
     }
 
-    /// An opaque metal.
+    /// Creates an opaque metal.
     pub fn metal(base_color: [f64; 3], roughness: f64) -> Self {
         Self { metallic: 1.0, ..Self::dielectric(base_color, roughness) }
     }
 
-    /// An unlit color, blended over the surfaces behind it.
+    /// Creates an unlit color, blended over the surfaces behind it.
     pub fn unlit(base_color: [f64; 3], alpha: f64) -> Self {
         Self { unlit: true, alpha, ..Self::dielectric(base_color, 1.0) }
     }

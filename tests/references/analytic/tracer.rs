@@ -70,7 +70,7 @@ impl Shape {
 }
 
 impl World {
-    /// The picture, one sample per pixel.
+    /// Returns the picture, one sample per pixel.
     pub fn render(&self, width: u32, height: u32) -> Picture {
         let Camera { eye, target, up, fov_y_degrees } = self.camera;
         let backward = (eye - target).normalize();
@@ -87,8 +87,8 @@ impl World {
         Picture { width, height, pixels: pixels.collect() }
     }
 
-    /// The color along a ray: all surfaces from back to front, each blended over those behind it,
-    /// in linear light.
+    /// Returns the color along a ray: all surfaces from back to front, each blended over those
+    /// behind it, in linear light.
     fn trace(&self, eye: DVec3, direction: DVec3) -> [u8; 3] {
         let hit = |surface: &Surface| {
             let (distance, normal) = surface.shape.intersect(eye, direction)?;
@@ -116,7 +116,7 @@ fn decode_srgb(code: u8) -> f64 {
     if encoded <= 0.04045 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) }
 }
 
-/// The sRGB code nearest to linear light, which is clamped to 0 to 1.
+/// Returns the sRGB code nearest to linear light, which is clamped to 0 to 1.
 fn encode_srgb(light: f64) -> u8 {
     let light = light.clamp(0.0, 1.0);
     let encoded = if light <= 0.0031308 {

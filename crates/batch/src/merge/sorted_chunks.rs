@@ -1,4 +1,4 @@
-//! Sorts lines by output in little memory: chunks are sorted one by one, written to a temporary
+//! Sorts lines by output with little memory: chunks are sorted one by one, written to a temporary
 //! file, and merged as they are read.
 
 use std::cmp::Reverse;
@@ -41,7 +41,7 @@ pub(super) struct Chunks {
 #[derive(Clone, Copy)]
 pub(super) struct Span {
     start: usize,
-    /// The length of the output, in front of the line.
+    /// The length of the output, which precedes the line.
     output: u32,
     /// The length of the line.
     line: u32,
@@ -77,7 +77,7 @@ impl Chunks {
         Ok(())
     }
 
-    /// The lines, sorted.
+    /// Returns the sorted lines.
     pub(super) fn into_sorted(mut self) -> std::io::Result<SortedLines> {
         if self.file.is_some() && !self.spans.is_empty() {
             self.write_chunk()?;
@@ -99,7 +99,8 @@ impl Chunks {
         self.spans.sort_by(|a, b| a.output(text).cmp(b.output(text)));
     }
 
-    /// Appends this chunk to the temporary file: for each record both lengths, output and line.
+    /// Appends this chunk to the temporary file: for each record, both lengths, then the output and
+    /// the line.
     fn write_chunk(&mut self) -> std::io::Result<()> {
         self.sort_chunk();
         let mut file = match self.file.take() {
@@ -124,14 +125,15 @@ impl Chunks {
     }
 }
 
-/// A file that disappears when it is closed.
+/// Creates a file that disappears when it is closed.
 fn temporary_file(folder: &Path) -> std::io::Result<File> {
     let mut number = 0_u32;
     loop {
         let path = folder.join(format!(".merge.{}.{number}.part", std::process::id()));
         match OpenOptions::new().read(true).write(true).create_new(true).open(&path) {
             Ok(file) => {
-                // Open files outlive their names; a system that refuses keeps an empty name.
+                // An open file outlives its name. If the system refuses to remove the name, it
+                // remains.
                 let _ = std::fs::remove_file(&path);
                 return Ok(file);
             }
@@ -155,7 +157,7 @@ pub(super) enum SortedLines {
 }
 
 impl SortedLines {
-    /// The next line; `None` after the last.
+    /// Returns the next line, or `None` after the last.
     pub(super) fn next_line(&mut self) -> std::io::Result<Option<SortedLine>> {
         match self {
             Self::Memory { text, spans } => Ok(spans.next().map(|span| SortedLine {
@@ -215,7 +217,7 @@ impl ChunkReader {
         Self { range, buffer: Vec::new(), used: 0 }
     }
 
-    /// The next bytes of the chunk; `None` at its end.
+    /// Returns the next bytes of the chunk, or `None` at its end.
     fn read_bytes(&mut self, file: &mut File, count: usize) -> std::io::Result<Option<Vec<u8>>> {
         if self.buffer.len() - self.used < count {
             self.buffer.drain(..self.used);

@@ -24,7 +24,7 @@ impl Bits {
         Self { mood, words, at: 0 }
     }
 
-    /// The next 64 bits.
+    /// Returns the next 64 bits.
     pub fn next(&mut self) -> u64 {
         let word = self.words.get(self.at).copied().unwrap_or(0);
         self.at += 1;

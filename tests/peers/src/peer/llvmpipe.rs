@@ -21,7 +21,7 @@ void main() {
 }
 ";
 
-/// The fragment shader for one kind of part.
+/// Returns the fragment shader for one kind of part.
 fn fragment(lit: bool, textured: bool) -> String {
     let [x, y, z] = TOWARDS_LIGHT;
     let texel = if textured { "color *= texture2D(image, t).rgb;" } else { "" };

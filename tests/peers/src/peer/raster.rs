@@ -69,7 +69,7 @@ impl<'a> Raster<'a> {
         })
     }
 
-    /// A copy without the vector instructions that some processors lack.
+    /// Creates a copy without the vector instructions that some processors lack.
     pub fn baseline(self) -> Self {
         let frame = self.frame.with_simd_level(SimdLevel::baseline());
         Self { frame, baseline: true, ..self }
@@ -180,13 +180,13 @@ impl<'a> Raster<'a> {
     }
 }
 
-/// The clusters of a part's triangles.
+/// Returns the clusters of a part's triangles.
 fn clusters(scene: &Scene, part: &Part, positions: &[[f32; 3]]) -> Clusters {
     let triangles = scene.indices[part.indices.clone()].as_chunks::<3>().0;
     Clusters::build(positions, triangles, !part.two_sided)
 }
 
-/// The corners of the box around positions.
+/// Returns the corners of the box around positions.
 fn corners(positions: &[[f32; 3]]) -> [[f32; 3]; 8] {
     let (mut least, mut greatest) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
     for position in positions {

@@ -86,7 +86,8 @@ impl Peer for Render {
     }
 }
 
-/// The scene as the importer would have read it: one node, one mesh, one primitive per part.
+/// Returns the scene as the importer would have read it: one node, one mesh, one primitive per
+/// part.
 fn model(scene: &Scene) -> Result<Model, String> {
     let one_node = one_node()?;
     let numbered = || scene.parts.iter().enumerate();
@@ -106,14 +107,14 @@ fn model(scene: &Scene) -> Result<Model, String> {
     })
 }
 
-/// A model with one node that shows mesh 0 without a transform: the importer's result for the
-/// simplest file.
+/// Returns a model with one node that shows mesh 0 without a transform: the importer's result for
+/// the simplest file.
 fn one_node() -> Result<Model, String> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("node.gltf");
     load(&file, &ImportOptions::default()).map_err(|error| error.to_string())
 }
 
-/// The part with the vertices it uses, renumbered.
+/// Returns the part with the vertices it uses, renumbered.
 fn primitive(scene: &Scene, part: &Part, number: usize) -> Primitive {
     let mut places = vec![u32::MAX; scene.vertices.len()];
     let mut used = Vec::new();

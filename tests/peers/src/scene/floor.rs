@@ -9,7 +9,7 @@ use projection::{Fov, Perspective};
 /// Squares of the floor along each side.
 const SIDE: u32 = 200;
 
-/// The floor, `SIDE` × `SIDE` squares around the eye.
+/// Returns the floor, `SIDE` × `SIDE` squares around the eye.
 pub fn floor(name: &'static str) -> Result<Scene, String> {
     let place = |n: u32| n as f32 - SIDE as f32 / 2.0;
     let vertices: Vec<Vertex> = (0..=SIDE)

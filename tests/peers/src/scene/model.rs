@@ -8,14 +8,14 @@ use model::{Image, Model, Primitive, SkinnedPrimitive, Topology};
 use projection::{Fov, Perspective};
 use std::path::{Path, PathBuf};
 
-/// The folder of shared models: `$ASSETS`, or `shared/assets` next to the project.
+/// Returns the folder of shared models: `$ASSETS`, or `shared/assets` next to the project.
 pub fn assets() -> Option<PathBuf> {
     let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/assets");
     let folder = std::env::var_os("ASSETS").map_or(beside, PathBuf::from);
     folder.is_dir().then_some(folder)
 }
 
-/// The flight helmet: base colors from textures, and Lambert's law.
+/// Returns the flight helmet: base colors from textures, and Lambert's law.
 pub fn helmet(name: &'static str, folder: &Path) -> Result<Scene, String> {
     let path = folder.join("models/flight-helmet/FlightHelmet.gltf");
     let model = load(&path, &ImportOptions::default()).map_err(|error| error.to_string())?;
@@ -29,7 +29,7 @@ pub fn helmet(name: &'static str, folder: &Path) -> Result<Scene, String> {
     Ok(scene)
 }
 
-/// The scene without triangles: camera, lens and textures.
+/// Returns the scene without triangles: camera, lens and textures.
 fn framed(name: &'static str, model: &Model) -> Result<Scene, String> {
     let fov = Fov::vertical_degrees(35.0);
     let half = fov.half_slopes(aspect()).map_err(|error| error.to_string())?;

@@ -6,8 +6,8 @@ use homog::{Point, Vector};
 use projection::{Fov, Perspective};
 use std::f64::consts::{PI, TAU};
 
-/// A sphere of `rows` × 2 `rows` quads: 4 `rows`² triangles. Half of them face away and are skipped
-/// unless both sides are drawn.
+/// Returns a sphere of `rows` × 2 `rows` quads: 4 `rows`² triangles. Half of them face away and are
+/// skipped unless both sides are drawn.
 pub fn sphere(name: &'static str, rows: u32, two_sided: bool) -> Result<Scene, String> {
     let vertices: Vec<Vertex> = (0..=rows)
         .flat_map(|i| (0..=2 * rows).map(move |j| (i, j)))
@@ -39,7 +39,7 @@ pub fn sphere(name: &'static str, rows: u32, two_sided: bool) -> Result<Scene, S
     })
 }
 
-/// The vertex at a position in the unit square, `down` from pole to pole and `around`.
+/// Returns the vertex at a position in the unit square, `down` from pole to pole and `around`.
 fn vertex(down: f64, around: f64) -> Vertex {
     let step = 1e-4;
     let p = place(down, around);

@@ -55,7 +55,7 @@ impl Scene {
         Self { positions, uvs, triangles, to_clip, texels: (0..1 << 16).map(texel).collect() }
     }
 
-    /// The nearest texel.
+    /// Returns the nearest texel.
     #[inline(always)]
     pub fn texel(&self, u: f32, v: f32) -> [u8; 3] {
         let [x, y] = [u, v].map(|at| ((at * 256.0) as usize).min(255));
