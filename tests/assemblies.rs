@@ -23,22 +23,22 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use viewport::Paper;
 
-/// Models with more triangles are left to the benchmarks.
+/// Models with more triangles are skipped; the benchmarks draw them.
 const MAX_TRIANGLES: usize = 60_000;
 
-/// Models with more parts are left out of samples, and drawn only on the smaller paper: one with
-/// 1,900 takes as long as all others together, seven minutes on a day when the sample contains it.
+/// Models with more parts are excluded from samples and drawn only on the smaller paper: a model
+/// with 1,900 parts takes seven minutes, as long as all the others together.
 const MANY_PARTS: usize = 500;
 
-/// The diagonal of every model in millimeters: their original sizes differ by a factor of a
-/// million.
+/// The diagonal to which every model is scaled, in millimeters: the original sizes differ by a
+/// factor of a million.
 const DIAGONAL: f64 = 700.0;
 
 pub fn run() -> ExitCode {
     run_program("assemblies", |arguments| {
         let mut tally = Tally::default();
         let Some(folder) = data_folder("ASSETS", "assets")? else {
-            tally.skip("assemblies", "there is no folder shared/assets; name one by ASSETS");
+            tally.skip("assemblies", "the folder shared/assets is missing; set ASSETS");
             return Ok(tally);
         };
         let mut models = listed_models(&folder)?;
@@ -64,7 +64,7 @@ pub fn run() -> ExitCode {
     })
 }
 
-/// Path and name of the listed models that are not too large.
+/// Returns the path and name of each listed model that is not too large.
 fn listed_models(folder: &Path) -> Result<Vec<(PathBuf, String)>, String> {
     let rows = read_manifest(folder)?.into_iter();
     let wanted = rows.filter(|row| {
@@ -74,9 +74,9 @@ fn listed_models(folder: &Path) -> Result<Vec<(PathBuf, String)>, String> {
 }
 
 /// Draws the pages of a model with several parts, and counts its balloons, pages and leader
-/// crossings; `None` for models with one part or more than `most`.
+/// crossings. Returns `None` for models with one part or more than `most`.
 fn check_model(path: &Path, most: usize) -> Result<Option<String>, String> {
-    // Refusals are checked by the suite `corpus`.
+    // The `corpus` suite checks models that are rejected.
     let Ok(model) = load(path, &ImportOptions::default()) else { return Ok(None) };
     let nodes = model.mesh_instances().count();
     let models = [ModelInstance { model: Arc::new(model), model_to_world: Affine::IDENTITY }];
@@ -87,11 +87,11 @@ fn check_model(path: &Path, most: usize) -> Result<Option<String>, String> {
     }
     if parts > most {
         let name = path.file_name().unwrap_or_default().display();
-        println!("{name} has {parts} parts: left to the step assemblies-all");
+        println!("{name} has {parts} parts, which only the step assemblies-all draws");
         return Ok(None);
     }
     if parts > nodes {
-        return Err(format!("{parts} parts of {nodes} nodes"));
+        return Err(format!("{parts} parts from only {nodes} nodes"));
     }
     let diagonal = Bounds::from_points(world_points(&models)).map_or(1.0, Bounds::diagonal);
     let mut summary = format!("{parts:5} parts {:5} items", list.items.len());
@@ -134,10 +134,10 @@ fn check_model(path: &Path, most: usize) -> Result<Option<String>, String> {
     Ok(Some(summary))
 }
 
-/// Whether no triangles of different objects intersect.
+/// Checks that no triangles of different objects intersect.
 fn check_apart(models: &[ModelInstance]) -> Result<(), String> {
     match separation::intersecting_parts(&separation::part_triangles(models)).first() {
-        Some([part, other]) => Err(format!("parts {part} and {other} meet")),
+        Some([part, other]) => Err(format!("parts {part} and {other} intersect")),
         None => Ok(()),
     }
 }

@@ -1,12 +1,13 @@
-//! The speed of bulk operations, against plain loops over glam's matrices.
+//! The speed of bulk operations, compared with plain loops over glam's matrices.
 //!
-//! `cargo xtask bench [NAME…]` runs it optimized; names choose benchmarks by part of their name.
-//! Every benchmark does one job in several ways, which take turns. The output is the time of each
-//! as a multiple of the first one's in the same turn: the median of all turns, and the range that
-//! contains eight turns in ten. A busy or slow machine slows all ways alike. Nothing is judged.
+//! `cargo xtask bench [NAME…]` runs it optimized; arguments select benchmarks by part of their
+//! name. Every benchmark does one job in several ways, which take turns. The output is the time of
+//! each way as a multiple of the first way's time in the same turn: the median of all turns, and
+//! the range that contains eight turns in ten. A busy or slow machine slows all ways equally. No
+//! result counts as a failure.
 
-#![allow(clippy::print_stdout, reason = "a program speaks on its standard output")]
-#![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
+#![allow(clippy::print_stdout, reason = "a program writes to standard output")]
+#![allow(unreachable_pub, reason = "modules of a program cannot be used elsewhere")]
 
 mod measure;
 mod outcodes;
@@ -17,7 +18,7 @@ mod triangles;
 use measure::Variant;
 use std::process::ExitCode;
 
-/// A job and the ways to do it; the first is the baseline.
+/// A job and the ways to do it, the first of which is the baseline.
 struct Benchmark {
     name: &'static str,
     about: &'static str,
@@ -95,6 +96,6 @@ fn main() -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let all: Vec<&str> = BENCHMARKS.iter().map(|benchmark| benchmark.name).collect();
-    println!("no such benchmark; there are {}", all.join(", "));
+    println!("no such benchmark; the benchmarks are {}", all.join(", "));
     ExitCode::from(2)
 }

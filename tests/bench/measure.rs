@@ -15,7 +15,7 @@ impl Variant {
     }
 }
 
-/// The time of a way as a multiple of the first one's.
+/// The time of a way as a multiple of the first way's time.
 pub struct TimeRatio {
     name: &'static str,
     median: f64,
@@ -41,7 +41,8 @@ pub fn compare_variants(mut ways: Vec<Variant>) -> Vec<TimeRatio> {
     ways.iter().zip(ratios).map(|(way, ratios)| TimeRatio::from_samples(way.name, ratios)).collect()
 }
 
-/// Each turn begins with a different way, so that none always follows the same one.
+/// Measures one turn. Each turn begins with a different way, so that no way always follows the same
+/// other way.
 fn time_round(ways: &mut [Variant], turn: usize) -> Vec<f64> {
     let mut seconds = vec![0.0; ways.len()];
     for i in 0..ways.len() {

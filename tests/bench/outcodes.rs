@@ -1,4 +1,4 @@
-//! Outcodes of arrays of points, by themselves and while projecting.
+//! Outcodes of arrays of points, alone and combined with projection.
 
 use crate::measure::Variant;
 use crate::scene::{Blocks, model_to_clip, position};
@@ -23,7 +23,7 @@ pub fn project_uncached() -> Vec<Variant> {
     projecting_variants(Blocks::Uncached)
 }
 
-/// Returns an outcode without a library: six comparisons with w.
+/// Computes an outcode without the library, by six comparisons with w.
 fn outcode_by_hand(p: DVec4) -> u16 {
     u16::from(p.x < -p.w)
         | u16::from(p.x > p.w) << 1
@@ -73,7 +73,7 @@ fn outcode_variants(blocks: Blocks) -> Vec<Variant> {
     vec![plain, single, bulk]
 }
 
-/// Points, with their images and outcodes.
+/// Points with their images and outcodes.
 struct Arrays<Q, C> {
     positions: Vec<[f32; 3]>,
     images: Vec<Q>,
@@ -121,7 +121,7 @@ fn projecting_variants(blocks: Blocks) -> Vec<Variant> {
             },
         ),
         Arrays::new(count, DVec4::ZERO, 0_u16).outcode_variant(
-            "the same and six comparisons",
+            "the same with six comparisons",
             blocks,
             move |positions, images, codes| {
                 for ((position, image), code) in positions.iter().zip(images).zip(codes) {

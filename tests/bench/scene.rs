@@ -14,8 +14,7 @@ pub enum Blocks {
     Uncached,
 }
 
-/// Before a block of 100,000 points is processed again, 12 turns of every way have processed more
-/// than 60 MB each.
+/// Between two uses of a block of 100,000 points, every way runs 12 turns of more than 60 MB each.
 const LARGE_BLOCKS: usize = 12;
 const SMALL_BLOCK: usize = 1_000;
 
@@ -40,7 +39,7 @@ impl Blocks {
     }
 }
 
-/// Returns the i-th coordinate of a sequence without pattern, from −1 to 1.
+/// Returns the i-th coordinate of an irregular sequence, from −1 to 1.
 pub fn coordinate(i: usize) -> f64 {
     let golden = (i as f64 * 0.618_033_988_749_894_9).fract();
     golden * 2.0 - 1.0
@@ -51,7 +50,7 @@ pub fn position(i: usize) -> [f64; 3] {
     [coordinate(3 * i), coordinate(5 * i + 1), coordinate(7 * i + 2)]
 }
 
-/// Rotated, scaled and translated, so that no entry is 0 or 1 by chance.
+/// Returns a map that rotates, scales and translates, so that no entry happens to be 0 or 1.
 pub fn model_to_world() -> Affine<Model, World> {
     Affine::<Model, Model>::rotation_x(0.3)
         .then(Affine::<Model, Model>::rotation_y(0.7))

@@ -1,4 +1,4 @@
-//! Clipping triangles of meshes.
+//! Clipping of mesh triangles.
 
 use crate::measure::Variant;
 use crate::scene::{POINT_COUNT, coordinate};
@@ -19,7 +19,8 @@ impl Mesh {
     }
 }
 
-/// Returns a square of 2 × 224 × 224 triangles; the edge of the picture cuts or hides one in ten.
+/// Returns a square of 2 × 224 × 224 triangles, of which the edge of the picture cuts or hides one
+/// in ten.
 fn floor_mesh() -> Mesh {
     const SIDE: usize = 224;
     let at = |i: usize| (i as f64 / SIDE as f64 * 2.0 - 1.0) * 1.05;
@@ -40,7 +41,7 @@ fn floor_mesh() -> Mesh {
     Mesh { points, triangles }
 }
 
-/// Triangles around the border of the picture.
+/// Returns triangles around the border of the picture.
 fn border_mesh() -> Mesh {
     let point = |i: usize| {
         let out = if i.is_multiple_of(3) { 1.5 } else { 0.8 };
@@ -53,8 +54,8 @@ fn border_mesh() -> Mesh {
     Mesh { points, triangles: (0..POINT_COUNT).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect() }
 }
 
-/// The Sutherland–Hodgman loop as textbooks have it: all six planes, one after the other, no
-/// weights, and no regard for the direction of a shared edge.
+/// Clips with the textbook Sutherland–Hodgman loop: against all six planes in turn, without
+/// weights, and without regard to the direction of a shared edge.
 fn clip_as_in_textbooks(triangle: [DVec4; 3], polygon: &mut Polygon) {
     polygon.corners[..3].copy_from_slice(&triangle);
     polygon.count = 3;

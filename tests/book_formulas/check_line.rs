@@ -6,7 +6,7 @@ use crate::book_formulas::value::Value;
 /// A parsed check line.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Check {
-    /// Counted from 1.
+    /// The row number, from 1.
     pub row: Option<usize>,
     pub givens: Vec<(Name, Given)>,
     pub target: Reference,
@@ -27,7 +27,7 @@ pub struct Reference {
 }
 
 impl Check {
-    /// Returns the registry names that it mentions.
+    /// Returns the registry names in the line.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         let behind = self.givens.iter().filter_map(|(_, given)| match given {
             Given::Reference(reference) => Some(reference),
@@ -42,7 +42,7 @@ impl Reference {
         let (name, index) = text.split_once('[').unwrap_or((text, ""));
         let parts = index.split(['[', ']']).filter(|part| !part.is_empty());
         let index = parts.map(str::parse).collect::<Result<Vec<usize>, _>>();
-        let index = index.map_err(|_| format!("`{text}`: an index is 0, 1, 2 …"))?;
+        let index = index.map_err(|_| format!("`{text}`: an index must be 0, 1, 2 …"))?;
         Ok(Self { name: name.to_owned(), index })
     }
 
@@ -55,19 +55,20 @@ impl Reference {
             [row, column] if row < rows && column < columns => {
                 Ok(Value::number(value.at(row, column)))
             }
-            _ => Err(format!("{} has no such entry of {}", self.name, value.describe())),
+            _ => Err(format!("{} has no such entry in {}", self.name, value.describe())),
         }
     }
 }
 
 /// Parses the text after `% check`.
 pub fn parse_check(text: &str) -> Result<Check, String> {
-    let (givens, target) = text.rsplit_once(':').ok_or("a check line is `VAR=VALUE … : NAME`")?;
+    let (givens, target) =
+        text.rsplit_once(':').ok_or("a check line must be `VAR=VALUE … : NAME`")?;
     let mut words = split_words(givens).into_iter().peekable();
     let mut row = None;
     if words.next_if(|word| word == "row").is_some() {
         let number = words.next().and_then(|word| word.parse().ok()).filter(|&row: &usize| row > 0);
-        row = Some(number.ok_or("`row` is followed by 1, 2, 3 …")?);
+        row = Some(number.ok_or("`row` must be followed by 1, 2, 3 …")?);
     }
     let mut all: Vec<(Name, Given)> = Vec::new();
     for word in words {
@@ -78,7 +79,7 @@ pub fn parse_check(text: &str) -> Result<Check, String> {
         let name = Name::parse(name).key();
         let name = if is_vector { name.as_bold() } else { name };
         if all.iter().any(|(other, _)| *other == name) {
-            return Err(format!("`{name}` is given twice"));
+            return Err(format!("duplicate value for `{name}`"));
         }
         all.push((name, given));
     }
@@ -89,7 +90,7 @@ pub fn parse_check(text: &str) -> Result<Check, String> {
     Ok(Check { row, givens: all, target: Reference::parse(target)? })
 }
 
-/// Words separated by blanks outside brackets.
+/// Splits the text at blanks outside brackets.
 fn split_words(text: &str) -> Vec<String> {
     let (mut words, mut depth) = (vec![String::new()], 0_i32);
     for letter in text.chars() {
@@ -114,7 +115,7 @@ fn parse_given(text: &str) -> Result<Given, String> {
     parse_value(text).map(Given::Value)
 }
 
-/// Returns a number, `(1, 2, 3)` or `[1 2; 3 4]`.
+/// Parses a number, `(1, 2, 3)` or `[1 2; 3 4]`.
 fn parse_value(text: &str) -> Result<Value, String> {
     let inside = |open, close| text.strip_prefix(open).and_then(|text| text.strip_suffix(close));
     if let Some(column) = inside('(', ')') {
@@ -131,7 +132,7 @@ fn parse_numbers(text: &str) -> Result<Vec<f64>, String> {
     text.split([',', ' ']).filter(|part| !part.is_empty()).map(parse_number).collect()
 }
 
-/// Returns a decimal number or a fraction.
+/// Parses a decimal number or a fraction.
 fn parse_number(text: &str) -> Result<f64, String> {
     let decimal = |text: &str| text.parse::<f64>().ok().filter(|number| number.is_finite());
     let number = match text.split_once('/') {
@@ -162,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_read_is_an_error() {
+    fn malformed_lines_are_rejected() {
         for wrong in
             ["n=1", "n=1 :", "n : A", "n=1 n=2 : A", "n=x/ : A[b]", "row n=1 : A", "n=1/0 : A"]
         {

@@ -1,4 +1,4 @@
-//! One formula against its checks, and the proof that the checks catch errors.
+//! Compares a formula with its checks, and proves that the checks catch errors.
 
 use crate::book_formulas::check_line::{Check, parse_check};
 use crate::book_formulas::evaluate::evaluate_statement;
@@ -13,10 +13,11 @@ use std::fmt;
 
 /// Results differ by at most this fraction of the largest entry.
 const TOLERANCE: f64 = 1e-12;
-/// A damaged formula must differ by more than this, so that rounding does not count as noticing.
+/// A damaged formula must differ by more than this, so that a rounding error does not count as a
+/// detected change.
 const NOTICED: f64 = 1e-9;
 
-/// A fault, and its line on the page.
+/// An error and its line on the page.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Fault {
     pub line: usize,
@@ -41,7 +42,7 @@ pub struct Counts {
     pub names: BTreeSet<String>,
 }
 
-/// Finds all faults of a formula and counts the tested items.
+/// Finds all errors in a formula and counts the tested items.
 pub fn find_faults(formula: &Formula, counts: &mut Counts) -> Vec<Fault> {
     let fault = |line, message| Fault { line, id: formula.id.clone(), message };
     counts.numbered += usize::from(formula.id.is_some());
@@ -86,7 +87,7 @@ pub fn find_faults(formula: &Formula, counts: &mut Counts) -> Vec<Fault> {
     faults
 }
 
-/// Faults that only all checks of a row together reveal.
+/// Returns the errors in a row, which depend on all its checks together.
 fn test_row(
     row: &Statement,
     number: usize,
@@ -96,7 +97,7 @@ fn test_row(
     if checks.is_empty() {
         return vec![format!("row {number} has no check")];
     }
-    // The left side of an equation takes part if all its names have values.
+    // The left side of an equation is compared if all its names have values.
     let has_left_side = checks.iter().all(|check| evaluate_statement(row, check).is_ok());
     let row = if has_left_side { row.clone() } else { row.without_left_side() };
     for check in checks {
@@ -110,7 +111,7 @@ fn test_row(
     damage_row(&row, checks, counts)
 }
 
-/// Whether the part before the suffix belongs to a name in the registry.
+/// Returns whether the part before the suffix belongs to a name in the registry.
 fn is_known_id(id: &str) -> bool {
     let family = |name| str::split(name, '.').next().unwrap_or_default().to_owned();
     all_entries().any(|entry| family(entry.name) == family(id))
@@ -123,13 +124,13 @@ fn read_rows(formula: &Formula) -> Result<Vec<Statement>, (usize, String)> {
     if rows.is_empty() { Err((formula.line, "the formula is empty".to_owned())) } else { Ok(rows) }
 }
 
-/// Returns the row that a check is for.
+/// Returns the row to which a check applies.
 fn row_of(check: &Check, count: usize) -> Result<usize, String> {
     match check.row {
         None if count == 1 => Ok(1),
-        None => Err(format!("the formula has {count} rows: write `% check row 1 …`")),
+        None => Err(format!("the formula has {count} rows; write `% check row 1 …`")),
         Some(row) if row <= count => Ok(row),
-        Some(row) => Err(format!("the formula has {count} rows, there is no row {row}")),
+        Some(row) => Err(format!("the formula has no row {row}, only {count}")),
     }
 }
 
@@ -138,18 +139,20 @@ fn compare(row: &Statement, check: &PreparedCheck) -> Result<(), String> {
         if !value.is_close(&check.expected, TOLERANCE) {
             let expected = &check.expected;
             return Err(if value.shape() == expected.shape() {
-                format!("the formula gives\n    {value}, the crates\n    {expected}")
+                format!("the formula gives\n    {value}, but the crates give\n    {expected}")
             } else {
                 let (ours, theirs) = (value.describe(), expected.describe());
-                format!("the formula gives {ours}, {value}, the crates {theirs}, {expected}")
+                format!(
+                    "the formula gives {ours}, {value}, but the crates give {theirs}, {expected}"
+                )
             });
         }
     }
     Ok(())
 }
 
-/// Changes each number, sign, letter and angle function of a row, one at a time; some check must
-/// notice.
+/// Changes each number, sign, letter and angle function of a row, one at a time. Some check must
+/// detect each change.
 fn damage_row(row: &Statement, checks: &[PreparedCheck], counts: &mut Counts) -> Vec<String> {
     let mut letters: Vec<TokenKind> = Vec::new();
     for token in row.members().iter().flatten().filter(|token| is_letter(&token.kind)) {
@@ -173,7 +176,8 @@ fn damage_row(row: &Statement, checks: &[PreparedCheck], counts: &mut Counts) ->
     unnoticed
 }
 
-/// Returns a different number, sign or angle function, or each of the other letters in the row.
+/// Returns the replacements for a token: a different number, sign or angle function, or each of the
+/// other letters in the row.
 fn damage(kind: &TokenKind, letters: &[TokenKind]) -> Vec<TokenKind> {
     match kind {
         TokenKind::Number(number) => vec![TokenKind::Number(number + 1.0)],
@@ -224,7 +228,7 @@ fn describe_damage(tokens: &[Token], at: usize, damaged: &Token) -> String {
     let (before, after) =
         (&tokens[at.saturating_sub(8)..at], &tokens[at + 1..tokens.len().min(at + 9)]);
     format!(
-        "no check notices {} for {} in `{}«{}»{}`: choose other values, or add a check",
+        "no check detects {} for {} in `{}«{}»{}`; choose other values or add a check",
         text(damaged),
         text(&tokens[at]),
         join(before),
@@ -245,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn right_formulas_pass() {
+    fn correct_formulas_pass() {
         let p = "P = \\begin{bmatrix} n & 0 & 0 & 0 \\\\ 0 & n & 0 & 0 \\\\ 0 & 0 & n+f & -fn \\\\ \
                  0 & 0 & 1 & 0 \\end{bmatrix}";
         let none: [&str; 0] = [];
@@ -263,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn faults_name_their_line() {
+    fn errors_name_their_line() {
         let wrong = [
             (
                 "GL-1.A\nA = \\frac{F+N}{F-N}\n% check N=2 F=5 : GL-1.A",
@@ -271,10 +275,7 @@ mod tests {
             ),
             ("PE-1\nP = n", "1: PE-1: a numbered formula has no"),
             ("matrix\nP = n\n% check n=1 : matrix", "1: matrix: no formula has the id"),
-            (
-                "PE-1\nP = n\n% check n=1 : PE-1.depht",
-                "3: PE-1: the name `PE-1.depht` is not known",
-            ),
+            ("PE-1\nP = n\n% check n=1 : PE-1.depht", "3: PE-1: unknown name `PE-1.depht`"),
             (
                 "LI-1\ny = x\n% check x=2 q=4 a=3 b=5 c=7 d=9 : LI-1",
                 "3: LI-1: LI-1 has no variable `q`",
@@ -300,14 +301,14 @@ mod tests {
     }
 
     #[test]
-    fn checks_that_do_not_bite_are_faults() {
-        // Where x = a, the factor has no effect.
+    fn checks_that_miss_a_change_are_errors() {
+        // At x = a, the factor has no effect.
         let line =
             "LI-1\ny = c + 2 (x - a) \\frac{d - c}{2 (b - a)}\n% check x=2 a=2 b=5 c=3 d=7 : LI-1";
         let blind = faults(line);
-        assert!(blind.iter().any(|fault| fault.contains("no check notices 3 for 2")), "{blind:?}");
+        assert!(blind.iter().any(|fault| fault.contains("no check detects 3 for 2")), "{blind:?}");
         assert!(faults(&format!("{line}\n% check x=4 a=2 b=5 c=3 d=9 : LI-1")).is_empty());
         let equal = "WI-2\ns = \\frac{H - L}{h - l}\n% check l=2 h=6 L=2 H=5 : WI-2.scale";
-        assert!(faults(equal).iter().any(|fault| fault.contains("no check notices l for L")));
+        assert!(faults(equal).iter().any(|fault| fault.contains("no check detects l for L")));
     }
 }

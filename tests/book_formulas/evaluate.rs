@@ -1,4 +1,4 @@
-//! Values of expressions.
+//! Evaluation of expressions.
 
 use crate::book_formulas::expression::{Expression, Function, ProductSign};
 use crate::book_formulas::name::Name;
@@ -8,14 +8,14 @@ use crate::book_formulas::token::Token;
 use crate::book_formulas::value::Value;
 use homog::{Affine, Vector, World};
 
-/// Values of names.
+/// The values of names.
 pub trait Scope {
     /// # Errors
     /// If the name has no value.
     fn value_of(&self, name: &Name) -> Result<Value, String>;
 }
 
-/// Returns the values of a row: one for each member of an equation, one for an inequality.
+/// Returns the values of a row: one for each member of an equation, or one for an inequality.
 pub fn evaluate_statement(statement: &Statement, scope: &dyn Scope) -> Result<Vec<Value>, String> {
     match statement {
         Statement::Values { members, .. } => {
@@ -30,7 +30,7 @@ pub fn evaluate_statement(statement: &Statement, scope: &dyn Scope) -> Result<Ve
                 if is_less { pair[1].minus(&pair[0]) } else { pair[0].minus(&pair[1]) }
             });
             let column = fulfilled.reduce(|above, below| above?.above(&below?));
-            Ok(vec![column.ok_or("an inequality has two sides")??])
+            Ok(vec![column.ok_or("an inequality must have two sides")??])
         }
     }
 }
@@ -40,7 +40,7 @@ fn evaluate_tokens(tokens: &[Token], scope: &dyn Scope) -> Result<Value, String>
 }
 
 /// # Errors
-/// If a name has no value, shapes do not fit, or a result is not finite.
+/// If a name has no value, shapes do not match, or a result is not finite.
 pub fn evaluate(expression: &Expression, scope: &dyn Scope) -> Result<Value, String> {
     use Expression as E;
     let at = |inner: &Expression| evaluate(inner, scope);
@@ -70,7 +70,7 @@ pub fn evaluate(expression: &Expression, scope: &dyn Scope) -> Result<Value, Str
     if value.is_finite() { Ok(value) } else { Err("a value is not finite".to_owned()) }
 }
 
-/// In the body of a sum, subscripts that contain the index get its number.
+/// In the body of a sum, the value of the index replaces it in subscripts.
 struct IndexedScope<'a> {
     outer: &'a dyn Scope,
     index: &'a str,
@@ -83,7 +83,7 @@ impl Scope for IndexedScope<'_> {
     }
 }
 
-/// Returns one row of blocks after the other.
+/// Joins the blocks of each row, and then the rows.
 fn assemble(rows: &[Vec<Expression>], scope: &dyn Scope) -> Result<Value, String> {
     let rows = rows.iter().map(|row| {
         let blocks = row.iter().map(|entry| evaluate(entry, scope));
@@ -92,28 +92,28 @@ fn assemble(rows: &[Vec<Expression>], scope: &dyn Scope) -> Result<Value, String
     rows.reduce(|above: Result<Value, String>, below| above?.above(&below?)).ok_or("no row")?
 }
 
-/// Returns a whole power of a number or of a matrix, any power of a positive number.
+/// Computes an integer power of a number or matrix, or any power of a positive number.
 fn power(base: &Value, exponent: f64) -> Result<Value, String> {
     if let (Ok(number), true) = (base.to_number(), exponent.fract() != 0.0 || exponent > 8.0) {
         return Ok(Value::number(libm::pow(number, exponent)));
     }
     let Some(count) = (0..=8_u8).find(|&count| f64::from(count) == exponent.abs()) else {
-        return Err(format!("the exponent {exponent}"));
+        return Err(format!("unsupported exponent {exponent}"));
     };
     let base = if exponent < 0.0 { base.inverse()? } else { base.clone() };
     let [size, columns] = base.shape();
     if size != columns {
-        return Err(format!("a power of {}", base.describe()));
+        return Err(format!("unsupported power of {}", base.describe()));
     }
     (0..count).try_fold(Value::diagonal(&vec![1.0; size]), |power, _| power.times(&base))
 }
 
-/// `R_x(\beta)`, `T(\mathbf t)`, `S(s_x, s_y, s_z)`, unless the name has a value.
+/// Evaluates `R_x(\beta)`, `T(\mathbf t)` or `S(s_x, s_y, s_z)`, unless the name has a value.
 fn apply(name: &Name, arguments: &[Expression], scope: &dyn Scope) -> Result<Value, String> {
     let values: Vec<Value> =
         arguments.iter().map(|argument| evaluate(argument, scope)).collect::<Result<_, _>>()?;
     let column = values.iter().cloned().reduce(|a, b| a.above(&b).unwrap_or(a));
-    let column = column.ok_or("an empty parenthesis")?;
+    let column = column.ok_or("empty parentheses")?;
     if let Ok(factor) = scope.value_of(name) {
         return factor.times(&column);
     }
@@ -129,7 +129,7 @@ fn apply(name: &Name, arguments: &[Expression], scope: &dyn Scope) -> Result<Val
         ("S", [x, y]) => return Ok(Value::diagonal(&[*x, *y, 1.0])),
         _ => {
             return Err(format!(
-                "`{name}` has no value, and is not a function of {} numbers",
+                "`{name}` has no value and is not a function of {} numbers",
                 values.len()
             ));
         }
@@ -161,7 +161,7 @@ fn call(function: Function, arguments: &[Value]) -> Result<Value, String> {
         (Function::Exp, [x]) => libm::exp(*x),
         (Function::Min, [x, y]) => x.min(*y),
         (Function::Max, [x, y]) => x.max(*y),
-        _ => return Err(format!("{function:?} of {} arguments", numbers.len())),
+        _ => return Err(format!("{function:?} does not have {} arguments", numbers.len())),
     };
     Ok(Value::number(number))
 }
@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn products_bind_closer_than_sums() {
+    fn products_take_precedence_over_sums() {
         assert_eq!(number("f(x) = 2ab - \\frac{b}{a} b + (-a^2)"), 3.5);
         assert_eq!(number("a - (b - z') / a"), 4.0);
         assert_eq!(number("a \\cdot -b"), -6.0);
@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn functions_take_one_factor() {
+    fn functions_apply_to_one_factor() {
         let (sine, cosine) = (libm::sin(0.5), libm::cos(0.25));
         assert_eq!(number("\\sin 2\\theta"), sine);
         assert_eq!(number("\\cos\\theta a"), cosine * 2.0);
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn matrices_columns_and_powers() {
+    fn matrices_columns_and_powers_are_evaluated() {
         let product = "\\begin{bmatrix} 1 & 0 \\\\ a & 2 \\end{bmatrix} (3, b) = (3, 12)";
         assert_eq!(values(product).unwrap()[0], Value::column(&[3.0, 12.0]));
         let inverse = "x = \\begin{pmatrix} 2 & 0 \\\\ 0 & 4 \\end{pmatrix}^{-1} = \\operatorname{diag}(1/2, 1/4)";
@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn inequalities_have_the_value_by_which_they_hold() {
+    fn the_value_of_an_inequality_is_its_margin() {
         assert_eq!(values("-b \\le a \\le b").unwrap()[0], Value::column(&[5.0, 1.0]));
         assert_eq!(number("a - b \\ge 0"), -1.0);
         assert_eq!(number("a < b"), 1.0);
@@ -260,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_of_aligned_equations() {
+    fn rows_of_aligned_equations_are_separate() {
         let latex = "\\begin{aligned} x' &= a + b \\\\ y' &= b, \\\\[2pt] &= 4 \\end{aligned}.";
         let rows = split_rows(&tokenize(latex).unwrap()).unwrap();
         assert_eq!(rows.len(), 3);

@@ -6,7 +6,7 @@ use crate::book_formulas::name::Name;
 pub enum Expression {
     Number(f64),
     Name(Name),
-    /// A name before a parenthesis: a function such as `R_x(\beta)`, otherwise a product.
+    /// A name before a parenthesis, which is a function such as `R_x(\beta)` or else a product.
     Applied(Name, Vec<Expression>),
     Negative(Box<Expression>),
     Sum(Box<Expression>, Box<Expression>),
@@ -16,7 +16,7 @@ pub enum Expression {
     Power(Box<Expression>, Box<Expression>),
     Transpose(Box<Expression>),
     Function(Function, Vec<Expression>),
-    /// Rows of blocks; a list in parentheses is a column.
+    /// Rows of blocks. A list in parentheses is a column.
     Matrix(Vec<Vec<Expression>>),
     IndexedSum {
         index: String,
@@ -56,7 +56,7 @@ pub enum Function {
 }
 
 impl Function {
-    /// Returns the function of `\sin` or of `\operatorname{atan2}`.
+    /// Returns the function that `\sin` or `\operatorname{atan2}` denotes.
     pub fn named(name: &str) -> Option<Self> {
         Some(match name {
             "sin" => Self::Sin,

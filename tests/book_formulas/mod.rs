@@ -1,12 +1,12 @@
-//! The numbered formulas of the book against the crates.
+//! Compares the numbered formulas of the book with the crates.
 //!
-//! A formula of the book is LaTeX with an id and `% check` lines. They give the values for which it
-//! must agree with a public function: `% check n=-2 f=-5 : PE-1`. The LaTeX itself is evaluated, so
-//! the printed formula is the tested one. Then each number, sign and letter of the formula is
-//! changed, one at a time. A change that no check notices is a fault, too: a misprint there would
-//! pass.
+//! A formula in the book is LaTeX with an id and `% check` lines, which specify the values for
+//! which it must agree with a public function: `% check n=-2 f=-5 : PE-1`. The LaTeX itself is
+//! evaluated, so the test covers the formula as printed. Then each number, sign and letter of the
+//! formula is changed, one at a time. A change that no check detects is also an error, because a
+//! misprint there would pass.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "what cannot be read fails the test")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "unreadable input fails the test")]
 
 mod check_line;
 mod compare;
@@ -28,7 +28,8 @@ use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
 
-/// `$BOOK`, a folder of pages, or the book in this repository; `None` if there is no book.
+/// Returns `$BOOK`, a folder of pages, or else the book in this repository, or `None` if there is
+/// no book.
 fn book_folder() -> Option<PathBuf> {
     if let Some(folder) = std::env::var_os("BOOK") {
         return Some(folder.into());
@@ -45,7 +46,7 @@ fn print_uncaptured(line: &str) {
 #[test]
 fn formulas_of_the_book_agree_with_the_crates() {
     let Some(folder) = book_folder() else {
-        return report_skip("book_formulas", "there is no folder book/src");
+        return report_skip("book_formulas", "the folder book/src is missing");
     };
     let mut pages: Vec<PathBuf> = match fs::read_dir(&folder) {
         Ok(entries) => entries.map(|entry| entry.unwrap().path()).collect(),
@@ -63,13 +64,13 @@ fn formulas_of_the_book_agree_with_the_crates() {
     }
     let Counts { numbered, checks, damages, names } = counts;
     print_uncaptured(&format!(
-        "{numbered} numbered formulas, {checks} checks, {damages} damages to them"
+        "{numbered} numbered formulas, {checks} checks, {damages} changes to them"
     ));
-    // A name that no page uses tests nothing. Other books need not use all names.
+    // A name that no page uses tests nothing, but other books need not use all names.
     if std::env::var_os("BOOK").is_none() {
         let unused = registry::all_entries().filter(|entry| !names.contains(entry.name));
         faults.extend(unused.map(|entry| format!("registry: no check uses {}", entry.name)));
     }
     assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
-    assert!(numbered > 0, "{} has no numbered formula", folder.display());
+    assert!(numbered > 0, "{} has no numbered formulas", folder.display());
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// A name in normalized form: two spellings of one variable are equal.
+/// A name in normalized form, so that two spellings of one variable are equal.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct Name {
     /// Vectors are bold: the view-up vector **t** is not the top t of a window.
@@ -34,7 +34,8 @@ impl Name {
         Self { is_bold: true, ..Self::plain(text) }
     }
 
-    /// Returns the form in check lines and in the registry: `n_x`, `\theta`, `\mathbf{p}_n`.
+    /// Parses the form used in check lines and in the registry, such as `n_x`, `\theta` or
+    /// `\mathbf{p}_n`.
     pub fn parse(text: &str) -> Self {
         let text = &text.replace("\\mathrm", "");
         let opening = ["\\mathbf{", "\\boldsymbol{", "\\vec{"].iter();
@@ -55,7 +56,7 @@ impl Name {
         Self { subscript: self.subscript.iter().map(replace).collect(), ..self.clone() }
     }
 
-    /// Returns the key for looking up values: subscripts are joined.
+    /// Returns the key for looking up values, in which subscripts are joined.
     pub fn key(&self) -> Self {
         let joined = self.subscript.concat();
         let subscript = Some(joined).filter(|text| !text.is_empty()).into_iter().collect();

@@ -34,10 +34,10 @@ const GREEK: [&str; 27] = [
     "ell",
 ];
 
-/// Commands that make a letter bold: a vector or a matrix.
+/// Commands that make a letter bold, as in a vector or a matrix.
 const BOLD: [&str; 5] = ["mathbf", "boldsymbol", "bm", "vec", "bold"];
 
-/// Commands that make a word.
+/// Commands that form a word.
 const WORDS: [&str; 3] = ["mathrm", "mathit", "mathsf"];
 
 /// Returns whether a command is a Greek letter.
@@ -50,7 +50,7 @@ pub fn begins_name(command: &str) -> bool {
     is_greek(command) || BOLD.contains(&command) || WORDS.contains(&command)
 }
 
-/// Returns a name with its subscript and its primes.
+/// Parses a name with its subscript and its primes.
 pub fn parse_name(parser: &mut Parser<'_>) -> Result<Name, String> {
     let mut name = parse_base(parser)?;
     loop {
@@ -69,7 +69,7 @@ pub fn parse_name(parser: &mut Parser<'_>) -> Result<Name, String> {
 }
 
 fn parse_base(parser: &mut Parser<'_>) -> Result<Name, String> {
-    let Some(token) = parser.next_token().cloned() else { return Err("a name is missing".into()) };
+    let Some(token) = parser.next_token().cloned() else { return Err("missing name".into()) };
     parser.at += 1;
     match &token.kind {
         TokenKind::Letter(letter) => Ok(Name::plain(&letter.to_string())),
@@ -89,7 +89,7 @@ fn parse_base(parser: &mut Parser<'_>) -> Result<Name, String> {
     }
 }
 
-/// `{word}` after `\operatorname`, `\mathrm`, `\begin`.
+/// Parses `{word}` after `\operatorname`, `\mathrm` or `\begin`.
 pub fn read_word(parser: &mut Parser<'_>) -> Result<String, String> {
     let mut word = String::new();
     let braced = parser.take('{');
@@ -111,13 +111,14 @@ pub fn read_word(parser: &mut Parser<'_>) -> Result<String, String> {
     Ok(word)
 }
 
-/// Returns each letter and number of a subscript; `\min`, `\max` and words count, commas do not.
+/// Parses a subscript into its letters, numbers and words, including `\min` and `\max` but not
+/// commas.
 fn parse_subscript(parser: &mut Parser<'_>) -> Result<Vec<String>, String> {
     let mut depth = 0_usize;
     let mut parts = Vec::new();
     loop {
         let Some(token) = parser.next_token().cloned() else {
-            return Err("a subscript does not end".to_owned());
+            return Err("unclosed subscript".to_owned());
         };
         parser.at += 1;
         match token.kind {
@@ -139,7 +140,7 @@ fn parse_subscript(parser: &mut Parser<'_>) -> Result<Vec<String>, String> {
     }
 }
 
-/// A label under a brace.
+/// Skips a subscript, such as the label under a brace.
 pub fn skip_subscript(parser: &mut Parser<'_>) -> Result<(), String> {
     if parser.take('_') { parse_subscript(parser).map(|_| ()) } else { Ok(()) }
 }

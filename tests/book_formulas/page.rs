@@ -1,4 +1,4 @@
-//! The formulas of a page of the book: fenced blocks `formula ID` with their `% check` lines.
+//! The formulas on a page of the book: fenced blocks `formula ID` with `% check` lines.
 
 /// One fenced block.
 #[derive(Clone, PartialEq, Debug)]
@@ -7,7 +7,7 @@ pub struct Formula {
     pub line: usize,
     /// The id, such as `PE-1`, if it is numbered.
     pub id: Option<String>,
-    /// The block without its comments; line breaks are kept, so that lines can be counted.
+    /// The block without comments, but with its line breaks, so that lines can be counted.
     pub latex: String,
     pub checks: Vec<CheckText>,
 }
@@ -19,7 +19,7 @@ pub struct CheckText {
     pub text: String,
 }
 
-/// Returns all formulas on a page in Markdown.
+/// Returns all formulas on a Markdown page.
 pub fn find_formulas(markdown: &str) -> Vec<Formula> {
     let mut formulas: Vec<Formula> = Vec::new();
     let mut fence: Option<Fence> = None;

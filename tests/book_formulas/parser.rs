@@ -1,8 +1,8 @@
 //! Parses LaTeX expressions.
 //!
-//! An expression is a sum of products of factors; adjacent factors are multiplied. A function takes
-//! one factor, with a number before it if there is one: `\sin 2\theta`. After `a/b` no factor may
-//! follow without a sign, because readers disagree on its meaning.
+//! An expression is a sum of products of factors; adjacent factors are multiplied. A function
+//! applies to one factor, which may begin with a number: `\sin 2\theta`. No factor may follow `a/b`
+//! without a sign, because readers disagree on its meaning.
 
 use crate::book_formulas::expression::{Expression, Function, ProductSign};
 use crate::book_formulas::name_parser;
@@ -10,24 +10,24 @@ use crate::book_formulas::token::{Token, TokenKind};
 
 type Parsed = Result<Expression, String>;
 
-/// Returns the expression formed by all tokens.
+/// Parses all tokens as one expression.
 pub fn parse_expression(tokens: &[Token]) -> Parsed {
     let mut parser = Parser { tokens, at: 0, closing_bars: Vec::new() };
     let expression = parser.sum()?;
     match parser.next_token() {
         None => Ok(expression),
-        Some(token) => Err(format!("{} is not expected here", describe(token))),
+        Some(token) => Err(format!("unexpected {}", describe(token))),
     }
 }
 
 pub struct Parser<'a> {
     pub tokens: &'a [Token],
     pub at: usize,
-    /// Open bars: in `|a b|` the second bar closes.
+    /// The number of open bars: the second bar in `|a b|` closes the first.
     closing_bars: Vec<TokenKind>,
 }
 
-/// Returns a token as error messages show it.
+/// Returns a token as shown in error messages.
 pub fn describe(token: &Token) -> String {
     match &token.kind {
         TokenKind::Number(number) => format!("`{number}`"),
@@ -67,7 +67,7 @@ impl Parser<'_> {
             return Ok(());
         }
         let found = self.next_token().map_or("the end".to_owned(), describe);
-        Err(format!("`{symbol}` is expected, not {found}"))
+        Err(format!("expected `{symbol}`, found {found}"))
     }
 
     fn sum(&mut self) -> Parsed {
@@ -102,7 +102,7 @@ impl Parser<'_> {
                 ProductSign::Cross
             } else if self.begins_factor() {
                 if follows_slash {
-                    return Err("a factor after a/b: write \\frac{a}{b}".to_owned());
+                    return Err("a factor follows a/b; write \\frac{a}{b}".to_owned());
                 }
                 ProductSign::Implicit
             } else {
@@ -117,7 +117,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Returns a factor after a multiplication sign, which may be negative.
+    /// Parses a factor after a multiplication sign, which may be negative.
     fn signed_factor(&mut self) -> Parsed {
         if self.take('-') {
             return Ok(Expression::Negative(self.factor()?.into()));
@@ -136,7 +136,7 @@ impl Parser<'_> {
         })
     }
 
-    /// Returns a primary expression with its exponents.
+    /// Parses a primary expression with its exponents.
     fn factor(&mut self) -> Parsed {
         let mut factor = self.primary()?;
         while self.take('^') {
@@ -154,7 +154,8 @@ impl Parser<'_> {
         Ok(Expression::Power(base.into(), self.argument()?.into()))
     }
 
-    /// `T`, `\top`, `\mathsf{T}`, with or without braces.
+    /// Returns whether the exponent is a transpose: `T`, `\top` or `\mathsf{T}`, with or without
+    /// braces.
     fn takes_transpose(&mut self) -> bool {
         if self.take('{') {
             return self.takes_transpose() && self.take('}');
@@ -169,7 +170,7 @@ impl Parser<'_> {
         is_there
     }
 
-    /// Returns a group in braces or a single token, as `\frac` and `^` take it.
+    /// Parses a group in braces or a single token, the argument of `\frac` and `^`.
     fn argument(&mut self) -> Parsed {
         if !self.take('{') {
             return self.primary();
@@ -181,7 +182,7 @@ impl Parser<'_> {
 
     fn primary(&mut self) -> Parsed {
         let Some(token) = self.next_token() else {
-            return Err("the formula ends too early".into());
+            return Err("unexpected end of the formula".into());
         };
         match token.kind.clone() {
             TokenKind::Number(number) => {
@@ -193,11 +194,11 @@ impl Parser<'_> {
             TokenKind::Symbol('|') => self.length(&TokenKind::Symbol('|')),
             TokenKind::Letter(_) => self.variable(),
             TokenKind::Command(name) => self.command(&name),
-            TokenKind::Symbol(_) => Err(format!("{} is not expected here", describe(token))),
+            TokenKind::Symbol(_) => Err(format!("unexpected {}", describe(token))),
         }
     }
 
-    /// Returns an expression in parentheses, or a column `(a, b, c)`.
+    /// Parses an expression in parentheses, or a column `(a, b, c)`.
     fn parenthesis(&mut self, opening: char) -> Parsed {
         let mut entries = self.list(opening)?;
         match entries.len() {
@@ -225,7 +226,7 @@ impl Parser<'_> {
         self.closing_bars.pop();
         match self.next_token() {
             Some(token) if token.kind == *closing => self.at += 1,
-            _ => return Err("a bar is not closed".to_owned()),
+            _ => return Err("unclosed bar".to_owned()),
         }
         Ok(Expression::Function(Function::Length, vec![inner]))
     }
@@ -266,11 +267,11 @@ impl Parser<'_> {
             "operatorname" => {
                 let word = name_parser::read_word(self)?;
                 let function = Function::named(&word);
-                self.function(function.ok_or(format!("\\operatorname{{{word}}} is not known"))?)
+                self.function(function.ok_or(format!("unknown \\operatorname{{{word}}}"))?)
             }
             _ => match Function::named(name) {
                 Some(function) => self.function(function),
-                None => Err(format!("the command `\\{name}` is not known in a checked formula")),
+                None => Err(format!("unknown command `\\{name}` in a checked formula")),
             },
         }
     }
@@ -285,7 +286,7 @@ impl Parser<'_> {
         })
     }
 
-    /// Returns the argument of a function without parentheses: `\theta`, `2\theta`,
+    /// Parses the argument of a function without parentheses: `\theta`, `2\theta`,
     /// `\frac{\theta}{2}`.
     fn one_factor(&mut self) -> Parsed {
         let first = self.factor()?;
@@ -297,11 +298,11 @@ impl Parser<'_> {
         Ok(first)
     }
 
-    /// After `\begin`: `{bmatrix} a & b \\ c & d \end{bmatrix}`.
+    /// Parses the part after `\begin`: `{bmatrix} a & b \\ c & d \end{bmatrix}`.
     fn matrix(&mut self) -> Parsed {
         let kind = name_parser::read_word(self)?;
         if !["bmatrix", "pmatrix", "matrix", "smallmatrix"].contains(&kind.as_str()) {
-            return Err(format!("\\begin{{{kind}}} is not known here"));
+            return Err(format!("unknown \\begin{{{kind}}}"));
         }
         let bars = std::mem::take(&mut self.closing_bars);
         let mut rows = vec![vec![self.sum()?]];
@@ -317,7 +318,7 @@ impl Parser<'_> {
                 break;
             } else {
                 let found = self.next_token().map_or("the end".to_owned(), describe);
-                return Err(format!("a matrix goes on with {found}"));
+                return Err(format!("unexpected {found} in a matrix"));
             }
         }
         if name_parser::read_word(self)? != kind {
@@ -327,9 +328,9 @@ impl Parser<'_> {
         Ok(Expression::Matrix(rows))
     }
 
-    /// After `\sum`: `_{i=0}^{2} body`, where the body is the rest of the product.
+    /// Parses the part after `\sum`: `_{i=0}^{2} body`, where the body is the rest of the product.
     fn indexed_sum(&mut self) -> Parsed {
-        let form = "a sum is written \\sum_{i=0}^{2}";
+        let form = "a sum must have the form \\sum_{i=0}^{2}";
         self.expect('_')?;
         self.expect('{')?;
         let Some(TokenKind::Letter(index)) = self.next_token().map(|token| token.kind.clone())
@@ -356,9 +357,9 @@ impl Parser<'_> {
     fn bound(&mut self) -> Result<usize, String> {
         let Some(TokenKind::Number(number)) = self.next_token().map(|token| token.kind.clone())
         else {
-            return Err("the bounds of a sum are numbers".to_owned());
+            return Err("the bounds of a sum must be numbers".to_owned());
         };
         self.at += 1;
-        (0..100).find(|&whole| whole as f64 == number).ok_or("a bound is 0, 1, 2 …".to_owned())
+        (0..100).find(|&whole| whole as f64 == number).ok_or("a bound must be 0, 1, 2 …".to_owned())
     }
 }

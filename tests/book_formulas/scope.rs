@@ -1,4 +1,5 @@
-//! A check line with its values: the meaning of a formula's names, and the crates' answers.
+//! A check line with its values, which give a formula's names their meaning, and the crates'
+//! results.
 
 use crate::book_formulas::check_line::{Check, Given, Reference};
 use crate::book_formulas::evaluate::Scope;
@@ -12,11 +13,11 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Debug)]
 pub struct PreparedCheck {
     pub expected: Value,
-    /// Given in the check line.
+    /// The values in the check line.
     values: BTreeMap<Name, Value>,
-    /// Offered by the crates.
+    /// The values that the crates supply.
     extras: BTreeMap<Name, Value>,
-    /// The names that an entry behind a name needs.
+    /// The names whose values are needed by an entry that another name refers to.
     behind: BTreeMap<Name, &'static Entry>,
     target: Reference,
     used: RefCell<BTreeSet<Name>>,
@@ -61,7 +62,7 @@ impl PreparedCheck {
         Ok(prepared)
     }
 
-    /// Checks that each value belongs to the entry or to an entry behind a name.
+    /// Checks that each value belongs to the entry, or to an entry that a name refers to.
     fn check_givens(&self, entry: &Entry) -> Result<(), String> {
         let takes = |entry: &Entry, name: &Name| Inputs::takes(entry.variables, name);
         for name in self.values.keys().filter(|name| !self.behind.contains_key(*name)) {
@@ -75,7 +76,7 @@ impl PreparedCheck {
         Ok(())
     }
 
-    /// Returns a name whose value the formula has not used, after it has been evaluated.
+    /// Returns a name whose value the formula did not use, once it has been evaluated.
     pub fn unused_name(&self) -> Option<&Name> {
         let used = self.used.borrow();
         let uses_extras = self.extras.keys().any(|name| used.contains(name));
@@ -97,7 +98,8 @@ fn answer(entry: &Entry, values: &BTreeMap<Name, Value>) -> Result<Value, String
 }
 
 impl Scope for PreparedCheck {
-    /// A plain letter also finds a bold value; a bold one finds a plain matrix, but not a number.
+    /// Returns the value of a name. A plain letter also matches a bold value; a bold letter also
+    /// matches a plain matrix, but not a number.
     fn value_of(&self, name: &Name) -> Result<Value, String> {
         let key = name.key();
         let other = Name { is_bold: !key.is_bold, ..key.clone() };

@@ -6,10 +6,10 @@ use crate::book_formulas::token::Token;
 #[derive(Clone, PartialEq, Debug)]
 pub enum Statement {
     /// The members of an equation, or the whole row if it has no relation. Each has the checked
-    /// value, except that the first may be the left side, which is a mere name in most equations.
+    /// value, except that the first may be the left side, which in most equations is only a name.
     Values { members: Vec<Vec<Token>>, has_left_side: bool },
-    /// Members with `true` between them for ≤, `false` for ≥. The value is the margin of each
-    /// relation: the larger side minus the smaller one.
+    /// Members, and between them `true` for ≤ and `false` for ≥. The value is the margin of each
+    /// relation: the larger side minus the smaller side.
     Inequality(Vec<Vec<Token>>, Vec<bool>),
 }
 
@@ -20,7 +20,8 @@ impl Statement {
         }
     }
 
-    /// Without the left side of an equation, which has no value if it is a name.
+    /// Returns the statement without the left side of an equation, which has no value if it is a
+    /// name.
     pub fn without_left_side(&self) -> Self {
         match self {
             Self::Values { members, has_left_side: true } => {
@@ -73,7 +74,7 @@ fn strip_environment(tokens: &[Token]) -> &[Token] {
     }
 }
 
-/// Without alignment marks, and without the final period.
+/// Returns the tokens without alignment marks and the final period.
 fn trim_row(row: &[Token]) -> Vec<Token> {
     let mut depth = 0_i32;
     let mut kept = Vec::new();
@@ -100,7 +101,7 @@ fn depth_change(token: &Token) -> i32 {
     }
 }
 
-/// Returns the parts between separators outside brackets, each with the separator after it.
+/// Returns the parts between separators outside brackets, with the separator after each part.
 fn split_at(
     tokens: &[Token],
     is_separator: impl Fn(&Token) -> bool,
@@ -123,7 +124,7 @@ fn is_equality(token: &Token) -> bool {
     token.is_symbol('=') || commands.iter().any(|name| token.is_command(name))
 }
 
-/// Left of an arrow is the mapped expression.
+/// Returns whether a token is an arrow, whose left side is the mapped expression.
 fn is_assignment(token: &Token) -> bool {
     let is_equation = ["approx", "equiv"].iter().any(|name| token.is_command(name));
     is_equality(token) && !token.is_symbol('=') && !is_equation

@@ -13,7 +13,7 @@ pub enum TokenKind {
     Letter(char),
     /// `\frac` without its backslash; `\\` is the command `\`.
     Command(String),
-    /// A sign, bracket or accent.
+    /// An operator, bracket or accent.
     Symbol(char),
 }
 
@@ -27,7 +27,7 @@ impl Token {
     }
 }
 
-/// Layout commands and symbols, which have no meaning.
+/// Layout commands and symbols, which do not affect the value.
 const LAYOUT: [&str; 19] = [
     ",",
     ";",
@@ -52,7 +52,7 @@ const LAYOUT: [&str; 19] = [
 
 const SYMBOLS: &str = "+-*/^_()[]{}|,.&=<>:'";
 
-/// Returns the tokens of a block without its layout; an error is a line and a message.
+/// Splits a block into tokens, without its layout. An error is a line and a message.
 pub fn tokenize(latex: &str) -> Result<Vec<Token>, (usize, String)> {
     let mut tokens = Vec::new();
     for (line, text) in latex.lines().enumerate() {
@@ -65,7 +65,7 @@ pub fn tokenize(latex: &str) -> Result<Vec<Token>, (usize, String)> {
                 'a'..='z' | 'A'..='Z' => (Some(TokenKind::Letter(first)), 1),
                 '~' => (None, 1),
                 _ if SYMBOLS.contains(first) => (Some(TokenKind::Symbol(first)), 1),
-                _ => return Err((line, format!("the character {first:?} is not known here"))),
+                _ => return Err((line, format!("unknown character {first:?}"))),
             };
             tokens.extend(kind.map(|kind| Token { kind, line }));
             rest = rest[length..].trim_start();
@@ -74,7 +74,8 @@ pub fn tokenize(latex: &str) -> Result<Vec<Token>, (usize, String)> {
     Ok(tokens)
 }
 
-/// `\frac12` is a half, and `x^23` is x² times 3.
+/// Returns whether the next number is a single digit: `\frac12` is one half, and `x^23` is x² times
+/// 3.
 fn takes_one_digit(tokens: &[Token]) -> bool {
     let is_fraction =
         |token: &Token| ["frac", "tfrac", "dfrac"].iter().any(|name| token.is_command(name));
@@ -118,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_letters_commands_and_symbols() {
+    fn numbers_letters_commands_and_symbols_are_tokens() {
         use TokenKind::{Command, Letter, Number, Symbol};
         assert_eq!(kinds("2.5fn."), [Number(2.5), Letter('f'), Letter('n'), Symbol('.')]);
         assert_eq!(kinds("\\left(\\, 2 \\right)"), [Symbol('('), Number(2.0), Symbol(')')]);

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// A matrix; a number is a 1 × 1 matrix, a point or vector a column.
+/// A matrix. A number is a 1 × 1 matrix, and a point or vector is a column.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Value {
     rows: usize,
@@ -20,7 +20,7 @@ impl Value {
         Self { rows: entries.len(), columns: 1, entries: entries.to_vec() }
     }
 
-    /// The rows must have the same length.
+    /// Creates a matrix from its rows.
     pub fn matrix<const R: usize, const C: usize>(rows: [[f64; C]; R]) -> Self {
         Self { rows: R, columns: C, entries: rows.concat() }
     }
@@ -67,25 +67,25 @@ impl Value {
     pub fn to_number(&self) -> Result<f64, String> {
         match self.entries[..] {
             [number] => Ok(number),
-            _ => Err(format!("a number is expected, not {}", self.describe())),
+            _ => Err(format!("expected a number, found {}", self.describe())),
         }
     }
 
     /// Returns the entries of a column of `N`.
     pub fn to_column<const N: usize>(&self) -> Result<[f64; N], String> {
-        let wrong = || format!("a column of {N} is expected, not {}", self.describe());
+        let wrong = || format!("expected a column of {N}, found {}", self.describe());
         if self.columns == 1 { self.entries[..].try_into().ok() } else { None }.ok_or_else(wrong)
     }
 
     /// Returns the rows of an `N` × `N` matrix.
     pub fn to_square<const N: usize>(&self) -> Result<[[f64; N]; N], String> {
         if self.shape() != [N, N] {
-            return Err(format!("a {N} × {N} matrix is expected, not {}", self.describe()));
+            return Err(format!("expected a {N} × {N} matrix, found {}", self.describe()));
         }
         Ok(std::array::from_fn(|i| std::array::from_fn(|k| self.at(i, k))))
     }
 
-    /// Returns its shape in words.
+    /// Describes the shape in words.
     pub fn describe(&self) -> String {
         match self.shape() {
             [1, 1] => "a number".to_owned(),
@@ -110,7 +110,7 @@ impl Value {
         self.plus(&other.map(|entry| -entry))
     }
 
-    /// Returns the product of matrices; a number multiplies each entry.
+    /// Returns the product of matrices, in which a number multiplies each entry.
     pub fn times(&self, other: &Self) -> Result<Self, String> {
         match (self.to_number(), other.to_number()) {
             (Ok(number), _) => Ok(other.map(|entry| number * entry)),
@@ -124,7 +124,7 @@ impl Value {
         }
     }
 
-    /// `\cdot`: for two columns, the dot product.
+    /// Evaluates `\cdot`, which is the dot product of two columns.
     pub fn dot(&self, other: &Self) -> Result<Self, String> {
         if self.is_column() && other.is_column() {
             return self.transpose().times(other);
@@ -132,7 +132,7 @@ impl Value {
         self.times(other)
     }
 
-    /// `\times`: for two columns, the cross product.
+    /// Evaluates `\times`, which is the cross product of two columns.
     pub fn cross(&self, other: &Self) -> Result<Self, String> {
         if !self.is_column() || !other.is_column() {
             return self.times(other);
@@ -153,10 +153,10 @@ impl Value {
         Self::from_entries(self.columns, self.rows, |i, k| self.at(k, i))
     }
 
-    /// Returns the length of a column, the absolute value of a number.
+    /// Returns the length of a column or the absolute value of a number.
     pub fn length(&self) -> Result<Self, String> {
         if self.columns != 1 {
-            return Err(format!("the length of {}", self.describe()));
+            return Err(format!("{} has no length", self.describe()));
         }
         if let [number] = self.entries[..] {
             return Ok(Self::number(number.abs()));
@@ -178,7 +178,8 @@ impl Value {
         }
     }
 
-    /// Gauss and Jordan with row pivots: the determinant and, if that is not 0, the inverse.
+    /// Computes the determinant and, if that is not 0, the inverse by Gauss–Jordan elimination with
+    /// row pivots.
     fn eliminate(mut self) -> Result<(f64, Option<Self>), String> {
         if self.rows != self.columns {
             return Err(format!("{} is not square", self.describe()));
@@ -228,15 +229,19 @@ impl Value {
         }
     }
 
-    /// Blocks side by side.
+    /// Joins two blocks side by side.
     pub fn beside(&self, right: &Self) -> Result<Self, String> {
         Ok(self.transpose().above(&right.transpose())?.transpose())
     }
 
-    /// Blocks one below the other.
+    /// Joins two blocks, the first above the second.
     pub fn above(&self, below: &Self) -> Result<Self, String> {
         if self.columns != below.columns {
-            return Err(format!("{} over {} in a matrix", self.describe(), below.describe()));
+            return Err(format!(
+                "{} cannot be above {} in a matrix",
+                self.describe(),
+                below.describe()
+            ));
         }
         let entries = [&self.entries[..], &below.entries[..]].concat();
         Ok(Self { rows: self.rows + below.rows, columns: self.columns, entries })
@@ -275,7 +280,7 @@ mod tests {
     use super::Value;
 
     #[test]
-    fn inverse_and_determinant_of_a_matrix_that_needs_a_pivot() {
+    fn the_inverse_and_determinant_use_pivots() {
         let matrix = Value::matrix([[0.0, 2.0, 1.0], [4.0, 0.0, 0.0], [0.0, 3.0, 2.0]]);
         assert!((matrix.determinant().unwrap().to_number().unwrap() + 4.0).abs() < 1e-15);
         let product = matrix.times(&matrix.inverse().unwrap()).unwrap();
@@ -284,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn shapes_that_do_not_fit_are_errors() {
+    fn mismatched_shapes_are_errors() {
         let (column, matrix) = (Value::column(&[1.0, 2.0, 3.0]), Value::diagonal(&[1.0; 4]));
         assert!(matrix.times(&column).is_err());
         assert!(column.times(&column).is_err());
@@ -294,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn blocks_make_a_matrix() {
+    fn blocks_form_a_matrix() {
         let top = Value::diagonal(&[2.0, 3.0]).beside(&Value::column(&[4.0, 5.0])).unwrap();
         let all = top.above(&Value::matrix([[0.0, 0.0, 1.0]])).unwrap();
         assert_eq!(all, Value::matrix([[2.0, 0.0, 4.0], [0.0, 3.0, 5.0], [0.0, 0.0, 1.0]]));

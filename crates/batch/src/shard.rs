@@ -310,7 +310,11 @@ mod tests {
             let takers: Vec<usize> =
                 (0..count).filter(|at| shards[*at].takes_group(bytes)).collect();
             assert_eq!(takers.len(), 1, "each job is in one shard");
-            assert_eq!(loads[takers[0]], *loads.iter().min().unwrap(), "the shard with the fewest bytes has it");
+            assert_eq!(
+                loads[takers[0]],
+                *loads.iter().min().unwrap(),
+                "the shard with the fewest bytes has it"
+            );
             loads[takers[0]] += bytes;
         }
         let (least, most) = (loads.iter().min().unwrap(), loads.iter().max().unwrap());

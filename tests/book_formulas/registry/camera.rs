@@ -66,12 +66,12 @@ pub const ENTRIES: &[Entry] = &[
     }),
 ];
 
-/// Returns the basis of **g** and **t**.
+/// Returns the basis from **g** and **t**.
 fn basis(v: &Inputs<'_>) -> Result<Basis, Box<dyn Error>> {
     Ok(Basis::from_gaze(v.vector("g")?.into(), v.vector("t")?.into())?)
 }
 
-/// Returns the camera of **e**, **g** and **t**.
+/// Returns the camera from **e**, **g** and **t**.
 pub fn camera(v: &Inputs<'_>) -> Result<Camera, Box<dyn Error>> {
     let (e, g, t) = (v.vector("e")?, v.vector("g")?, v.vector("t")?);
     Ok(Camera::look_to(e.into(), g.into(), t.into())?)
@@ -104,8 +104,8 @@ fn components(
     names.into_iter().zip(<[f64; 3]>::from(vector)).map(|(name, number)| (name, number.into()))
 }
 
-/// Returns the position of a pixel on the window: back through the viewport and the box of the
-/// window.
+/// Returns the position of a pixel on the window: mapped back through the viewport and the box of
+/// the window.
 fn place_on_window(
     [l, r, b, t]: [f64; 4],
     [n_x, n_y]: [f64; 2],
@@ -117,7 +117,7 @@ fn place_on_window(
     Ok(box_to_view.transform_point(Point::new(ndc.x(), ndc.y(), ndc.z())))
 }
 
-/// The size of the picture does not matter here.
+/// Returns the intrinsics; the size of the picture does not matter here.
 fn intrinsics(v: &Inputs<'_>) -> Result<Intrinsics, Box<dyn Error>> {
     let [fx, fy, cx, cy] = v.these("f_x f_y c_x c_y")?;
     Ok(Intrinsics::new([fx, fy], [cx, cy], [640, 480])?)

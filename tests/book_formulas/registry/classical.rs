@@ -117,13 +117,13 @@ fn principal_point(map: NPoint, axis: usize) -> Answer {
     }
 }
 
-/// From the origin onto the plane z = −N.
+/// Returns the projector from the origin onto the plane z = −N.
 fn picture_plane(v: &Inputs<'_>) -> Result<Projector<View>, Box<dyn Error>> {
     let place = Point::new(0.0, 0.0, -v.number("N")?);
     Ok(Projector::from_eye(Point::ORIGIN, Plane::through(place, Normal::new(0.0, 0.0, 1.0)))?)
 }
 
-/// The far plane does not matter.
+/// Returns the frustum; the far plane does not matter.
 fn frustum(v: &Inputs<'_>) -> Result<Frustum, Box<dyn Error>> {
     let [l, r, b, t, near] = v.these("l r b t N")?;
     Ok(Frustum::new(l, r, b, t, near, 2.0 * near)?)

@@ -57,24 +57,24 @@ fn along_x<const N: usize>(v: &Inputs<'_>, planes: [PlaneIndex; N]) -> Answer {
     distances(&Volume::OPENGL, planes, HPoint::new(x, 0.0, 0.0, w))
 }
 
-/// Returns a segment in clip space whose ends have these values at the left plane, up to a common
+/// Clips a segment in clip space whose ends have these values at the left plane, up to a common
 /// factor, and are inside the other planes.
 fn segment_parameter([a, b]: [f64; 2]) -> Answer {
     let largest = a.abs().max(b.abs());
     let end = |value: f64| HPoint::new(value / largest - 1.0, 0.0, 0.0, 1.0);
-    let cut = clip_segment(end(a), end(b), &Volume::OPENGL).ok_or("nothing is left")?;
+    let cut = clip_segment(end(a), end(b), &Volume::OPENGL).ok_or("the segment is clipped away")?;
     match (a < 0.0, b < 0.0) {
         (true, false) => give(cut.t0),
         (false, true) => give(cut.t1),
-        _ => Err("one of a and b is negative".into()),
+        _ => Err("one of a and b must be negative".into()),
     }
 }
 
-/// Returns a triangle whose edge from the first to the second vertex crosses the left plane.
+/// Clips a triangle whose edge from the first to the second vertex crosses the left plane.
 fn polygon_parameter(v: &Inputs<'_>) -> Result<f64, Box<dyn Error>> {
     let [inside, outside] = v.these::<2>("d_a d_b")?;
     if inside < 0.0 || outside >= 0.0 {
-        return Err("d_a ≥ 0 > d_b is needed".into());
+        return Err("d_a ≥ 0 > d_b must hold".into());
     }
     let largest = inside.abs().max(outside.abs());
     let vertex = |value: f64, y: f64| HPoint::new(value / largest - 1.0, y, 0.0, 1.0);
@@ -82,7 +82,7 @@ fn polygon_parameter(v: &Inputs<'_>) -> Result<f64, Box<dyn Error>> {
     let polygon = clip_triangle(triangle, &Volume::OPENGL);
     let mut cuts = polygon.vertices().iter().map(|vertex| vertex.weights);
     let cut = cuts.find(|weights| weights[2] == 0.0 && weights[1] > 0.0);
-    Ok(cut.ok_or("the edge is not cut")?[1])
+    Ok(cut.ok_or("the edge is not clipped")?[1])
 }
 
 fn triangle_attribute(v: &Inputs<'_>) -> Answer {

@@ -84,7 +84,7 @@ fn entry_of(matrix: Matrix, column: usize) -> Answer {
     give(matrix.rows()[2][column])
 }
 
-/// c = cot(θ/2), the reciprocal of the slope of the upper side.
+/// Returns c = cot(θ/2), the reciprocal of the slope of the top side.
 fn cotangent(v: &Inputs<'_>) -> Extras {
     let slopes = Fov::Vertical(v.number("theta")?).half_slopes(1.0)?;
     Ok(vec![("c", (1.0 / slopes.y).into())])

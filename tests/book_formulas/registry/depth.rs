@@ -19,7 +19,8 @@ pub const ENTRIES: &[Entry] = &[
     Entry::new("ZP-1.infinite", "N D", |v| endless_depth(v, ZERO_ONE.reversed())),
     Entry::new("ZP-1.step", "N F D B", |v| {
         let [near, far, at, bits] = v.numbers()?;
-        let bits = (1..=64).find(|&whole| f64::from(whole) == bits).ok_or("B is 1 to 64")?;
+        let bits =
+            (1..=64).find(|&whole| f64::from(whole) == bits).ok_or("B must be from 1 to 64")?;
         let curve = DepthCurve::perspective(near, far, ZERO_ONE)?;
         give(curve.resolution(at, DepthFormat::FixedPoint(bits))?)
     }),

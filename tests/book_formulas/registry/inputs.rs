@@ -1,4 +1,4 @@
-//! Variables of an entry, and the crates' answers as values.
+//! The variables of an entry, and the crates' results as values.
 
 use crate::book_formulas::name::Name;
 use crate::book_formulas::value::Value;
@@ -9,7 +9,7 @@ use std::error::Error;
 
 pub type Answer = Result<Value, Box<dyn Error>>;
 
-/// The values of a check line, as an entry sees them.
+/// The values of a check line for an entry.
 #[derive(Clone, Copy, Debug)]
 pub struct Inputs<'a> {
     variables: &'a str,
@@ -21,12 +21,12 @@ impl<'a> Inputs<'a> {
         Self { variables, values }
     }
 
-    /// Returns all variables of an entry that has only numbers, in order.
+    /// Returns all variables of an entry whose values are numbers, in order.
     pub fn numbers<const N: usize>(&self) -> Result<[f64; N], Box<dyn Error>> {
         self.these(self.variables)
     }
 
-    /// Some variables, named in a list separated by blanks.
+    /// Returns some variables, named in a list separated by blanks.
     pub fn these<const N: usize>(&self, names: &str) -> Result<[f64; N], Box<dyn Error>> {
         let numbers: Vec<f64> =
             names.split_whitespace().map(|name| self.number(name)).collect::<Result<_, _>>()?;
@@ -34,7 +34,8 @@ impl<'a> Inputs<'a> {
         numbers.try_into().map_err(|_| format!("{count} variables, not {N}").into())
     }
 
-    /// Returns a number; z-coordinates of planes are also found from distances, and vice versa.
+    /// Returns a number. The z-coordinate of a plane also follows from its distance, and vice
+    /// versa.
     pub fn number(&self, name: &str) -> Result<f64, String> {
         let key = Name::parse(name).key();
         if let Some(value) = self.values.get(&key) {
@@ -62,7 +63,7 @@ impl<'a> Inputs<'a> {
         Ok([x?, y?, z?])
     }
 
-    /// Returns whether an entry with these variables takes a value for this name.
+    /// Returns whether an entry with these variables accepts a value for this name.
     pub fn takes(variables: &str, name: &Name) -> bool {
         variables.split_whitespace().any(|variable| {
             let wanted = Name::parse(variable).key();
@@ -87,7 +88,7 @@ fn components_of(letter: &str) -> [[String; 3]; 2] {
     ]
 }
 
-/// Another name for a value, and the sign between the two.
+/// Returns another name for a value, and the sign between the two.
 fn twin_of(name: &str) -> Option<(&'static str, f64)> {
     Some(match name {
         "n" => ("N", -1.0),
@@ -99,7 +100,7 @@ fn twin_of(name: &str) -> Option<(&'static str, f64)> {
     })
 }
 
-/// An answer from any type that converts to a value.
+/// Returns the result for any type that converts to a value.
 pub fn give(value: impl Into<Value>) -> Answer {
     Ok(value.into())
 }

@@ -1,7 +1,7 @@
-//! The crates' side: names for checks, and the public functions behind them.
+//! The registry: names for use in checks, and the public functions they stand for.
 //!
 //! No entry repeats its formula. If the crates have no function for a formula, the value comes from
-//! the nearest one, usually by applying its matrix to a point.
+//! the most closely related function, usually by applying its matrix to a point.
 
 mod camera;
 mod classical;
@@ -25,7 +25,7 @@ pub type Extras = Result<Vec<(&'static str, Value)>, Box<dyn std::error::Error>>
 #[derive(Debug)]
 pub struct Entry {
     pub name: &'static str,
-    /// Its variable names, separated by blanks.
+    /// The variable names, separated by blanks.
     pub variables: &'static str,
     pub build: fn(&Inputs<'_>) -> Answer,
     pub extras: Option<fn(&Inputs<'_>) -> Extras>,
@@ -63,7 +63,7 @@ pub fn all_entries() -> impl Iterator<Item = &'static Entry> {
 
 pub fn find_entry(name: &str) -> Result<&'static Entry, String> {
     let found = all_entries().find(|entry| entry.name == name);
-    found.ok_or_else(|| format!("the name `{name}` is not known"))
+    found.ok_or_else(|| format!("unknown name `{name}`"))
 }
 
 #[cfg(test)]

@@ -51,7 +51,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry::new("PR-1", VOLUME, |v| give(volume(v, chapter::m_orth)?.determinant())),
 ];
 
-/// Returns a matrix of the chapter for the six borders of a volume.
+/// Returns one of the chapter's matrices for the six bounds of a volume.
 pub fn volume<T>(
     v: &Inputs<'_>,
     matrix: fn(f64, f64, f64, f64, f64, f64) -> Result<T, ProjectionError>,
@@ -65,7 +65,7 @@ pub fn point<S: Space>(v: &Inputs<'_>) -> Result<Point<S>, Box<dyn std::error::E
     Ok(Point::from(v.these::<3>("x y z")?))
 }
 
-/// Returns a point after the division, or one of its coordinates.
+/// Returns a point after the perspective division, or one of its coordinates.
 pub fn divided<S: Space>(point: HPoint<S>, coordinate: Option<usize>) -> Answer {
     let place = <[f64; 3]>::from(point.divide().ok_or("w = 0")?);
     match coordinate {

@@ -13,7 +13,7 @@ use std::error::Error;
 use viewport::{Unprojector, Viewport};
 
 const CHAIN: &str = "n_x n_y l r b t n f \\mathbf{e} \\mathbf{g} \\mathbf{t}";
-const NO_CROSSING: &str = "a and b must lie on different sides of the plane";
+const NO_CROSSING: &str = "a and b must be on different sides of the plane";
 const SEGMENT: &str = "\\mathbf{n} \\mathbf{p} \\mathbf{a} \\mathbf{b}";
 
 pub const ENTRIES: &[Entry] = &[
@@ -45,7 +45,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry::new("HL-1.t", SEGMENT, crossing),
 ];
 
-/// `M_per`: its w is negative in front of the eye, as in the chapter.
+/// Returns `M_per`, whose w is negative in front of the eye, as in the chapter.
 fn perspective(v: &Inputs<'_>) -> Result<Projective<View, Clip>, Box<dyn Error>> {
     volume(v, chapter::m_per)
 }
@@ -85,11 +85,11 @@ fn unprojector(v: &Inputs<'_>) -> Result<Unprojector<World>, Box<dyn Error>> {
     Ok(screen(v)?.unprojector(clip_to_world))
 }
 
-/// Returns the unprojected points on the near and the far plane, which are at depth 1 and −1.
+/// Returns the unprojected points on the near and far planes, at depths 1 and −1.
 fn ray_extras(v: &Inputs<'_>) -> Extras {
     let [x, y] = v.these("x_s y_s")?;
     let unprojector = unprojector(v)?;
-    let place = |depth| unprojector.unproject_point(Point::new(x, y, depth)).ok_or("no place");
+    let place = |depth| unprojector.unproject_point(Point::new(x, y, depth)).ok_or("no point");
     let (near, far) = (place(1.0)?, place(-1.0)?);
     let mut extras = chain_extras(v)?;
     extras.extend([("\\mathbf{p}_n", near.into()), ("\\mathbf{p}_f", far.into())]);
@@ -101,7 +101,7 @@ fn plane(v: &Inputs<'_>) -> Result<Plane<World>, Box<dyn Error>> {
     Ok(Plane::through(v.vector("p")?.into(), Normal::new(x, y, z)))
 }
 
-/// Returns the segment clipped by the plane, in a volume that is wide enough.
+/// Clips the segment by the plane, in a volume that is wide enough.
 fn crossing(v: &Inputs<'_>) -> Answer {
     let end = |letter| v.vector(letter).map(|[x, y, z]| HPoint::<Clip>::new(x, y, z, 1.0));
     let shrink = |p: HPoint<Clip>| HPoint::new(p.x(), p.y(), p.z(), 1024.0 * p.w());

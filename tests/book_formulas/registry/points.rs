@@ -16,7 +16,7 @@ pub const ENTRIES: &[Entry] = &[
         let (one, other) =
             (hpoint([x, y, z, w]), HPoint::from_raw(hpoint([x, y, z, w]).raw() * alpha));
         if one.equivalent(other, 1e-12) != Some(true) {
-            return Err("the crates hold them for different places".into());
+            return Err("the crates consider them different points".into());
         }
         give(one.divide().ok_or("w = 0")?)
     }),
@@ -58,7 +58,7 @@ pub const ENTRIES: &[Entry] = &[
     }),
 ];
 
-/// Returns the map of one space to itself with the rows that a name has.
+/// Returns the map of a space to itself whose rows are the value of a name.
 pub fn projective(v: &Inputs<'_>, name: &str) -> Result<Projective<World, World>, String> {
     Ok(Projective::from_rows(v.matrix(name)?.to_square()?))
 }
@@ -71,7 +71,7 @@ fn divide(v: &Inputs<'_>) -> Answer {
     give(hpoint(v.numbers()?).divide().ok_or("w = 0")?)
 }
 
-/// Returns the first row of the windowing of one axis: scale, 0, offset.
+/// Returns the first row of the windowing map of one axis: scale, 0, offset.
 fn window_row([l, h, to_l, to_h]: [f64; 4]) -> Result<[f64; 3], homog::RemapError> {
     let map = Homography::windowing([[l, 0.0], [h, 1.0]], [[to_l, 0.0], [to_h, 1.0]])?;
     Ok(map.rows()[0])

@@ -49,7 +49,7 @@ pub const ENTRIES: &[Entry] = &[
         give(grid.xz(0, pixels(j)? as usize).ok_or("j is beyond the last column")?[1])
     }),
     Entry::new("RA-1.edge", EDGE, edge),
-    // The rasterizer keeps weights in f32; the exact weights are ratios of areas.
+    // The rasterizer stores weights as f32; the exact weights are ratios of areas.
     Entry::new("RA-1.weight", "x_0 y_0 x_1 y_1 x_2 y_2 x y", |v| {
         give(edges(v)?.map(|edge| edge / corners(v).map_or(f64::NAN, area)))
     })
@@ -70,10 +70,10 @@ pub const ENTRIES: &[Entry] = &[
     }),
 ];
 
-/// Returns a whole number of pixels or rows, at least 0.
+/// Converts a number to a count of pixels or rows.
 pub fn pixels(number: f64) -> Result<u32, String> {
     let whole = (0..=16384).find(|&whole: &u32| f64::from(whole) == number);
-    whole.ok_or_else(|| format!("{number} is not a number of pixels"))
+    whole.ok_or_else(|| format!("{number} is not a valid number of pixels"))
 }
 
 fn image(v: &Inputs<'_>, convention: PixelConvention) -> Result<Viewport, Box<dyn Error>> {
@@ -114,10 +114,12 @@ fn vertex(x: f64, y: f64) -> Result<ScreenVertex, String> {
         let steps = f64::from(SUBPIXELS);
         f64::from(vertex.x()) / steps == x && f64::from(vertex.y()) / steps == y
     };
-    snapped.filter(is_same).ok_or_else(|| format!("({x}, {y}) is not on the grid of 1/{SUBPIXELS}"))
+    snapped
+        .filter(is_same)
+        .ok_or_else(|| format!("({x}, {y}) is not on the grid of 1/{SUBPIXELS} pixel"))
 }
 
-/// Twice the area in square pixels.
+/// Returns twice the area in square pixels.
 fn area(triangle: [ScreenVertex; 3]) -> f64 {
     let steps = f64::from(SUBPIXELS);
     signed_area(triangle) as f64 / (steps * steps)
