@@ -1,11 +1,11 @@
-//! `check` against the Khronos glTF validator: both error lists, side by side, for every file in
-//! a corpus.
+//! Compares the errors that `check` reports with those of the Khronos glTF validator, for every
+//! file in a corpus.
 //!
 //! Two corpora are checked: the one that [`alberti_tests::samples`] generates and, if it exists,
 //! the folder `$ASSETS` or `shared/assets` next to the repository. The manifest column
 //! `validator_error_codes` lists the codes of the validator's errors. If it is empty, the check
-//! must find no errors; otherwise it must find them and locate each by a JSON pointer. Intended
-//! differences are listed in [`expected`]. Broken files are also loaded leniently. Arguments that
+//! must find no errors; otherwise it must find these errors and locate each by a JSON pointer.
+//! [`expected`] lists intended differences. Broken files are also loaded leniently. Arguments that
 //! are not flags select files by part of their path; `--all` prints every diagnostic.
 
 mod expected;
@@ -72,7 +72,7 @@ fn error_codes(report: &CheckReport) -> BTreeSet<&'static str> {
     errors.map(|diagnostic| diagnostic.code).collect()
 }
 
-/// Checks all files, two at a time; `None` after a panic.
+/// Checks all files, two at a time; a file that causes a panic gives `None`.
 fn check_files(folder: &Path, rows: &[Row]) -> Vec<Option<CheckReport>> {
     map_parallel(rows, |_, row| {
         let path = folder.join(&row.path);

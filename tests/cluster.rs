@@ -5,12 +5,11 @@
 //!  array job   ─► how long it takes when nothing happens
 //!  array job   ─► a third is done: a node dies; half is done: another is cut off for 20 s
 //!                 every picture is there and right, every bad model is one record
-//! ```
-//! A controller and three nodes run in namespaces of this machine, with `deploy/slurm/batch.sh` as
-//! the job script. Everything ends with the test, however that ends. If Slurm is not installed or
-//! the test may not create namespaces, the step is reported as skipped; `.ci/run` installs Slurm if
-//! it can. `CLUSTER_RUNS=3` repeats the disturbed run. Its time is compared with the undisturbed
-//! run's, unless others use the processors meanwhile.
+//! ``` A controller and three nodes run in namespaces of this machine, with `deploy/slurm/batch.sh`
+//! as the job script. Everything stops when the test stops, however it ends. If Slurm is not
+//! installed or the test may not create namespaces, the step is reported as skipped; `.ci/run`
+//! installs Slurm if it can. `CLUSTER_RUNS=3` repeats the disturbed run. The time is compared with
+//! an undisturbed run, unless other programs use the processors meanwhile.
 
 mod batch_run;
 mod checks;
@@ -29,7 +28,7 @@ use std::time::{Duration, Instant};
 
 /// The name of the test in its output.
 const NAME: &str = "cluster";
-/// The argument of the process inside the namespaces; the test folder follows.
+/// The argument for the process inside the namespaces; the test folder follows it.
 const INSIDE: &str = "--inside";
 
 pub fn run() -> ExitCode {
@@ -37,13 +36,13 @@ pub fn run() -> ExitCode {
     let mut words = std::env::args().skip(2);
     if words.next().as_deref() == Some(INSIDE) {
         let folder = words.next().map(PathBuf::from);
-        return run_program(NAME, |_| test_cluster(&folder.ok_or("there is no folder")?));
+        return run_program(NAME, |_| test_cluster(&folder.ok_or("missing folder")?));
     }
     let outcome = run_sandbox(&Arguments::from_env());
     outcome.unwrap_or_else(|reason| run_program(NAME, |_| Err(reason)))
 }
 
-/// Runs the test in separate namespaces, if this machine can.
+/// Runs the test in separate namespaces if this machine supports them.
 fn run_sandbox(arguments: &Arguments) -> Result<ExitCode, String> {
     if !arguments.select(NAME) {
         return Ok(ExitCode::SUCCESS);
@@ -65,7 +64,7 @@ fn run_sandbox(arguments: &Arguments) -> Result<ExitCode, String> {
     Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// The whole test, inside the namespaces.
+/// Runs the whole test inside the namespaces.
 fn test_cluster(folder: &Path) -> Result<Tally, String> {
     let mut tally = Tally::default();
     let mut load = foreign_load()?;
@@ -94,7 +93,10 @@ fn test_cluster(folder: &Path) -> Result<Tally, String> {
         let outcome = checks::check_time(disturbed, time);
         if load > MAX_LOAD {
             let share = load * 100.0;
-            tally.skip("cluster: time", &format!("others use {share:.0} % of the processors"));
+            tally.skip(
+                "cluster: time",
+                &format!("other programs use {share:.0} % of the processors"),
+            );
         } else {
             tally.record("time", outcome);
         }
@@ -102,8 +104,8 @@ fn test_cluster(folder: &Path) -> Result<Tally, String> {
     Ok(tally)
 }
 
-/// The maximum share of the processors that others may use while times are compared: the nodes then
-/// have what they would have for themselves.
+/// The maximum share of the processors that other programs may use while times are compared, so
+/// that they do not slow the nodes.
 const MAX_LOAD: f64 = 0.25;
 
 /// Returns the share of the processors in use during a second in which this test does nothing.
@@ -122,12 +124,12 @@ fn foreign_load() -> Result<f64, String> {
     Ok(1.0 - idle as f64 / all as f64)
 }
 
-/// Returns the number of times the disturbed run is repeated.
+/// Returns the number of disturbed runs.
 fn run_count() -> u32 {
     std::env::var("CLUSTER_RUNS").ok().and_then(|runs| runs.parse().ok()).unwrap_or(1)
 }
 
-/// One run in which a node dies and another is cut off; returns its time.
+/// Performs one run in which a node dies and another is cut off, and returns its time.
 fn test_disturbed(
     cluster: &mut Cluster,
     run: &BatchRun,
@@ -151,8 +153,8 @@ fn test_disturbed(
     Ok(time)
 }
 
-/// Kills a node when a third is done and cuts another off when half is; returns the time until the
-/// job ends.
+/// Kills a node when a third of the pictures are done and cuts another off when half are; returns
+/// the time until the job ends.
 fn disturb(
     cluster: &mut Cluster,
     watcher: &watcher::Watcher,
@@ -161,9 +163,9 @@ fn disturb(
 ) -> Result<Duration, String> {
     submitted.wait_until(cluster, || watcher.count() * 3 >= pictures)?;
     let killed = cluster.kill_node(1)?;
-    println!("{} of {pictures} are drawn: n2 dies with {killed} processes", watcher.count());
+    println!("{} of {pictures} drawn; n2 dies with {killed} processes", watcher.count());
     submitted.wait_until(cluster, || watcher.count() * 2 >= pictures)?;
-    println!("{} of {pictures} are drawn: n3 is cut off", watcher.count());
+    println!("{} of {pictures} drawn; n3 is cut off", watcher.count());
     cluster.cut_link(2)?;
     let cut = Instant::now();
     let is_over = || cut.elapsed() >= slurm::LINK_CUT;

@@ -1,11 +1,11 @@
-//! Every file of a corpus, rendered by the real program: it gives a picture, or is refused with a
+//! Renders every file of a corpus with the real program: each gives a picture or is rejected with a
 //! reason.
 //!
 //! Two corpora are rendered. [`alberti_tests::samples`] generates one, and its manifest states the
 //! outcome of each file. The other, if it exists, is the folder `$ASSETS` or `shared/assets` next
 //! to the repository; the tables of [`expected`] state its outcomes. Each file is rendered in a
-//! separate process, two at a time, within thirty seconds. There are two legal outcomes: exit code
-//! 0 and a PNG of the right size, or exit code 1, a message that names the file and the reason, and
+//! separate process, two at a time, within thirty seconds. Two outcomes are allowed: exit code 0
+//! and a PNG of the right size, or exit code 1, a message that names the file and the reason, and
 //! no PNG. Triangle counts of files under `models` must match the manifest. Arguments that are not
 //! flags select files by part of their path.
 
@@ -25,13 +25,13 @@ use std::path::Path;
 use std::process::ExitCode;
 use verdict::Verdict;
 
-/// Width and height of the pictures.
+/// The width and height of the pictures.
 const PICTURE_SIZE: (u32, u32) = (64, 48);
 
 /// The groups of files that are rendered.
 const GROUPS: [&str; 3] = ["models", "validator-valid", "bad"];
 
-/// Outcomes of one group.
+/// The outcomes of one group.
 #[derive(Default)]
 struct GroupTally {
     drawn: usize,
@@ -53,8 +53,8 @@ pub fn run() -> ExitCode {
     })
 }
 
-/// Renders the files in a folder and prints the outcomes. `known` is true for the folder that the
-/// tables describe.
+/// Renders the files in a folder and prints the outcomes. `known` is true for the folder described
+/// by the tables.
 fn render_corpus(
     program: &Program,
     folder: &Path,
@@ -83,13 +83,13 @@ fn render_corpus(
     print_refusals(&rows, &verdicts);
     triangles::check_triangle_counts(folder, &rows, known, &mut tally);
     for (group, GroupTally { drawn, blank, refused }) in &groups {
-        println!("{group}: {drawn} drawn, {blank} drawn blank, {refused} refused");
+        println!("{group}: {drawn} drawn, {blank} drawn blank, {refused} rejected");
     }
     Ok(tally)
 }
 
-/// Returns the reason why an outcome is wrong: by the manifest if it states one, otherwise by the
-/// tables of a known folder.
+/// Returns the reason why an outcome is wrong, according to the manifest if it states one,
+/// otherwise according to the tables of a known folder.
 fn failure_message(row: &Row, verdict: &Verdict, known: bool) -> Option<String> {
     match verdict {
         Verdict::Broken(problem) => Some(problem.clone()),
@@ -99,7 +99,7 @@ fn failure_message(row: &Row, verdict: &Verdict, known: bool) -> Option<String> 
     }
 }
 
-/// Prints the reasons of all refusals, each with its files, and the files with blank pictures.
+/// Prints the reasons for all rejections with their files, and the files with blank pictures.
 fn print_refusals(rows: &[Row], verdicts: &[Verdict]) {
     let mut files: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for (row, verdict) in rows.iter().zip(verdicts) {

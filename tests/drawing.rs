@@ -1,10 +1,11 @@
-//! Line drawings against z-buffer images: at most 0.2 percent of the visible length may disagree.
+//! Compares line drawings with z-buffer images: they may disagree on at most 0.2 percent of the
+//! visible length.
 //!
 //! Uses the scene models and, if it exists, the listed models in `$ASSETS` or in `shared/assets`
 //! next to the repository. Each is drawn from six directions in perspective, isometric and cavalier
 //! projection. Random scenes over all projections follow (`random.rs`). Arguments that are not
-//! flags select models by part of their path; a path below the folder's `models` names one that is
-//! not listed.
+//! flags select models by part of their path; a path below the folder's `models` selects a model
+//! that is not listed.
 
 mod bits;
 mod random;
@@ -21,14 +22,14 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use views::{DIRECTIONS, ViewKind, build_scene};
 
-/// The fraction of the visible length that may disagree.
+/// The fraction of the visible length on which they may disagree.
 const MAX_DISAGREEMENT: f64 = 0.002;
 
-/// Models that may disagree more, and the reason.
+/// Models that may disagree more, with the reason.
 const EXCEPTIONS: &[(&str, f64, &str)] = &[(
     "ship-light-draco/model.gltf",
     0.005,
-    "lines where quantized planks cross are visible through cracks a twentieth of a pixel wide, which contain no sample",
+    "lines where quantized planks cross are visible through cracks a twentieth of a pixel wide, which contain no samples",
 )];
 
 /// Scene models that consist only of lines.
@@ -76,7 +77,7 @@ pub fn run() -> ExitCode {
         if let Some(assets) = data_folder("ASSETS", "assets")? {
             let folder = assets.join("models");
             let listed = MODELS.iter().map(|name| (*name).to_owned());
-            // Any other model in the folder can be named by its path.
+            // Any other model in the folder can be selected by its path.
             let others = arguments.filters().iter().filter(|name| folder.join(name).is_file());
             models.extend(listed.chain(others.cloned()).map(|name| (folder.join(&name), name)));
         }
@@ -91,7 +92,7 @@ pub fn run() -> ExitCode {
     })
 }
 
-/// Path and name of the scene models that have faces.
+/// Returns the path and name of each scene model that has faces.
 fn glb_files(folder: &Path) -> Result<Vec<(PathBuf, String)>, String> {
     let entries = std::fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
@@ -171,8 +172,7 @@ fn measure_agreement(
         Ok::<_, String>((agreement, drawing))
     };
     let (removed, drawing) = agreement(&DrawOptions::hidden_edges_removed())?;
-    // The comparison itself must be able to fail: it does if hidden edges are drawn as visible
-    // ones.
+    // The comparison itself must be able to fail, as it does if hidden edges are drawn as visible.
     if kind == ViewKind::Perspective && direction == 0 {
         let (all, _) = agreement(&DrawOptions {
             hidden_edges: HiddenEdges::Ignored,
@@ -182,7 +182,7 @@ fn measure_agreement(
             && all.disagreement_ratio() < 10.0 * MAX_DISAGREEMENT
         {
             let ratio = all.disagreement_ratio();
-            return Err(format!("the z-buffer contradicts only {ratio} of all edges"));
+            return Err(format!("the z-buffer contradicts only a fraction {ratio} of all edges"));
         }
     }
     Ok((removed, drawing))

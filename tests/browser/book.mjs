@@ -1,15 +1,15 @@
-// The book in a browser: layout at two widths and in two themes, nothing from other hosts, search in both languages.
+// Tests the book in a browser: layout at two widths and in two themes, no requests to other hosts, search in both languages.
 //
-//   node book.mjs FOLDER       the folder with `en` and `zh`; `cargo xtask book --check` runs it
+//   node book.mjs FOLDER       FOLDER contains `en` and `zh`; run by `cargo xtask book --check`
 
 import { readdir } from 'node:fs/promises';
 import path from 'node:path';
 import { assert, launchBrowser, serveFolder } from './harness.mjs';
 
 const LANGUAGES = ['en', 'zh'];
-/** Files of an edition that are no pages. */
+/** HTML files of an edition that are not book pages. */
 const OTHERS = ['print.html', 'toc.html', '404.html', 'index.html'];
-/** What is sought, and the page that must be among the first five found. */
+/** The search query, and the page that must be among the first five results. */
 const SOUGHT = { en: ['perspective divide', 'points.html'], zh: ['透视除法', 'points.html'] };
 const VIEWS = [
   { viewport: { width: 380, height: 800 }, colorScheme: 'dark' },
@@ -27,7 +27,7 @@ async function test(name, run) {
   }
 }
 
-/** What sticks out of the window and does not scroll in itself, and what of figures and formulas is not as it should be. */
+/** Finds elements that overflow the window without scrolling, and figures and formulas that are broken. */
 function measurePage() {
   const content = document.querySelector('#mdbook-content');
   const scrolls = (element) => ['auto', 'scroll'].includes(getComputedStyle(element).overflowX) && element !== content;
@@ -49,7 +49,7 @@ function measurePage() {
   };
 }
 
-/** A tab that counts what it loads from other hosts. */
+/** Opens a tab that records requests to other hosts. */
 async function openTab(browser, address, view) {
   const page = await browser.newPage(view);
   const foreign = [];
@@ -66,10 +66,10 @@ async function testPage({ page, foreign, width }, address, language, name) {
   assert(found.language === language, `lang is ${found.language}`);
   assert(found.excess <= 0, `${width} px: ${found.excess} px too wide: ${found.wide.join(', ')}`);
   assert(found.broken.length === 0, `figures are missing: ${found.broken}`);
-  assert(found.dark === 0, `${found.dark} figures without white paper`);
-  assert(found.raw.length === 0, `LaTeX is shown: ${found.raw}`);
-  assert(found.math === 0, `${found.math} formulas are not shown`);
-  assert(foreign.length === 0, `loaded from elsewhere: ${foreign.splice(0)}`);
+  assert(found.dark === 0, `${found.dark} figures without a white background`);
+  assert(found.raw.length === 0, `LaTeX source is visible: ${found.raw}`);
+  assert(found.math === 0, `${found.math} formulas are invisible`);
+  assert(foreign.length === 0, `loaded from other hosts: ${foreign.splice(0)}`);
 }
 
 async function testSearch(browser, address, language) {
@@ -80,9 +80,9 @@ async function testSearch(browser, address, language) {
   const links = await page.locator('#mdbook-searchresults li a').evaluateAll((all) => all.slice(0, 5).map((link) => link.getAttribute('href')));
   assert(links.some((link) => link.includes(expected)), `“${words}” finds ${links.join(', ')}`);
   const teaser = await page.locator('#mdbook-searchresults .teaser em').first().textContent();
-  assert(teaser.length > 0, `“${words}”: no word is emphasized`);
+  assert(teaser.length > 0, `“${words}”: no word is highlighted`);
   const header = await page.locator('#mdbook-searchresults-header').innerText();
-  assert(language === 'en' || header.startsWith('找到'), `the number of results is given as “${header}”`);
+  assert(language === 'en' || header.startsWith('找到'), `the number of results is shown as “${header}”`);
   await page.close();
 }
 
@@ -102,5 +102,5 @@ for (const language of LANGUAGES) {
 }
 await browser.close();
 site.stop();
-console.log(`${count} pages in a browser, ${failures} faults`);
+console.log(`${count} pages in a browser, ${failures} failures`);
 if (failures > 0) process.exitCode = 1;

@@ -1,4 +1,4 @@
-// A server or a folder of static files, a browser, and the page in it.
+// Starts a server for the explorer or for static files, opens a browser, and drives the page in it.
 
 import { spawn } from 'node:child_process';
 import { readFile } from 'node:fs/promises';
@@ -17,13 +17,13 @@ export function assert(condition, message) {
   if (!condition) throw new Error(message);
 }
 
-/** Fails unless two numbers are equal up to the digits that the page shows. */
+/** Fails unless two numbers are equal to within the digits that the page shows. */
 export function assertNear(actual, expected, message) {
   const tolerance = 2e-4 * Math.max(1, Math.abs(expected));
   assert(Math.abs(actual - expected) <= tolerance, `${message}: ${actual}, expected ${expected}`);
 }
 
-/** Starts `alberti explore`; gives its address and how to end it. */
+/** Starts `alberti explore`; returns its address and a function that stops it. */
 export async function startProgram(program, args) {
   const child = spawn(program, ['explore', ...args], { cwd: path.join(ROOT, 'scenes/models'), stdio: ['ignore', 'pipe', 'ignore'] });
   const address = await new Promise((resolve, reject) => {
@@ -50,13 +50,13 @@ export async function serveFolder(folder) {
   return { address: `http://127.0.0.1:${server.address().port}/`, stop: () => server.close() };
 }
 
-/** A browser without a display. */
+/** Launches a headless browser. */
 export const launchBrowser = () =>
   chromium.launch({ executablePath: '/usr/bin/chromium', args: process.getuid?.() === 0 ? ['--no-sandbox'] : [] });
 
-/** A page of the explorer, with all that a test asks of it. */
+/** An explorer page, with the actions and queries that tests need. */
 export class Explorer {
-  /** Opens the page in a context of its own. */
+  /** Opens the page in a separate context. */
   static async open(browser, address, { hash = '', ...options } = {}) {
     const context = await browser.newContext({ locale: 'en-US', viewport: { width: 1280, height: 900 }, ...options });
     await context.grantPermissions(['clipboard-read', 'clipboard-write']);
@@ -69,7 +69,7 @@ export class Explorer {
   constructor(page, address) {
     this.page = page;
     this.address = address;
-    /** What a page should not do: write to the console, fail, or ask another host. */
+    /** Things that a page must not do: write to the console, fail, or contact another host. */
     this.faults = [];
     page.on('console', (message) => this.faults.push(`console: ${message.text()}`));
     page.on('pageerror', (error) => this.faults.push(`error: ${error.message}`));
@@ -85,12 +85,12 @@ export class Explorer {
     assert(this.faults.length === 0, this.faults.join('; '));
   }
 
-  /** Waits until everything shows the state. */
+  /** Waits until the whole page shows the current state. */
   settled() {
     return this.page.waitForFunction(() => document.body.dataset.settled !== undefined, null, { timeout: 60_000 });
   }
 
-  /** Goes to a state by its link. */
+  /** Opens a state by its link. */
   async goTo(hash) {
     await this.page.evaluate((to) => {
       delete document.body.dataset.settled;
@@ -107,13 +107,13 @@ export class Explorer {
     return this.text('#consequences');
   }
 
-  /** The coordinates of the pinned point in a space, as the page shows them. */
+  /** Returns the coordinates of the pinned point in a space, as the page shows them. */
   async coordinates(space) {
     const cells = await this.page.locator(`tr[data-space=${space}] td`).allInnerTexts();
     return cells.filter((cell) => cell !== '').map((cell) => Number(cell.replace('−', '-')));
   }
 
-  /** The numbers of triangles in the legend of the world. */
+  /** Returns the triangle counts in the legend of the world view. */
   async triangles() {
     const entries = await this.page.locator('.legend[data-of=world] li').allInnerTexts();
     return Object.fromEntries(entries.map((entry) => entry.split(': ')).map(([name, count]) => [name, Number(count)]));
@@ -134,15 +134,15 @@ export class Explorer {
     return this.page.locator(`#parameter-${key}`).inputValue();
   }
 
-  /** Faults of accessibility that axe finds. */
+  /** Returns the accessibility violations that axe finds. */
   async violations() {
-    // Read rather than loaded by the page, whose policy allows no other script.
+    // The script is injected, because the content security policy of the page allows no other scripts.
     await this.page.evaluate(await readFile(AXE, 'utf8'));
     const { violations } = await this.page.evaluate(() => globalThis.axe.run());
     return violations.map(({ id, nodes }) => `${id} (${nodes.map(({ target }) => target.join(' ')).join(', ')})`);
   }
 
-  /** How many colors the canvas of a pane has, counted up to 50. */
+  /** Returns the number of colors in the canvas of a pane, counted up to 50. */
   colors(pane) {
     return this.page.evaluate((id) => {
       const canvas = document.getElementById(id);

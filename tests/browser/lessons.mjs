@@ -1,10 +1,10 @@
-// What each lesson states, asserted from what the page shows.
+// The statements of each lesson, checked against the page.
 
 import { assert, assertNear } from './harness.mjs';
 
 const RADIANS = Math.PI / 180;
 
-/** Fails unless changing a parameter leaves the pinned point where it is and clips another number of triangles. */
+/** Fails unless changing a parameter leaves the pinned point unchanged and changes the number of clipped triangles. */
 async function assertOnlyClips(page, key, value) {
   const [before, trianglesBefore] = [await page.coordinates('ndc'), await page.triangles()];
   await page.type(key, value);
@@ -14,7 +14,7 @@ async function assertOnlyClips(page, key, value) {
   assert(JSON.stringify(triangles) !== JSON.stringify(trianglesBefore), `${key} clips nothing`);
 }
 
-/** Where a frustum takes a point of view space, by its formula (GL-1), or by that of the moved apex (M12). */
+/** Returns the x to which a frustum maps a point in view space, by formula GL-1 or by the formula with a moved apex (M12). */
 function frustumX([x, , z], { left, right, near }, isMoved) {
   const shift = (right + left) / (right - left);
   return ((2 * near * x) / (right - left) + (isMoved ? -near : z) * shift) / -z;
@@ -25,7 +25,7 @@ async function frustumValues(page) {
   return Object.fromEntries(await Promise.all(keys.map(async (key) => [key, Number(await page.value(key))])));
 }
 
-/** Lessons and their statements, by item of the sources. */
+/** The lessons and their statements, by source item. */
 export const STATEMENTS = [
   {
     name: 'C62: a small field of view enlarges',
@@ -82,7 +82,7 @@ export const STATEMENTS = [
     check: (page) => assertOnlyClips(page, 'far', 11.5),
   },
   {
-    name: 'C64, M12: left and right move the window; the moved apex is another picture',
+    name: 'C64, M12: left and right move the window; the moved apex gives a different picture',
     lesson: 'frustum',
     async check(page) {
       await page.type('right', 1);
@@ -98,7 +98,7 @@ export const STATEMENTS = [
     },
   },
   {
-    name: 'C65: two eyes have crossed parallax before the plane of convergence, and the other behind',
+    name: 'C65: two eyes have crossed parallax in front of the plane of convergence and uncrossed parallax behind it',
     lesson: 'stereo',
     async check(page) {
       const eyes = Number(await page.value('eyes'));
@@ -116,7 +116,7 @@ export const STATEMENTS = [
     },
   },
   {
-    name: 'C94: in an orthographic projection distance changes nothing, and a smaller window enlarges',
+    name: 'C94: in an orthographic projection, distance changes nothing and a smaller window enlarges',
     lesson: 'ortho',
     async check(page) {
       const clip = await page.coordinates('clip');

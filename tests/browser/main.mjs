@@ -1,8 +1,8 @@
-// The explorer in a real browser: `node main.mjs PROGRAM [FOLDER|--first]`.
+// Tests the explorer in a real browser: `node main.mjs PROGRAM [FOLDER|--first]`.
 //
-// PROGRAM is `alberti`, whose server computes; FOLDER is what `cargo xtask web` writes, where WebAssembly computes.
-// `--first` tests the first lesson alone.
-// A line for each test, and the exit code 1 if one has failed.
+// PROGRAM is `alberti`, whose server computes; FOLDER is the output of `cargo xtask web`, where WebAssembly computes.
+// `--first` tests only the first lesson.
+// Prints one line per test; the exit code is 1 if a test failed.
 
 import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
@@ -27,13 +27,13 @@ async function test(name, run) {
 
 const hashOf = (bytes) => createHash('sha256').update(bytes).digest('hex');
 
-/** The picture that the program renders from a scene, in the folder of its models. */
+/** Returns the picture that the program renders from a scene in the folder of its models. */
 function programPicture(scene, isOwn) {
   const cwd = path.join(ROOT, isOwn ? 'scenes/models' : 'scenes');
   return execFileSync(program, ['render', '-', '-o', '-', '--format', 'png'], { input: scene, cwd, maxBuffer: 1 << 26 });
 }
 
-/** Presses a button of the page whose answer is a file. */
+/** Presses a button that downloads a file, and returns the file. */
 async function saved(explorer, button) {
   const [download] = await Promise.all([explorer.page.waitForEvent('download'), explorer.page.click(button)]);
   return readFile(await download.path());
@@ -45,7 +45,7 @@ async function copied(explorer, button) {
   return explorer.page.evaluate(() => navigator.clipboard.readText());
 }
 
-/** The first control of the lesson changes by the mouse, and then by the keyboard. */
+/** Changes the first control of the lesson with the mouse, and then with the keyboard. */
 async function moveControls({ page }) {
   const state = () => page.evaluate(() => location.hash);
   const control = page.locator('#parameters input[type=range], #parameters select').first();
@@ -68,7 +68,7 @@ async function moveControls({ page }) {
   await page.waitForFunction((old) => location.hash !== old, dragged);
 }
 
-/** Every lesson: opened by its link, looked at, moved, saved. */
+/** Tests every lesson: opens it by its link, checks it, changes a control and saves the picture. */
 async function testLessons(browser, server, engine, model) {
   const catalogue = await Explorer.open(browser, server.address);
   await catalogue.settled();
@@ -78,11 +78,11 @@ async function testLessons(browser, server, engine, model) {
   for (const lesson of isFirst ? lessons.slice(0, 1) : lessons) {
     const isOwn = lesson === 'model';
     if (lesson === 'scene' || (isOwn && !model)) continue;
-    await test(`${engine}: ${lesson}: its link, no fault of accessibility, mouse and keyboard, the program's bytes`, async () => {
+    await test(`${engine}: ${lesson}: link, accessibility, mouse and keyboard, the program's bytes`, async () => {
       const hash = `#v=1&lesson=${lesson}${isOwn ? `&model=${model}` : ''}`;
       const explorer = await Explorer.open(browser, server.address, { hash });
       await explorer.settled();
-      assert((await explorer.page.locator('#lesson').inputValue()) === lesson, 'another lesson');
+      assert((await explorer.page.locator('#lesson').inputValue()) === lesson, 'wrong lesson');
       assert((await explorer.text('#statement')).length > 40, 'no statement');
       assert(await explorer.page.locator('#notice').isHidden(), await explorer.text('#notice'));
       for (const pane of ['picture', 'world', 'volume']) {
@@ -94,7 +94,7 @@ async function testLessons(browser, server, engine, model) {
       await explorer.settled();
       await explorer.page.click('summary >> nth=0');
       const [picture, scene] = [await saved(explorer, '#save-picture'), await copied(explorer, '#copy-scene')];
-      assert(hashOf(picture) === hashOf(programPicture(scene, isOwn)), 'the saved picture is not that of the program');
+      assert(hashOf(picture) === hashOf(programPicture(scene, isOwn)), 'the saved picture differs from the rendered picture');
       await explorer.close();
     });
   }
@@ -108,7 +108,7 @@ async function testLessons(browser, server, engine, model) {
   }
 }
 
-/** The page itself: keys, history, links, languages, themes, widths, errors. */
+/** Tests the page itself: keys, history, links, languages, themes, widths, errors. */
 async function testPage(browser, server, engine) {
   const open = async (options) => {
     const explorer = await Explorer.open(browser, server.address, options);
@@ -116,7 +116,7 @@ async function testPage(browser, server, engine) {
     return explorer;
   };
 
-  await test(`${engine}: the keyboard alone reaches every control, pins a point and orbits`, async () => {
+  await test(`${engine}: the keyboard reaches every control, pins a point and orbits`, async () => {
     const explorer = await open();
     const { page } = explorer;
     const focusOn = async (id) => {
@@ -160,7 +160,7 @@ async function testPage(browser, server, engine) {
     await explorer.close();
   });
 
-  await test(`${engine}: a copied link restores the state, and a copied command is the program's`, async () => {
+  await test(`${engine}: a copied link restores the state, and a copied command is valid`, async () => {
     const explorer = await open({ hash: '#v=1&lesson=frustum&near=6' });
     await explorer.type('right', 1);
     await explorer.page.click('summary >> nth=0');
@@ -170,30 +170,30 @@ async function testPage(browser, server, engine) {
     const [clip, consequences] = [await explorer.coordinates('clip'), await explorer.consequences()];
     await explorer.close();
     const again = await open({ hash: new URL(link).hash });
-    assert((await again.coordinates('clip')).join() === clip.join(), 'other coordinates');
-    assert((await again.consequences()) === consequences, 'other consequences');
+    assert((await again.coordinates('clip')).join() === clip.join(), 'different coordinates');
+    assert((await again.consequences()) === consequences, 'different consequences');
     await again.close();
   });
 
-  await test(`${engine}: nonsense in a link is told, and the page lives`, async () => {
+  await test(`${engine}: an invalid link is reported, and the page still works`, async () => {
     for (const hash of ['#v=1&lesson=perspective&naer=2', '#v=9', '#v=1&lesson=none', '#%zz', '#v=1&lesson=perspective&near=x', '#near=1&near=2']) {
       const explorer = await open({ hash });
       const notice = explorer.page.locator('#notice');
-      assert(await notice.isVisible(), `${hash}: nothing is said`);
+      assert(await notice.isVisible(), `${hash}: no message`);
       assert((await notice.innerText()).length > 20, hash);
       await explorer.type('near', 5);
       await explorer.close();
     }
   });
 
-  await test(`${engine}: a click pins the point that is there`, async () => {
+  await test(`${engine}: a click pins the point under the cursor`, async () => {
     const explorer = await open();
     const { page } = explorer;
     const box = await page.locator('#picture').boundingBox();
     await page.mouse.click(box.x + box.width * 0.5, box.y + box.height * 0.6);
     await page.waitForFunction(() => location.hash.includes('pin='));
     await explorer.settled();
-    // The lesson counts y from the bottom, as OpenGL does. The mouse is at a whole pixel of the screen, which is larger.
+    // The lesson counts y from the bottom, as OpenGL does. The mouse position is a whole pixel of the larger screen.
     const [x, y] = await explorer.coordinates('screen');
     assert(Math.abs(x - 320) <= 2.5 && Math.abs(400 - y - 240) <= 2.5, `${x}, ${y}`);
     const w = (await explorer.coordinates('clip'))[3];
@@ -202,7 +202,7 @@ async function testPage(browser, server, engine) {
     await explorer.close();
   });
 
-  await test(`${engine}: Chinese by the browser's language and by the switch`, async () => {
+  await test(`${engine}: Chinese from the browser's language, and the language switch`, async () => {
     const explorer = await open({ locale: 'zh-CN' });
     assert((await explorer.text('#title')) === '透视投影', await explorer.text('#title'));
     assert((await explorer.page.locator('html').getAttribute('lang')) === 'zh-CN', 'lang');
@@ -214,7 +214,7 @@ async function testPage(browser, server, engine) {
     await explorer.close();
   });
 
-  await test(`${engine}: dark and narrow and wide pages fit and have no fault of accessibility`, async () => {
+  await test(`${engine}: dark, narrow and wide pages fit and are accessible`, async () => {
     for (const [width, height, colorScheme] of [[320, 640, 'light'], [800, 600, 'dark'], [1440, 900, 'dark'], [3840, 2160, 'light']]) {
       const explorer = await open({ viewport: { width, height }, colorScheme });
       const over = await explorer.page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
@@ -225,7 +225,7 @@ async function testPage(browser, server, engine) {
     }
   });
 
-  await test(`${engine}: a worker that dies is told and started again`, async () => {
+  await test(`${engine}: a worker that dies is reported and restarted`, async () => {
     const explorer = await open();
     await explorer.page.workers()[0].evaluate(() => { setTimeout(() => { throw new Error('out of memory'); }); });
     await explorer.page.locator('#notice').waitFor();
@@ -236,7 +236,7 @@ async function testPage(browser, server, engine) {
     await explorer.close();
   });
 
-  await test(`${engine}: files that are no model, and broken ones, are told`, async () => {
+  await test(`${engine}: broken files and files that are not models are reported`, async () => {
     const explorer = await open();
     const give = async (name, text) => {
       await explorer.page.setInputFiles('#files', { name, mimeType: 'application/octet-stream', buffer: Buffer.from(text) });

@@ -5,9 +5,9 @@ use gltf_check::CheckReport;
 use model::Severity;
 use std::collections::BTreeSet;
 
-const KTX: &str = "KHR_texture_ktx, for images of several layers, is not supported";
+const KTX: &str = "KHR_texture_ktx, for images with several layers, is not supported";
 
-/// Files with an error that the validator does not report, its code and the reason.
+/// Files with an error that the validator does not report, with its code and the reason.
 const STRICTER: &[(&str, &str, &str)] = &[
     (
         "acme-box-unknown-required-extension/ACMEBox.gltf",
@@ -37,11 +37,11 @@ const STRICTER: &[(&str, &str, &str)] = &[
     (
         "KHR_node_visibility/data/node/unexpected_extension.gltf",
         "UNEXPECTED_EXTENSION_OBJECT",
-        "the file is invalid on purpose; this version of the validator does not know the extension",
+        "the file is invalid on purpose, but this version of the validator does not know the extension",
     ),
 ];
 
-/// Files with a validator error that the check does not report, its code and the reason.
+/// Files with a validator error that the check does not report, with its code and the reason.
 const MILDER: &[(&str, &str, &str)] = &[
     (
         "Test/mesh-invalid.gltf",
@@ -53,26 +53,26 @@ const MILDER: &[(&str, &str, &str)] = &[
     (
         "camera/infinite_znear.gltf",
         "VALUE_NOT_IN_RANGE",
-        "1e999 is refused as JSON: INVALID_JSON here",
+        "1e999 is rejected as JSON; INVALID_JSON here",
     ),
     (
         "node/infinite_transform.gltf",
         "VALUE_NOT_IN_RANGE",
-        "1e999 is refused as JSON: INVALID_JSON here",
+        "1e999 is rejected as JSON; INVALID_JSON here",
     ),
     (
         "Test/mesh-multiple-primitives.gltf",
         "INVALID_JSON",
-        "base64 whose last digit has stray bits is read; the validator's parser gives up",
+        "base64 whose last digit has extra bits is accepted here, but not by the validator",
     ),
     (
         "mesh-invalid-texcoord-flip-attribute-accessor-invalid-normalized.gltf",
         "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT",
-        "the accessor has no type at all, which is UNDEFINED_PROPERTY",
+        "the accessor has no type, which is UNDEFINED_PROPERTY",
     ),
 ];
 
-/// Errors of a file as a whole, which have no JSON pointer.
+/// Errors that concern a whole file and have no JSON pointer.
 fn concerns_whole_file(code: &str) -> bool {
     code.starts_with("GLB_") || ["INVALID_JSON", "NOT_GLTF", "TYPE_MISMATCH"].contains(&code)
 }
@@ -90,10 +90,10 @@ pub fn difference_from_validator(
     if row.group() != "bad" {
         let wrong = actual.iter().find(|code| !is_exception(STRICTER, code))?;
         let diagnostic = report.diagnostics.iter().find(|diagnostic| diagnostic.code == *wrong)?;
-        return Some(format!("no error is listed, but the check finds {diagnostic}"));
+        return Some(format!("no errors are listed, but the check finds {diagnostic}"));
     }
     if !listed.is_empty() && report.errors == 0 {
-        return Some(format!("the check finds no error, but {listed:?} are listed"));
+        return Some(format!("the check finds no errors, but {listed:?} are listed"));
     }
     let unlocated = report.diagnostics.iter().find(|diagnostic| {
         diagnostic.severity == Severity::Error

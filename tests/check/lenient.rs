@@ -1,5 +1,5 @@
-//! Lenient import of broken files: it loads every file that strict import loads, and more, each of
-//! those with a warning.
+//! Checks lenient import of broken files: it loads every file that strict import loads, and further
+//! files with a warning.
 
 use alberti_tests::harness::Tally;
 use alberti_tests::manifest::Row;
@@ -8,7 +8,7 @@ use model::codes;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-/// Errors that even lenient import returns: the file is not glTF 2.0 at all.
+/// Errors that even lenient import returns, because the file is not glTF 2.0.
 const UNREADABLE: [&str; 2] = [codes::NOT_GLTF, codes::UNSUPPORTED_VERSION];
 
 /// Loads the broken files strictly and leniently, and prints how many load.
@@ -21,10 +21,10 @@ pub fn check_lenient_loading(folder: &Path, rows: &[Row], tally: &mut Tally) {
         match catch_unwind(AssertUnwindSafe(|| (load(false), load(true)))) {
             Err(_) => tally.fail(&row.path, "panic"),
             Ok((Ok(_), Err(error))) => {
-                tally.fail(&row.path, &format!("loads strictly, but not leniently: {error}"));
+                tally.fail(&row.path, &format!("loads strictly but not leniently: {error}"));
             }
             Ok((Err(error), Ok(model))) if model.warnings.is_empty() => {
-                tally.fail(&row.path, &format!("loads leniently without a warning of {error}"));
+                tally.fail(&row.path, &format!("loads leniently without a warning about {error}"));
             }
             Ok((_, Err(error))) if !UNREADABLE.contains(&error.diagnostic.code) => {
                 tally.fail(&row.path, &format!("does not load leniently: {error}"));

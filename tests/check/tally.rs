@@ -6,9 +6,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// File counts per error code and in total.
 #[derive(Default)]
 pub struct CodeTally<'a> {
-    /// Files in which both find the code, only the validator, or only the check.
+    /// Files in which the code is found by both, only by the validator, or only by the check.
     codes: BTreeMap<&'a str, [usize; 3]>,
-    /// Files with equal sets of codes, with more found by the check, or with some missing.
+    /// Files in which the check finds the same codes, additional codes, or too few.
     files: [usize; 3],
 }
 
@@ -36,7 +36,7 @@ impl<'a> CodeTally<'a> {
         }
     }
 
-    /// Prints a row per code, then the counts of files.
+    /// Prints a row per code, then the file counts.
     pub fn print_table(&self) {
         println!("{:62} both  only listed  only actual", "files per error code");
         for (code, [both, listed, actual]) in &self.codes {

@@ -28,7 +28,7 @@ impl BatchRun {
         Self { folder: folder.to_owned(), name: name.to_owned(), program: program.to_owned() }
     }
 
-    /// Returns the folder of pictures and reports.
+    /// Returns the folder with the pictures and reports.
     pub fn out_dir(&self) -> PathBuf {
         self.folder.join(&self.name)
     }
@@ -58,7 +58,7 @@ impl BatchRun {
         run_batch(self.batch().arg("--merge"), &[0, 1])
     }
 
-    /// Returns the program's report about the pictures on its standard output, with its exit code.
+    /// Runs the program with `--verify`; returns its exit code and its standard output.
     pub fn verify(&self) -> Result<(i32, String), String> {
         let output = self.batch().arg("--verify").output().map_err(|error| error.to_string())?;
         let code = output.status.code().ok_or("alberti batch --verify was killed")?;
@@ -86,14 +86,14 @@ fn run_batch(batch: &mut Command, codes: &[i32]) -> Result<(), String> {
         return Ok(());
     }
     let said = String::from_utf8_lossy(&output.stderr);
-    Err(format!("alberti batch ended with {}, not with one of {codes:?}: {said}", output.status))
+    Err(format!("alberti batch exited with {}, not one of {codes:?}: {said}", output.status))
 }
 
 /// An array job in the queue.
 pub struct Submitted {
-    /// Its number.
+    /// The job number.
     job: String,
-    /// When it was submitted.
+    /// The time of submission.
     start: Instant,
 }
 
@@ -103,7 +103,7 @@ impl Submitted {
         self.wait_until(cluster, || false)?.ok_or_else(|| "the job did not end".to_owned())
     }
 
-    /// Waits until a condition holds or the job ends; returns the job's time if it ended.
+    /// Waits until a condition holds or the job ends. If the job ended, returns its time.
     pub fn wait_until(
         &self,
         cluster: &Cluster,
@@ -117,7 +117,7 @@ impl Submitted {
                 return Ok(Some(self.start.elapsed()));
             }
             if self.start.elapsed() > LONGEST_WAIT {
-                return Err(format!("job {} takes more than {LONGEST_WAIT:?}", self.job));
+                return Err(format!("job {} took more than {LONGEST_WAIT:?}", self.job));
             }
             std::thread::sleep(Duration::from_millis(100));
         }

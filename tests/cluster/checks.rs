@@ -18,8 +18,8 @@ pub struct Expected {
     pub failed: BTreeMap<String, &'static str>,
 }
 
-/// Returns the pictures from the run in a single process. There must be one for every good job, and
-/// no others.
+/// Returns the pictures from the single-process run. There must be one for every good job, and no
+/// others.
 pub fn read_pictures(run: &BatchRun, jobs: &Jobs) -> Result<Expected, String> {
     let read = |name: &String| {
         let path = run.out_dir().join(name);
@@ -33,7 +33,8 @@ pub fn read_pictures(run: &BatchRun, jobs: &Jobs) -> Result<Expected, String> {
     Ok(expected)
 }
 
-/// The pictures match the bytes of the single process, and there are no others.
+/// Checks that the pictures match the bytes of the single-process run, and that there are no
+/// others.
 pub fn check_pictures(run: &BatchRun, expected: &Expected) -> Result<(), String> {
     let mut found = Snapshot::of(run)?.pictures;
     for (name, bytes) in &expected.pictures {
@@ -41,20 +42,20 @@ pub fn check_pictures(run: &BatchRun, expected: &Expected) -> Result<(), String>
         let content =
             std::fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))?;
         if content != *bytes {
-            return Err(format!("{name} is another picture than that of a single process"));
+            return Err(format!("{name} differs from the single-process picture"));
         }
         found.remove(&path);
     }
     match found.keys().next() {
         None => Ok(()),
-        Some(path) => Err(format!("{} is a picture of no good model", path.display())),
+        Some(path) => Err(format!("{} does not belong to any good model", path.display())),
     }
 }
 
-/// No picture was drawn more than twice, and none was ever seen incomplete.
+/// Checks that no picture was drawn more than twice or ever seen incomplete.
 pub fn check_draws(seen: &Seen, run: &BatchRun) -> Result<(), String> {
     if let Some(fault) = seen.faults.first() {
-        return Err(format!("{fault}, and {} more faults", seen.faults.len() - 1));
+        return Err(format!("{fault}, and {} more errors", seen.faults.len() - 1));
     }
     let twice = seen.draws.values().filter(|draws| **draws == 2).count();
     println!("{} pictures were drawn, {twice} of them twice", seen.draws.len());
@@ -75,7 +76,7 @@ pub fn check_draws(seen: &Seen, run: &BatchRun) -> Result<(), String> {
     }
 }
 
-/// The merged report has one record for each job.
+/// Checks that the merged report has one record for each job.
 pub fn check_records(run: &BatchRun, expected: &Expected) -> Result<(), String> {
     let mut done = 0;
     let mut failed = expected.failed.clone();
@@ -86,17 +87,17 @@ pub fn check_records(run: &BatchRun, expected: &Expected) -> Result<(), String> 
         match (is_done, reason) {
             (true, None) if expected.pictures.contains_key(&output) => done += 1,
             (false, Some(reason)) if text_of(&record, "message").contains(reason) => {}
-            _ => return Err(format!("unexpected record, or a second one: {record}")),
+            _ => return Err(format!("unexpected or duplicate record: {record}")),
         }
     }
     if done == expected.pictures.len() && failed.is_empty() {
         return Ok(());
     }
     let missing = expected.pictures.len() - done;
-    Err(format!("{missing} good jobs have no record; without one that failed: {failed:?}"))
+    Err(format!("{missing} good jobs have no record; failed jobs without a record: {failed:?}"))
 }
 
-/// `--verify` names exactly the failed jobs.
+/// Checks that `--verify` names exactly the failed jobs.
 pub fn check_verdict((code, text): &(i32, String), expected: &Expected) -> Result<(), String> {
     println!("{}", text.trim_end());
     let named = |name: &String| text.lines().filter(|line| line.contains(name.as_str())).count();
@@ -105,29 +106,29 @@ pub fn check_verdict((code, text): &(i32, String), expected: &Expected) -> Resul
     if *code == 1 && good == 0 && bad == expected.failed.len() {
         return Ok(());
     }
-    Err(format!("--verify ended with {code} and names {good} good and {bad} bad jobs"))
+    Err(format!("--verify exited with {code} and names {good} good and {bad} bad jobs"))
 }
 
-/// The disturbed run took little longer than the undisturbed one.
+/// Checks that the disturbed run took little longer than the undisturbed run.
 ///
-/// The nodes share the processors of this machine, so the remaining ones do the work of the others
+/// The nodes share the processors of this machine, so the remaining nodes do the work of the others
 /// just as fast.
 pub fn check_time(time: Duration, undisturbed: Duration) -> Result<(), String> {
     let limit = undisturbed.mul_f64(1.15) + NODE_LOSS;
     let (time, limit) = (time.as_secs_f64(), limit.as_secs_f64());
-    println!("{time:.1} s, of at most {limit:.1} s");
+    println!("{time:.1} s; at most {limit:.1} s are allowed");
     if time <= limit {
         return Ok(());
     }
     let without = undisturbed.as_secs_f64();
     Err(format!(
-        "the run took {time:.1} s, more than {limit:.1} s: it takes {without:.1} s undisturbed"
+        "the run took {time:.1} s, more than {limit:.1} s; undisturbed, it takes {without:.1} s"
     ))
 }
 
 /// The pictures and records of a run at one moment.
 pub struct Snapshot {
-    /// Inode and modification time of each picture.
+    /// The inode and modification time of each picture.
     pictures: BTreeMap<PathBuf, (u64, i64, i64)>,
     /// The number of records.
     records: usize,
@@ -149,7 +150,7 @@ impl Snapshot {
         Ok(Self { pictures, records })
     }
 
-    /// Nothing has been drawn or recorded since.
+    /// Checks that nothing has been drawn or recorded since.
     pub fn check_unchanged(&self, run: &BatchRun) -> Result<(), String> {
         let now = Self::of(run)?;
         let redrawn = now
@@ -166,7 +167,7 @@ impl Snapshot {
     }
 }
 
-/// Returns the files in a folder that have an extension, or none if there is no folder.
+/// Returns the files in a folder that have an extension, or none if the folder does not exist.
 fn files_below(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, String> {
     let entries = std::fs::read_dir(folder).into_iter().flatten();
     let paths: Result<Vec<PathBuf>, _> = entries.map(|entry| Ok(entry?.path())).collect();
@@ -177,7 +178,7 @@ fn files_below(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, String> {
     Ok(paths)
 }
 
-/// Returns the records of a report. The last line of a killed process may be incomplete.
+/// Returns the records of a report. If a process was killed, its last line may be incomplete.
 fn read_records(path: &Path) -> Result<Vec<Value>, String> {
     let text = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
     let lines = text.split(|byte| *byte == b'\n');

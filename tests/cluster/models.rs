@@ -1,5 +1,5 @@
-//! The test models: 300 good ones, three broken ones, one that takes minutes, and one that needs 8
-//! GB.
+//! The test models: 300 good models, three broken models, one that takes minutes, and one that
+//! needs 8 GB.
 
 use crate::cluster::slurm::{create_folder, write_file};
 use alberti_tests::gltf::{Document, float_bytes};
@@ -9,12 +9,12 @@ use std::path::Path;
 
 /// The number of models that can be drawn.
 const GOOD: usize = 300;
-/// Vertices around a torus, and around its tube.
+/// The number of vertices around a torus and around its tube.
 const RINGS: u16 = 48;
 const SIDES: u16 = 24;
-/// Translucent layers of the model that takes minutes.
+/// The number of translucent layers in the model that takes minutes.
 const LAYERS: usize = 8_000;
-/// Points of the model that needs much memory: 12 bytes each.
+/// The number of points in the model that needs much memory, at 12 bytes per point.
 const POINTS: usize = 700_000_000;
 
 /// The jobs, by picture name.
@@ -68,9 +68,9 @@ fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), String> {
 struct BadModel {
     name: &'static str,
     content: Vec<u8>,
-    /// Part of the message in its record.
+    /// A part of the message in its record.
     reason: &'static str,
-    /// Members of its line.
+    /// The members of its line.
     flags: &'static [(&'static str, &'static str)],
 }
 
@@ -87,8 +87,8 @@ fn bad_models() -> [BadModel; 5] {
             name: "wants-memory.glb",
             content: points().to_glb(),
             reason: "array_bytes",
-            // As for trusted files, these limits are raised; the one that follows from --job-memory
-            // remains.
+            // These limits are raised, as for trusted files; the limit that follows from
+            // --job-memory remains.
             flags: &[
                 ("max-array-bytes", "16GiB"),
                 ("max-array-growth", "1G"),
@@ -139,7 +139,8 @@ fn torus(number: usize) -> Document {
     document
 }
 
-/// Thousands of translucent triangles, one behind the other: each is shaded at every pixel.
+/// Creates thousands of translucent triangles, one behind the other, each of which is shaded at
+/// every pixel.
 fn layers() -> Document {
     let mut document = Document::single_triangle();
     let layer = |at: usize| json!({"mesh": 0, "translation": [0, 0, at as f64 / LAYERS as f64]});
@@ -151,7 +152,8 @@ fn layers() -> Document {
     document
 }
 
-/// Returns a point cloud in a few bytes: a sparse accessor in which all values but one are zero.
+/// Returns a point cloud in a few bytes, using a sparse accessor in which all values but one are
+/// zero.
 fn points() -> Document {
     let mut document = Document::single_triangle();
     let at = document.add_buffer_view(&7_u32.to_le_bytes());

@@ -1,4 +1,4 @@
-//! A compute node: a network namespace with a host name, and the daemon in it.
+//! A compute node: a network namespace with a host name and a daemon.
 
 use crate::cluster::run_command;
 use std::fs::File;
@@ -7,9 +7,9 @@ use std::process::{Child, Command, Stdio};
 
 /// A compute node.
 pub struct Node {
-    /// Its name.
+    /// The name of the node.
     pub name: String,
-    /// Keeps the namespaces alive when everything else in them dies.
+    /// The process that keeps the namespaces alive when everything else in them dies.
     holder: Child,
     /// Whether its daemon was killed.
     pub is_dead: bool,
@@ -54,11 +54,11 @@ impl Node {
         PathBuf::from(format!("/proc/{}", self.holder.id()))
     }
 
-    /// Returns a program on the node.
+    /// Returns a command that runs a program on the node.
     fn command(&self, program: &str) -> Command {
         let mut command = Command::new("nsenter");
         let id = self.holder.id().to_string();
-        // Not `ip netns exec`: it mounts another /sys, in which slurmd finds no control groups.
+        // `ip netns exec` would mount another /sys, in which slurmd finds no control groups.
         command.args(["--target", &id, "--net", "--uts", program]);
         command
     }
@@ -75,8 +75,7 @@ impl Node {
         Ok(())
     }
 
-    /// Kills everything that runs on the node, as a power cut does; returns the number of
-    /// processes.
+    /// Kills everything on the node, like a power failure, and returns the number of processes.
     pub fn kill_processes(&mut self) -> Result<usize, String> {
         self.is_dead = true;
         let mut count = 0;
@@ -93,7 +92,7 @@ impl Node {
         }
     }
 
-    /// Returns the ids of the node's live processes.
+    /// Returns the IDs of the node's live processes.
     pub fn processes(&self) -> Vec<String> {
         let own = namespace(&self.process_folder());
         let holder = self.holder.id().to_string();

@@ -9,19 +9,19 @@ use std::time::{Duration, Instant};
 
 /// The number of nodes.
 pub const NODES: usize = 3;
-/// The controller gives a node up after this time without an answer: `SlurmdTimeout`.
+/// The time without an answer after which the controller gives up on a node: `SlurmdTimeout`.
 const NODE_TIMEOUT: Duration = Duration::from_secs(5);
-/// A job that lost its node waits this long before it restarts: `cred_expire`.
+/// The time that a job waits before it restarts after losing its node: `cred_expire`.
 const REQUEUE_DELAY: Duration = Duration::from_secs(5);
-/// From the loss of a node to the restart of its job.
+/// The time from the loss of a node to the restart of its job.
 pub const NODE_LOSS: Duration =
     Duration::from_secs(NODE_TIMEOUT.as_secs() + REQUEUE_DELAY.as_secs());
-/// The time for which a node is cut off: much longer than the controller waits for it.
+/// The time for which a node is cut off, which is much longer than the controller waits for it.
 pub const LINK_CUT: Duration = Duration::from_secs(20);
 /// The maximum time of any wait in the test.
 pub const LONGEST_WAIT: Duration = Duration::from_secs(300);
 
-/// Names the missing programs, with their Debian packages.
+/// Returns a message that names the missing programs and their Debian packages.
 pub fn missing_program() -> Option<String> {
     let programs = [
         ("slurmctld", "slurmctld"),
@@ -43,7 +43,7 @@ pub struct Cluster {
 }
 
 impl Cluster {
-    /// Starts it, with its files in a folder below `folder`.
+    /// Starts the cluster, with its files in a folder below `folder`.
     pub fn start(folder: &Path) -> Result<Self, String> {
         let folder = folder.join("slurm");
         create_folder(&folder.join("state"))?;
@@ -70,14 +70,14 @@ impl Cluster {
         Ok(cluster)
     }
 
-    /// Returns a Slurm program that talks to this cluster.
+    /// Returns a command that runs a Slurm program on this cluster.
     pub fn command(&self, program: &str) -> Command {
         let mut command = Command::new(program);
         command.env("SLURM_CONF", self.folder.join("slurm.conf"));
         command
     }
 
-    /// Starts the missing daemons of the nodes.
+    /// Starts the daemons that are missing on the nodes.
     pub fn start_dead_nodes(&mut self) -> Result<(), String> {
         let folder = &self.folder;
         for node in self.nodes.iter_mut().filter(|node| node.is_dead) {
@@ -112,13 +112,13 @@ impl Cluster {
             .map(drop)
     }
 
-    /// Reconnects it.
+    /// Reconnects a node.
     pub fn restore_link(&self, index: usize) -> Result<(), String> {
         run_command(Command::new("ip").args(["link", "set", &self.nodes[index].name, "up"]))
             .map(drop)
     }
 
-    /// Whether a job is waiting or running.
+    /// Returns whether a job is waiting or running.
     pub fn has_job(&self, job: &str) -> Result<bool, String> {
         // A job that ended long ago is unknown, which counts as an error.
         let queue = run_command(self.command("squeue").args(["-h", "-j", job, "-o", "%i"]));
@@ -150,7 +150,7 @@ fn start_munge(folder: &Path) -> Result<(), String> {
     run_command(Command::new("chmod").arg("400").arg(&key))?;
     let path = |name: &str, file: &str| format!("--{name}={}", folder.join(file).display());
     let mut munged = Command::new("munged");
-    // It rejects a socket below the temporary folder unless forced.
+    // It rejects a socket in the temporary folder unless forced.
     munged.arg("--force").args([
         path("key-file", "munge.key"),
         path("socket", "munge.socket"),
@@ -158,7 +158,7 @@ fn start_munge(folder: &Path) -> Result<(), String> {
         path("log-file", "munge.log"),
         path("seed-file", "munge.seed"),
     ]);
-    // The daemon keeps the streams that it inherits.
+    // The daemon keeps its inherited streams open.
     munged.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     let status = munged.status().map_err(|error| format!("munged: {error}"))?;
     if status.success() { Ok(()) } else { Err(format!("munged failed ({status})")) }

@@ -1,7 +1,7 @@
 //! Watches an output folder while pictures are written to it.
 //!
-//! A picture that is drawn again gets another inode, because it is renamed over the old one. At any
-//! time, a file with the name of a picture must be the whole picture.
+//! A picture that is drawn again gets a new inode, because it replaces the old file by renaming. A
+//! file with the name of a picture must be complete at all times.
 
 use std::collections::BTreeMap;
 use std::os::unix::fs::DirEntryExt as _;
@@ -18,11 +18,11 @@ pub type Pictures = BTreeMap<String, Vec<u8>>;
 pub struct Seen {
     /// The number of times each picture was drawn.
     pub draws: BTreeMap<String, usize>,
-    /// Files that should not have been there.
+    /// Files that should not have existed.
     pub faults: Vec<String>,
 }
 
-/// A thread that watches.
+/// The thread that watches.
 pub struct Watcher {
     thread: JoinHandle<Seen>,
     count: Arc<AtomicUsize>,
@@ -74,7 +74,7 @@ struct FolderWatch {
 }
 
 impl FolderWatch {
-    /// Looks at the folder once. It may not exist before the run begins.
+    /// Scans the folder once. It may not exist before the run begins.
     fn look(&mut self) {
         for entry in std::fs::read_dir(&self.folder).into_iter().flatten().flatten() {
             let name = entry.file_name().to_string_lossy().into_owned();
@@ -87,11 +87,11 @@ impl FolderWatch {
             match self.expected.get(&name) {
                 Some(expected) if *expected == content => {}
                 Some(expected) => self.seen.faults.push(format!(
-                    "{name} had {} bytes that are not the {} of the picture",
+                    "{name} had {} bytes that differ from the {} of the picture",
                     content.len(),
                     expected.len()
                 )),
-                None => self.seen.faults.push(format!("{name} is not a picture of the list")),
+                None => self.seen.faults.push(format!("{name} is not a picture in the list")),
             }
         }
     }

@@ -1,13 +1,13 @@
-//! Expected outcomes of the files in `shared/assets`: refused models and blank pictures. All other
+//! Expected outcomes of the files in `shared/assets`: rejected models and blank pictures. All other
 //! files are drawn.
 //!
-//! The test fails if a model is refused that is not listed here. It also fails if a listed model is
-//! drawn; then its row is removed.
+//! The test fails if a model that is not listed here is rejected. It also fails if a listed model
+//! is drawn; in that case, remove its row.
 
 use crate::corpus::verdict::Verdict;
 use alberti_tests::manifest::Row;
 
-/// Refused models by folder name, with part of the reason.
+/// Rejected models by folder name, with part of the reason.
 const REFUSED: &[(&str, &str)] = &[
     ("acme-box-unknown-required-extension", "ACME_gizmo"),
     ("animation-only-jump-flip", "nothing to draw"),
@@ -16,9 +16,9 @@ const REFUSED: &[(&str, &str)] = &[
     ("scene-without-nodes", "nothing to draw"),
 ];
 
-/// Files outside `models` with blank pictures, and the reason.
+/// Files outside `models` with blank pictures, with the reason.
 const BLANK: &[(&str, &str)] = &[
-    ("ZeroLengthBufferView.gltf", "a vertex is two thousand million units away"),
+    ("ZeroLengthBufferView.gltf", "a vertex is two billion units away"),
     ("ignored_local_transform.gltf", "its triangle is degenerate"),
     ("node/valid.gltf", "its triangle is degenerate"),
     ("node_skin_without_skinned_mesh.gltf", "its triangle is degenerate"),
@@ -29,8 +29,8 @@ const BLANK: &[(&str, &str)] = &[
     ("skin-shared.gltf", "its meshes have one vertex each"),
 ];
 
-/// Models with EXT_mesh_gpu_instancing and their triangle counts: the manifest counts each node
-/// once.
+/// Models with EXT_mesh_gpu_instancing and their triangle counts, because the manifest counts each
+/// node once.
 const INSTANCED: &[(&str, usize)] =
     &[("blender-gpu-instancing", 4_032 * (958 + 941) + 2), ("simple-instancing", 12 * 125)];
 
@@ -41,7 +41,7 @@ pub fn expected_triangles(row: &Row) -> Option<usize> {
     instanced.map(|(_, triangles)| *triangles).or(row.scene_triangles)
 }
 
-/// Returns the reason why a model must be refused.
+/// Returns the reason why a model must be rejected.
 pub fn expected_refusal(row: &Row) -> Option<&'static str> {
     let folder = row.path.strip_prefix("models/")?.split('/').next()?;
     REFUSED.iter().find(|(name, _)| *name == folder).map(|(_, reason)| *reason)
@@ -60,7 +60,7 @@ pub fn difference_from_manifest(row: &Row, verdict: &Verdict) -> Option<String> 
     (!agrees).then(|| format!("expected {expected}, actual {actual}"))
 }
 
-/// Returns the difference between a verdict and the tables; outside `models` every refusal is
+/// Returns the difference between a verdict and the tables. Outside `models`, every rejection is
 /// expected.
 pub fn difference_from_tables(row: &Row, verdict: &Verdict) -> Option<String> {
     if matches!(verdict, Verdict::Blank) && !BLANK.iter().any(|(end, _)| row.path.ends_with(end)) {
@@ -72,10 +72,10 @@ pub fn difference_from_tables(row: &Row, verdict: &Verdict) -> Option<String> {
     match (expected_refusal(row), verdict) {
         (None, Verdict::Refused(reason)) => Some(format!("refused: {reason}")),
         (Some(expected), Verdict::Refused(reason)) if !reason.contains(expected) => {
-            Some(format!("refused, but not because of {expected}: {reason}"))
+            Some(format!("rejected, but not because of {expected}: {reason}"))
         }
         (Some(expected), Verdict::Drawn | Verdict::Blank) => {
-            Some(format!("drawn, but must be refused: {expected}"))
+            Some(format!("drawn, but must be rejected: {expected}"))
         }
         _ => None,
     }

@@ -16,7 +16,7 @@ pub struct Program {
 
 /// The result of a run.
 pub struct Run {
-    /// The exit code; `None` if a signal killed the process.
+    /// The exit code, or `None` if a signal killed the process.
     pub code: Option<i32>,
     /// Whether it was killed at the time limit.
     pub hung: bool,
@@ -25,12 +25,12 @@ pub struct Run {
 }
 
 impl Program {
-    /// Returns the program; it is built if necessary.
+    /// Returns the program, which is built if necessary.
     pub fn build() -> Result<Self, String> {
         Ok(Self { path: alberti_tests::program_path()? })
     }
 
-    /// Renders `input` to `picture`; kills the process at the time limit.
+    /// Renders `input` to `picture`, and kills the process at the time limit.
     pub fn render(&self, input: &Path, picture: &Path, size: (u32, u32)) -> Result<Run, String> {
         let log = picture.with_extension("log");
         let stderr = File::create(&log).map_err(|error| error.to_string())?;
@@ -45,7 +45,7 @@ impl Program {
             .stdout(Stdio::null())
             .stderr(stderr)
             .spawn()
-            .map_err(|error| format!("the program does not start: {error}"))?;
+            .map_err(|error| format!("cannot start the program: {error}"))?;
         let end = Instant::now() + TIME_LIMIT;
         let mut hung = false;
         let status = loop {

@@ -1,4 +1,4 @@
-//! Triangle counts of the imported models against the manifest.
+//! Compares the triangle counts of imported models with the manifest.
 
 use crate::corpus::expected;
 use alberti_tests::harness::Tally;
@@ -24,7 +24,7 @@ pub fn check_triangle_counts(folder: &Path, rows: &[Row], known: bool, tally: &m
     println!("triangles: {agreed} files agree with the manifest");
 }
 
-/// Triangles of all mesh instances in the default scene.
+/// Returns the number of triangles of all mesh instances in the default scene.
 fn count_triangles(model: &Model) -> usize {
     let meshes = model.mesh_instances().filter_map(|at| model.nodes[at.node].mesh);
     let primitives = meshes.flat_map(|mesh| &model.meshes[mesh].primitives);

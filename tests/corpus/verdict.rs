@@ -1,4 +1,4 @@
-//! Verdicts: classify a run of the program by exit code, message and picture.
+//! Verdicts, which classify a run of the program by exit code, message and picture.
 
 use crate::corpus::program::Run;
 use alberti_tests::manifest::Row;
@@ -12,7 +12,7 @@ pub enum Verdict {
     Drawn,
     /// Exit code 0 and a picture of one color.
     Blank,
-    /// Exit code 1 and a message that names the file; the reason it gives.
+    /// Exit code 1 and a message that names the file, with the reason in the message.
     Refused(String),
     /// Anything else: a panic, a hang, a wrong picture, a message without the file's name.
     Broken(String),
@@ -22,7 +22,7 @@ pub enum Verdict {
 pub fn judge_run(row: &Row, run: &Run, picture: &Path, size: (u32, u32)) -> Verdict {
     let message = run.stderr.trim();
     if run.hung {
-        return Verdict::Broken("it takes longer than 30 s".to_owned());
+        return Verdict::Broken("it took longer than 30 s".to_owned());
     }
     if message.contains("panicked at") {
         return Verdict::Broken(format!("panic: {message}"));
@@ -41,7 +41,7 @@ pub fn judge_run(row: &Row, run: &Run, picture: &Path, size: (u32, u32)) -> Verd
             None => Verdict::Broken(format!("the message does not name the file: {message:?}")),
         },
         Some(code) => Verdict::Broken(format!("exit code {code}: {message}")),
-        None => Verdict::Broken(format!("ended by a signal: {message}")),
+        None => Verdict::Broken(format!("killed by a signal: {message}")),
     }
 }
 
@@ -59,7 +59,7 @@ fn refusal_reason(message: &str, file: &str) -> Option<String> {
     (text.len() > 5).then(|| text.to_owned())
 }
 
-/// Whether the picture has more than one color. It must be a PNG of the given size.
+/// Returns whether the picture has more than one color. It must be a PNG of this size.
 fn picture_has_content(picture: &Path, size: (u32, u32)) -> Result<bool, String> {
     let file = File::open(picture).map_err(|error| format!("no picture: {error}"))?;
     let broken = |error: png::DecodingError| format!("the picture is not a PNG: {error}");

@@ -6,7 +6,7 @@ pub struct Random {
 }
 
 impl Random {
-    /// Returns the generator for a scene's number.
+    /// Creates the generator for a scene number.
     pub fn new(seed: u64) -> Self {
         Self { state: seed.wrapping_mul(0xd134_2543_de82_ef95) }
     }
@@ -19,18 +19,18 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Returns a whole number from 0 to below `end`.
+    /// Returns an integer from 0 up to but not including `end`.
     pub fn below(&mut self, end: u64) -> u64 {
         self.next_bits() % end
     }
 
-    /// Returns a number in the interval with three decimals, as people write them.
+    /// Returns a number in the interval, with three decimals as in a handwritten file.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         let fraction = (self.next_bits() >> 11) as f64 / (1_u64 << 53) as f64;
         libm::round((low + (high - low) * fraction) * 1000.0) / 1000.0
     }
 
-    /// True once in `times`, on average.
+    /// Returns true once in `times` calls on average.
     pub fn once_in(&mut self, times: u64) -> bool {
         self.below(times) == 0
     }

@@ -1,13 +1,12 @@
-//! Random scenes over all projections: lines must match the z-buffer, or a refusal must give a
-//! reason.
+//! Random scenes over all projections: lines must match the z-buffer, or the scene must be rejected
+//! with a reason.
 //!
 //! ```text
 //!  number ─► splitmix64 ─► text of a scene ─► parse, resolve ─► lines ─► verify
 //!                                                └► refused: the message is the reason
-//! ```
-//! A scene is text, so a failing one can be written to a file and drawn by the program. It depends
-//! only on the scene's number. The projections take turns; their parameters include unreasonable
-//! values, because the program has to refuse those.
+//! ``` A scene is text, so a failing scene can be written to a file and drawn by the program. It
+//! depends only on the scene's number. The projections take turns; their parameters include
+//! unreasonable values, because the program has to reject those.
 
 use alberti_tests::harness::{Tally, map_parallel};
 use hidden_line::{DrawOptions, HiddenEdges, LineDrawing, draw, verify_with_z_buffer};
@@ -44,17 +43,17 @@ const MODELS: [&str; 8] = [
     "vase.glb",
 ];
 
-/// The outcome of a scene that was drawn or refused.
+/// The outcome of a scene that was drawn or rejected.
 enum Verdict {
-    /// The fraction of the visible length that the z-buffer hides, the fraction of all lines that
-    /// is drawn as hidden although the z-buffer shows it, and the fraction of the shaded picture's
-    /// outline that has no line.
+    /// The fraction of the visible length that is hidden in the z-buffer, the fraction of all lines
+    /// that is drawn as hidden but visible in the z-buffer, and the fraction of the shaded
+    /// picture's outline that has no line.
     Drawn { denied: f64, contradicted: f64, unlined: f64 },
-    /// The scene is refused for this reason.
+    /// The scene was rejected for this reason.
     Refused(String),
 }
 
-/// Compares the scenes of these numbers and records each; prints the figures.
+/// Compares the scenes with these numbers, records each result, and prints the figures.
 pub fn check_random_scenes(numbers: Vec<usize>, folder: &Path) -> Result<Tally, String> {
     check_projections()?;
     let models = load_models(folder)?;
@@ -85,15 +84,15 @@ pub fn check_random_scenes(numbers: Vec<usize>, folder: &Path) -> Result<Tally, 
         tally.record(&format!("random/{number}"), outcome);
     }
     let refused: usize = reasons.values().sum();
-    println!("{count} random scenes, {refused} refused; the worst:");
+    println!("{count} random scenes, {refused} rejected; the worst:");
     println!("  {}", describe(worst.map(|(measured, _)| measured)));
     println!("  in the scenes {:?}", worst.map(|(_, number)| number));
-    reasons.iter().for_each(|(reason, count)| println!("  refused {count:4}: {reason}"));
+    reasons.iter().for_each(|(reason, count)| println!("  rejected {count:4}: {reason}"));
     Ok(tally)
 }
 
-/// Returns the projection of a scene: they take turns, except that the last one gets every
-/// nineteenth scene.
+/// Returns the projection of a scene. Projections take turns, except that the last projection gets
+/// every nineteenth scene.
 fn projection_name(number: usize) -> &'static str {
     match PROJECTIONS {
         [.., last] if number % 19 == 18 => last,
@@ -102,7 +101,7 @@ fn projection_name(number: usize) -> &'static str {
     }
 }
 
-/// Whether every projection of the scene language takes a turn.
+/// Checks that every projection of the scene language is used.
 fn check_projections() -> Result<(), String> {
     let types = scene_file::reference::all_types();
     let projection = types.iter().find(|entry| entry.name == "Projection").map(|entry| entry.shape);
@@ -110,21 +109,21 @@ fn check_projections() -> Result<(), String> {
         return Err("the language has no projections".to_owned());
     };
     match variants.iter().find(|variant| !PROJECTIONS.contains(&variant.name)) {
-        Some(variant) => Err(format!("no random scene has the projection {}", variant.name)),
+        Some(variant) => Err(format!("no random scene uses the projection {}", variant.name)),
         None => Ok(()),
     }
 }
 
-/// Returns the three fractions in words.
+/// Describes the three fractions in words.
 fn describe(measured: [f64; 3]) -> String {
     let [denied, contradicted, unlined] = measured.map(|fraction| fraction * 100.0);
     format!(
-        "{denied:.4} % of the visible length is hidden, {contradicted:.4} % of all lines is dashed and shown, {unlined:.4} % of the outline has no line"
+        "{denied:.4} % of the visible length is hidden, {contradicted:.4} % of all lines is dashed but visible, {unlined:.4} % of the outline has no line"
     )
 }
 
 /// Returns the fraction of the shaded picture's outline (pixels next to one without a surface) that
-/// has no visible line nearby; 0 where a depth plane cuts the models, because such cuts have no
+/// has no visible line nearby, or 0 if a depth plane cuts the models, because such cuts have no
 /// lines.
 fn outline_without_line(mut scene: Scene, drawing: &LineDrawing) -> Result<f64, String> {
     let world_to_clip = scene.view_projection.world_to_clip();
@@ -166,8 +165,8 @@ fn outline_without_line(mut scene: Scene, drawing: &LineDrawing) -> Result<f64, 
     Ok(f64::from(unlined) / f64::from(outline.max(1)))
 }
 
-/// Returns the models by file name, with both sides of all surfaces shown: lines do not know back
-/// faces.
+/// Returns the models by file name, with both sides of all surfaces shown, because line drawings do
+/// not distinguish back faces.
 fn load_models(folder: &Path) -> Result<Vec<(&'static str, Arc<Model>)>, String> {
     let load_model = |name: &'static str| {
         let model = load(&folder.join(name), &ImportOptions::default());
@@ -190,7 +189,7 @@ fn scene_text(number: usize, models: &[(&'static str, Arc<Model>)]) -> String {
     )
 }
 
-/// Returns a view, or nothing for the projection's default.
+/// Returns a view, or an empty string for the projection's default view.
 fn random_view(random: &mut Random) -> String {
     let mut direction = || {
         let [x, y, z] = [0; 3].map(|_| random.between(-1.0, 1.0));
@@ -222,7 +221,7 @@ fn check_scene(text: &str, models: &[(&'static str, Arc<Model>)]) -> Result<Verd
     let (name, model) = models
         .iter()
         .find(|(name, _)| file.models[0].path.ends_with(name))
-        .ok_or("a model that is not there")?;
+        .ok_or("a missing model")?;
     let origin = Origin::from_text("random.ron", text, PathBuf::from(name));
     let instance = ModelInstance {
         model: Arc::clone(model),
@@ -237,7 +236,7 @@ fn check_scene(text: &str, models: &[(&'static str, Arc<Model>)]) -> Result<Verd
     let drawing = draw(&subject, &options, 1).map_err(|error| error.to_string())?;
     let agreement =
         verify_with_z_buffer(&subject, &drawing.segments).map_err(|error| error.to_string())?;
-    // Distant models have few lines, so a single point weighs much: two pixels are allowed.
+    // Distant models have few lines, so a single point matters a lot; two pixels are allowed.
     let visible = agreement.visible_length.max(1000.0);
     let denied = agreement.denied_length / visible;
     let contradicted = agreement.contradicted_length / (visible + agreement.hidden_length);
@@ -245,7 +244,7 @@ fn check_scene(text: &str, models: &[(&'static str, Arc<Model>)]) -> Result<Verd
     Ok(Verdict::Drawn { denied, contradicted, unlined })
 }
 
-/// Returns the message of a refusal without its numbers and its location.
+/// Returns the message of a rejection without its numbers and location.
 fn reason_of(message: &str) -> String {
     let lines: Vec<&str> = message.lines().collect();
     let first = lines.first().map_or("", |line| line.trim());

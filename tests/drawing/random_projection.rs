@@ -2,7 +2,7 @@
 
 use crate::drawing::bits::Random;
 
-/// The projections by their names in scene files; each is a variant.
+/// The projections by their names in scene files, where each is an enum variant.
 pub const PROJECTIONS: &[&str] = &[
     "Perspective",
     "Orthographic",
@@ -62,7 +62,7 @@ pub fn random_projection(name: &str, r: &mut Random) -> String {
             format!("x: ({x}, {y1}), y: {y}, z: ({z}, {y2})")
         }
         "NPoint" => {
-            // Some so large that part of the models is behind the eye.
+            // Some are so large that part of the models is behind the eye.
             let [p, q, r] = [0; 3].map(|_| if r.once_in(4) { 0.0 } else { r.between(-1.2, 1.2) });
             format!("p: {p}, q: {q}, r: {r}")
         }
@@ -88,7 +88,7 @@ fn random_lens(r: &mut Random) -> String {
     fields
 }
 
-/// Focal lengths, and sometimes a principal point and a skew.
+/// Returns focal lengths, and sometimes a principal point and a skew.
 fn random_intrinsics(r: &mut Random) -> String {
     let mut fields = format!("fx: {}", r.between(100.0, 800.0));
     if r.once_in(2) {
@@ -115,7 +115,7 @@ fn random_parallel_window(r: &mut Random) -> String {
     fields
 }
 
-/// Returns a window by its borders, sometimes mirrored or without extent.
+/// Returns a window by its borders, sometimes with reversed borders or zero size.
 fn random_window(r: &mut Random) -> String {
     let [left, bottom] = [0; 2].map(|_| r.between(-2.0, 0.5));
     let [right, top] = [0; 2].map(|_| r.between(0.4, 2.0));

@@ -13,10 +13,10 @@ use std::sync::Arc;
 /// The number of viewing directions of each kind.
 pub const DIRECTIONS: usize = 6;
 
-/// Width and height in pixels.
+/// The width and height in pixels.
 const IMAGE_SIZE: (u32, u32) = (400, 300);
 
-/// Projection of a view.
+/// The projection of a view.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ViewKind {
     /// Symmetric perspective.
@@ -28,7 +28,7 @@ pub enum ViewKind {
 }
 
 impl ViewKind {
-    /// All kinds.
+    /// All projection kinds.
     pub const ALL: [Self; 3] = [Self::Perspective, Self::Isometric, Self::Cavalier];
 
     /// Returns the direction from the model to the eye.
@@ -94,7 +94,7 @@ fn fit_perspective(points: &[Point<World>], basis: Basis) -> Result<ViewProjecti
     Ok(ViewProjection { camera: framing.camera, view_to_clip })
 }
 
-/// Orthographic, or oblique with full depth at an angle.
+/// Returns an orthographic projection, or an oblique projection with full depth at an angle.
 fn fit_parallel(
     points: &[Point<World>],
     basis: Basis,

@@ -1,8 +1,9 @@
-"""Reads DXF files from the program with ezdxf: check.py PROGRAM FOLDER INPUT…
+"""Check the program's DXF files with ezdxf: check.py PROGRAM FOLDER INPUT…
 
-Every INPUT, a scene, a model or a folder of them, is drawn as DXF. The audit of ezdxf must find nothing, and on each layer the lines must
-be as long as in the SVG, to 1e-6 mm. Models become sheets too. Then parts with known cross sections are cut: their outlines must be
-closed, simple, and have the area of the section. Files are written to FOLDER. Prints a line `FAILED …` for each fault; the last line counts.
+Every INPUT, which is a scene, a model or a folder of them, is drawn as DXF. The audit of ezdxf must find nothing, and the total line
+length on each layer must match the SVG to 1e-6 mm. Models are also drawn as sheets. Then parts with known cross sections are cut: their
+outlines must be closed and simple, and have the area of the section. Files are written to FOLDER. Prints a line `FAILED …` for each error;
+the last line has the counts.
 """
 
 import math
@@ -16,7 +17,7 @@ import ezdxf
 PROGRAM, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
 # The time limit for one drawing, in seconds.
 PATIENCE = 120
-TOO_LONG = f"it takes more than {PATIENCE} seconds"
+TOO_LONG = f"it took more than {PATIENCE} seconds"
 # Larger drawings are skipped.
 MOST_SVG_BYTES = 2_000_000
 # The extensions of models in folders, and their maximum size.
@@ -25,7 +26,7 @@ checked, failures = 0, 0
 
 
 def report(case, faults):
-    """Counts a case and prints its faults."""
+    """Count a case and print its errors."""
     global checked, failures
     checked += 1
     failures += bool(faults)
@@ -34,7 +35,7 @@ def report(case, faults):
 
 
 def run(*arguments):
-    """Runs the program; returns its message if it fails."""
+    """Run the program; return its message if it fails."""
     try:
         done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=PATIENCE)
     except subprocess.TimeoutExpired:
@@ -43,14 +44,14 @@ def run(*arguments):
 
 
 def audit(path):
-    """The document in a file, and the findings of the audit."""
+    """Return the document in a file, and the findings of the audit."""
     document = ezdxf.readfile(path)
     auditor = document.audit()
     return document, [f"{entry.code}: {entry.message}" for entry in auditor.errors + auditor.fixes]
 
 
 def lengths_of_dxf(document):
-    """The length of the lines on each layer, without the objects; None for layers that contain more than lines."""
+    """Return the length of the lines on each layer, not counting the objects; None for layers that contain more than lines."""
     lengths = {}
     for entity in document.modelspace():
         layer = entity.dxf.layer.split(".")[0]
@@ -70,10 +71,10 @@ NUMBER = re.compile(r"-?(?:\d+\.?\d*|\.\d+)")
 
 
 def length_of_path(data):
-    """The length of a path of M, m, l, h, v and z."""
+    """Return the length of a path that consists of M, m, l, h, v and z."""
     total, at, start = 0.0, [0, 0], [0, 0]
     for command, text in re.findall(r"([Mmlhvz])([^Mmlhvz]*)", data):
-        # Thousandths, so that sums are exact.
+        # In thousandths, so that sums are exact.
         numbers = [round(float(number) * 1000) for number in NUMBER.findall(text)]
         if command in "hv":
             for number in numbers:
@@ -94,7 +95,7 @@ def length_of_path(data):
 
 
 def lengths_of_svg(text):
-    """The length of the lines on each layer, by its id."""
+    """Return the length of the lines on each layer, by layer id."""
     lengths = {}
     for part in re.split(r"^(?=<g id=\"[^\".]*\" fill)", text, flags=re.MULTILINE)[1:]:
         layer = re.match(r"<g id=\"([^\"]*)\"", part)[1]
@@ -104,7 +105,7 @@ def lengths_of_svg(text):
 
 
 def compare_lengths(document, svg):
-    """The differences between the lengths on paper; coordinates may be in units other than the page's."""
+    """Return the differences between the lengths on paper; coordinates may use units other than the page's."""
     ours, theirs = lengths_of_dxf(document), lengths_of_svg(svg)
     lines = [layer for layer, length in theirs.items() if length > 0]
     missing = [layer for layer in lines if layer not in ours]
@@ -114,23 +115,23 @@ def compare_lengths(document, svg):
     unit = sum(ours[layer] for layer in plain) / whole if whole else 1.0
     for layer in plain:
         difference = ours[layer] / unit - theirs[layer]
-        # Sums of many lengths have a few bits of error.
+        # Sums of many lengths have an error of a few bits.
         if abs(difference) > 1e-6 + 1e-12 * whole:
-            faults.append(f"layer {layer} differs by {difference} mm of {theirs[layer]}")
+            faults.append(f"layer {layer} differs by {difference} mm from {theirs[layer]}")
     return faults
 
 
 def check_drawing(name, command, *flags):
-    """One drawing: the audit, with arcs and without, and the lengths without."""
+    """Check one drawing: the audit with and without arcs, and the lengths without arcs."""
     path = FOLDER / f"{name}.dxf"
     fault = run(*command, *flags, "-o", path.with_suffix(".svg"))
     if fault == TOO_LONG:
-        print(f"left out: {name}: {fault}")
+        print(f"skipped: {name}: {fault}")
         return []
     if fault:
         return [fault]
     if path.with_suffix(".svg").stat().st_size > MOST_SVG_BYTES:
-        print(f"left out: {name}, which would take ezdxf minutes")
+        print(f"skipped: {name}, which would take ezdxf minutes")
         return []
     for tolerance in ([], ["--arc-tolerance", "0"]):
         fault = run(*command, *flags, "-o", path, *tolerance)
@@ -142,7 +143,7 @@ def check_drawing(name, command, *flags):
     return compare_lengths(document, path.with_suffix(".svg").read_text("utf-8"))
 
 
-# Parts: 10 mm prisms whose cross section is polygons, some of them with a hole that has the same number of corners.
+# Parts: 10 mm prisms whose cross section consists of polygons, some of them with a hole that has the same number of corners.
 
 
 def regular(count, radius, turn=0.0, center=(0.0, 0.0)):
@@ -155,7 +156,7 @@ def alternating(count, inner, outer):
 
 
 def square_like(count, half, center):
-    """A square with as many points as a circle, each in the direction of one of the circle's points."""
+    """Return a square with as many points as a circle, each in the direction of one of the circle's points."""
     scale = [half / max(abs(x), abs(y)) for x, y in regular(count, 1.0)]
     return [(center[0] + s * x, center[1] + s * y) for s, (x, y) in zip(scale, regular(count, 1.0))]
 
@@ -180,7 +181,7 @@ def doubled_area(points):
 
 
 def write_part(path, regions):
-    """A prism as OBJ."""
+    """Return a prism as OBJ."""
     lines, count = [], 0
     for outer, hole in regions:
         n = len(outer)
@@ -203,16 +204,16 @@ def write_part(path, regions):
 
 
 def crosses(a, b, c, d):
-    """Whether two sides meet within both."""
+    """Return whether two sides intersect in the interior of both."""
     side = lambda p, q, r: (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
     return side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0
 
 
 def check_outline(name, regions, *flags):
-    """Checks the outline of a part: closed, simple, with the area of the section, and in the right position."""
+    """Check that the outline of a part is closed and simple, and has the area and position of the section."""
     part, path = FOLDER / f"{name}.obj", FOLDER / f"{name}_outline.dxf"
     write_part(part, regions)
-    # The grid of the page is one micrometer, so a large page has finer steps.
+    # The page grid is one micrometer, so a large page has finer steps.
     view = ["--unit", "mm", "--view", "front", "--projection", "orthographic", "--style", "outline", "--size", "4800x3600"]
     fault = run("render", part, *view, *flags, "-o", path, "--arc-tolerance", "0")
     if fault:
@@ -231,7 +232,7 @@ def check_outline(name, regions, *flags):
     if any(crosses(*one, *other) for one, other in pairs):
         faults.append("its sides cross")
     if len({frozenset(side) for side in sides}) != len(sides):
-        faults.append("a side is there twice")
+        faults.append("a side is duplicated")
     # Loops around material and around holes run in opposite directions.
     area = abs(sum(map(doubled_area, loops))) / 2
     expected = sum(doubled_area(outer) - (doubled_area(hole) if hole else 0) for outer, hole in regions) / 2
@@ -243,12 +244,12 @@ def check_outline(name, regions, *flags):
         for axis in (0, 1):
             ours, theirs = extreme(p[axis] for p in flat), extreme(p[axis] for p in all_points)
             if abs(ours - theirs) > 1e-3:
-                faults.append(f"it reaches to {ours}, not to {theirs}")
+                faults.append(f"it extends to {ours}, not to {theirs}")
     return faults
 
 
 def check_circles():
-    """The holes in a plate are circles of the right size, and its outline stays straight."""
+    """Check that the holes in a plate are circles of the right size, and that its outline stays straight."""
     path = FOLDER / "plate_circles.dxf"
     view = ["--unit", "mm", "--view", "front", "--projection", "orthographic", "--style", "outline"]
     fault = run("render", FOLDER / "plate.obj", *view, "-o", path)
@@ -266,7 +267,7 @@ def check_circles():
 
 
 def inputs(path):
-    """A file, or the scenes in a folder, or otherwise all models below it."""
+    """Return a file, the scenes in a folder, or if it has none, all models below it."""
     if path.is_file():
         return [path]
     scenes = sorted(path.glob("*.ron"))
@@ -278,11 +279,11 @@ FOLDER.mkdir(parents=True, exist_ok=True)
 items = [item for argument in sys.argv[3:] for item in inputs(pathlib.Path(argument))]
 for number, item in enumerate(items):
     name = f"{number}_{item.stem}"
-    # Some models are broken or empty, which other tests cover.
+    # Some models are broken or empty; other tests cover those.
     if item.suffix != ".ron" and run("render", item, "--size", "16x16", "-o", FOLDER / f"{name}.png"):
-        print(f"left out: {item}")
+        print(f"skipped: {item}")
         continue
-    # Copies of a model may exceed the limits that follow from its bytes.
+    # Copies of a model may exceed the limits that follow from its size.
     render = ["render", item, "--no-line-limits"]
     report(item, check_drawing(name, render))
     if item.suffix != ".ron":
