@@ -1,4 +1,4 @@
-//! Small glTF documents for tests: JSON and one buffer, which tests change as they like.
+//! Small glTF documents for tests: JSON and one buffer, both of which tests may change freely.
 
 #![allow(clippy::missing_panics_doc, reason = "a test that misuses its own document should stop")]
 
@@ -15,8 +15,8 @@ pub struct Document {
 }
 
 impl Document {
-    /// Returns one indexed triangle: accessor 0 holds the positions, without bounds; accessor 1 the
-    /// indices.
+    /// Returns one indexed triangle. Accessor 0 holds the positions, without bounds, and accessor 1
+    /// the indices.
     #[must_use]
     pub fn single_triangle() -> Self {
         let mut document = Self {
@@ -41,8 +41,8 @@ impl Document {
         document
     }
 
-    /// Returns one of each core object: a skinned, textured triangle with normals, vertex colors
-    /// and a morph target, a camera, an animation, a sparse accessor.
+    /// Returns a document with one of each core object: a skinned, textured triangle with normals,
+    /// vertex colors and a morph target, a camera, an animation and a sparse accessor.
     #[must_use]
     pub fn with_all_members() -> Self {
         let mut document = Self::single_triangle();
@@ -100,9 +100,10 @@ impl Document {
         document
     }
 
-    /// Returns all of [`Self::with_all_members`], the rare attributes and every extension:
-    /// tangents, a second set of joints, morph targets of all attributes, lights, variants, edge
-    /// visibility, animation pointers, every KHR_materials extension.
+    /// Returns a document with everything in [`Self::with_all_members`], and with the rare
+    /// attributes and every extension: tangents, a second set of joints, morph targets for all
+    /// attributes, lights, variants, edge visibility, animation pointers and every KHR_materials
+    /// extension.
     #[must_use]
     pub fn with_extensions() -> Self {
         let mut document = Self::with_all_members();
@@ -173,7 +174,7 @@ impl Document {
         }
     }
 
-    /// Animates a factor of the material, of the light, of a texture, and a weight
+    /// Animates a factor of the material, the light and a texture, and a weight
     /// (KHR_animation_pointer).
     fn animate_by_pointers(&mut self) {
         let one = json!({"componentType": 5126, "type": "SCALAR", "count": 2});
@@ -215,7 +216,7 @@ impl Document {
         accessors.len() - 1
     }
 
-    /// Returns the document with the member at a JSON pointer replaced or added; its parent must
+    /// Returns the document with the member at a JSON pointer replaced or added. Its parent must
     /// exist.
     #[must_use]
     pub fn with_value(mut self, pointer: &str, value: Value) -> Self {
@@ -246,13 +247,13 @@ impl Document {
     }
 }
 
-/// Little-endian bytes of 32-bit floats.
+/// Returns the little-endian bytes of 32-bit floats.
 #[must_use]
 pub fn float_bytes(numbers: &[f32]) -> Vec<u8> {
     numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
 }
 
-/// Returns a valid PNG of one color, 8-bit RGBA.
+/// Returns a valid single-color PNG in 8-bit RGBA.
 #[must_use]
 pub fn encode_png(width: u32, height: u32) -> Vec<u8> {
     let mut bytes = Vec::new();

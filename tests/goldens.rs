@@ -1,11 +1,11 @@
 //! Golden images: the real program renders every scene of `scenes/` to exactly the pixels of
 //! `tests/goldens/NAME.png`.
 //!
-//! Pixels are compared, not bytes, so that a new release of the PNG encoder changes nothing. If
-//! they differ, the new picture and a map of the differences are saved as `NAME.actual.png` and
-//! `NAME.diff.png` in the folder of goldens. `cargo xtask golden --bless NAME` makes a picture
-//! golden after someone has looked at it. Arguments that are not flags select scenes by part of
-//! their name.
+//! The comparison is by pixels, not bytes, so that a new release of the PNG encoder changes
+//! nothing. If they differ, the new picture and a map of the differences are saved as
+//! `NAME.actual.png` and `NAME.diff.png` in the goldens folder. `cargo xtask golden --bless NAME`
+//! accepts a picture as the new golden after someone has looked at it. Arguments that are not flags
+//! select scenes by part of their name.
 
 mod picture;
 

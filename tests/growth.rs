@@ -1,11 +1,10 @@
-//! The cost of doubling the input: instructions and memory at n, 2n and 4n, for each path through
-//! the program.
+//! Measures the cost of doubling the input: instructions and memory at n, 2n and 4n, for each path
+//! through the program.
 //!
 //! ```text
 //!   (cost(4n) − cost(2n)) / (cost(2n) − cost(n))     2 if linear, 2.2 for n log n, 4 if quadratic
-//! ```
-//! Differences cancel the cost of starting the program. Valgrind counts the same on every machine,
-//! so this does not measure time.
+//! ``` Taking differences cancels the cost of starting the program. Valgrind's counts are the same
+//! on every machine, so the test does not depend on timing.
 
 use alberti_tests::harness::{Tally, TemporaryFolder, map_parallel, run_program};
 use alberti_tests::program_path;
@@ -13,21 +12,21 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
 
-/// The largest growth that passes: more than n log n grows, far less than n².
+/// The largest growth that passes, which is more than n log n and far less than n².
 const GREATEST_GROWTH: f64 = 2.6;
 
-/// Memory growth below this many bytes is not judged: growing lists double.
+/// Memory growth below this many bytes is ignored, because growing lists double their capacity.
 const LEAST_MEMORY: u64 = 4 << 20;
 
 /// A path through the program.
 struct Workload {
     name: &'static str,
-    /// The file given to the program, and its text for a size.
+    /// The input file of the program, and its text for a size.
     file: &'static str,
     text: fn(usize) -> String,
     /// The smallest size.
     size: usize,
-    /// The command before the file's path, and after it.
+    /// The parts of the command before and after the file path.
     before: &'static [&'static str],
     after: &'static [&'static str],
 }
@@ -35,7 +34,7 @@ struct Workload {
 /// The paths, each of which takes a second or so.
 const WORKLOADS: &[Workload] = &[
     Workload {
-        name: "mistakes of grammar",
+        name: "syntax errors",
         file: "scene.ron",
         text: |n| scene_of(&"Dirextional(directoin: (0, 1, 0)),\n".repeat(n)),
         size: 100,
@@ -43,7 +42,7 @@ const WORKLOADS: &[Workload] = &[
         after: &[],
     },
     Workload {
-        name: "mistakes of meaning",
+        name: "semantic errors",
         file: "scene.ron",
         text: |n| scene_of(&"Directional(direction: (0, 0, 0), intensity: 1),\n".repeat(n)),
         size: 200,
@@ -51,7 +50,7 @@ const WORKLOADS: &[Workload] = &[
         after: &[],
     },
     Workload {
-        name: "scenes laid out",
+        name: "scene formatting",
         file: "scene.ron",
         text: |n| scene_of(&"Directional(direction:(0,1,0),intensity:1),".repeat(n)),
         size: 1000,
@@ -59,7 +58,7 @@ const WORKLOADS: &[Workload] = &[
         after: &[],
     },
     Workload {
-        name: "triangles shaded",
+        name: "shaded triangles",
         file: "soup.stl",
         text: soup,
         size: 5000,
@@ -67,7 +66,7 @@ const WORKLOADS: &[Workload] = &[
         after: &["--size", "64x64", "-o", "out.png"],
     },
     Workload {
-        name: "triangles in lines",
+        name: "line drawing",
         file: "soup.stl",
         text: soup,
         size: 500,
@@ -75,7 +74,7 @@ const WORKLOADS: &[Workload] = &[
         after: &["--style", "lines", "-o", "out.svg"],
     },
     Workload {
-        name: "triangles dashed",
+        name: "dashed line drawing",
         file: "soup.stl",
         text: soup,
         size: 500,
@@ -83,7 +82,7 @@ const WORKLOADS: &[Workload] = &[
         after: &["--style", "dashed", "-o", "out.svg"],
     },
     Workload {
-        name: "a surface in DXF",
+        name: "surface as DXF",
         file: "surface.obj",
         text: surface,
         size: 1000,
@@ -91,7 +90,7 @@ const WORKLOADS: &[Workload] = &[
         after: &["--style", "wireframe", "-o", "out.dxf"],
     },
     Workload {
-        name: "a surface in PDF",
+        name: "surface as PDF",
         file: "surface.obj",
         text: surface,
         size: 1000,
@@ -119,7 +118,7 @@ const WORKLOADS: &[Workload] = &[
         after: &["--size", "64x64", "-o", "out.png"],
     },
     Workload {
-        name: "nodes checked",
+        name: "node checks",
         file: "nodes.gltf",
         text: nodes,
         size: 1000,
@@ -127,7 +126,7 @@ const WORKLOADS: &[Workload] = &[
         after: &[],
     },
     Workload {
-        name: "nodes described",
+        name: "node descriptions",
         file: "nodes.gltf",
         text: nodes,
         size: 1000,
@@ -183,7 +182,7 @@ impl Workload {
         Ok(())
     }
 
-    /// Instructions, and the peak of the allocated bytes.
+    /// Returns the number of instructions and the peak number of allocated bytes.
     fn cost(&self, folder: &Path, size: usize) -> Result<[u64; 2], String> {
         let path = folder.join(self.file);
         std::fs::write(&path, (self.text)(size)).map_err(|error| error.to_string())?;
@@ -193,7 +192,7 @@ impl Workload {
         let weighed = self.run(folder, &path, "massif")?;
         let sizes = weighed.lines().filter_map(|line| line.strip_prefix("mem_heap_B="));
         let most = sizes.filter_map(|size| size.parse().ok()).max();
-        Ok([total.ok_or("nothing was counted")?, most.ok_or("nothing was weighed")?])
+        Ok([total.ok_or("no instruction count")?, most.ok_or("no memory measurement")?])
     }
 
     /// Runs the program under a valgrind tool and returns the tool's output.
@@ -208,9 +207,9 @@ impl Workload {
         }
         command.current_dir(folder).stdout(Stdio::null()).stderr(Stdio::null());
         let status = command.status().map_err(|error| error.to_string())?;
-        // A scene with mistakes exits with 1: that is the answer, not a failure.
+        // A scene with errors exits with 1, which is the expected result.
         if !matches!(status.code(), Some(0 | 1)) {
-            return Err(format!("the program ended with {status}"));
+            return Err(format!("the program exited with {status}"));
         }
         std::fs::read_to_string(&profile).map_err(|error| error.to_string())
     }
@@ -221,7 +220,7 @@ fn scene_of(lights: &str) -> String {
     format!("Scene(models: [(path: \"missing.glb\")], lights: [{lights}])")
 }
 
-/// Numbers from 0 to 1, the same in every run.
+/// Returns numbers from 0 to 1, which are the same in every run.
 fn random_numbers() -> impl FnMut() -> f64 {
     let mut state = 1_u64;
     move || {
@@ -230,7 +229,7 @@ fn random_numbers() -> impl FnMut() -> f64 {
     }
 }
 
-/// Random triangles, each a tenth of the whole in size.
+/// Returns random triangles, each a tenth of the whole in size.
 fn soup(count: usize) -> String {
     let mut next = random_numbers();
     let mut text = "solid soup\n".to_owned();
@@ -266,7 +265,7 @@ fn surface(count: usize) -> String {
     text
 }
 
-/// Random points.
+/// Returns random points.
 fn points(count: usize) -> String {
     let mut next = random_numbers();
     let mut text = format!(
@@ -279,7 +278,7 @@ fn points(count: usize) -> String {
     text
 }
 
-/// Nodes in a row, without meshes.
+/// Returns nodes in a row, without meshes.
 fn nodes(count: usize) -> String {
     let node = |index: usize| format!("{{\"translation\":[{index},0,0]}}");
     let nodes: Vec<String> = (0..count).map(node).collect();

@@ -1,9 +1,9 @@
-//! Harness of the table-driven test programs: arguments, folders, a tally, the exit code.
+//! The harness of the table-driven test programs: arguments, folders, a tally and the exit code.
 //!
 //! The cases of a table-driven suite are files found at run time. All suites behave alike.
 //! Arguments that are not flags select cases by part of their name, as in `cargo test`. A failed
 //! case prints a line that begins with `FAILED`. Parts that cannot be tested are reported as
-//! skipped (see `skip.rs`). The last line counts.
+//! skipped (see `skip.rs`). The last line shows the counts.
 
 use crate::skip::report_skip;
 use std::ffi::OsString;
@@ -21,7 +21,7 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Returns the arguments of this process after the name of the suite.
+    /// Returns the arguments of this process after the suite name.
     #[must_use]
     pub fn from_env() -> Self {
         Self::from_words(std::env::args().skip(2))
@@ -33,13 +33,14 @@ impl Arguments {
         Self { filters, flags }
     }
 
-    /// Returns whether a case is selected: there is no filter, or one of them is part of its name.
+    /// Returns whether a case is selected, because there are no filters or one of them is part of
+    /// its name.
     #[must_use]
     pub fn select(&self, name: &str) -> bool {
         self.filters.is_empty() || self.filters.iter().any(|filter| name.contains(filter.as_str()))
     }
 
-    /// Returns whether a flag such as `--all` is given.
+    /// Returns whether a flag such as `--all` is set.
     #[must_use]
     pub fn has_flag(&self, flag: &str) -> bool {
         self.flags.iter().any(|given| given == flag)
@@ -66,13 +67,13 @@ impl Tally {
         self.passed += count;
     }
 
-    /// Counts a failed case and prints why.
+    /// Counts a failed case and prints the reason.
     pub fn fail(&mut self, name: &str, reason: &str) {
         self.failed += 1;
         println!("FAILED {name}: {reason}");
     }
 
-    /// Counts a part of the test that cannot run here and reports the reason.
+    /// Counts a part of the test that cannot run here, and reports the reason.
     pub fn skip(&mut self, name: &str, reason: &str) {
         self.skipped += 1;
         report_skip(name, reason);
@@ -113,8 +114,8 @@ pub fn run_program(name: &str, run: impl FnOnce(&Arguments) -> Result<Tally, Str
 /// Returns the cases of this run: all with the environment variable `THOROUGH`, otherwise about a
 /// tenth.
 ///
-/// The number in `TEST_SEED` chooses them; by default it is the day, so that a fault introduced by
-/// a change is found within days. It is printed, so that a failure can be repeated.
+/// `TEST_SEED` selects them. The default is the date, so that a bug is found within days of its
+/// introduction. The seed is printed, so that a failure can be reproduced.
 #[must_use]
 pub fn sample_cases<T>(name: &str, cases: Vec<T>) -> Vec<T> {
     if is_thorough() {
@@ -136,7 +137,7 @@ pub fn sample_cases<T>(name: &str, cases: Vec<T>) -> Vec<T> {
     chosen
 }
 
-/// Returns whether `THOROUGH` asks for every case.
+/// Returns whether `THOROUGH` selects every case.
 pub fn is_thorough() -> bool {
     std::env::var_os("THOROUGH").is_some()
 }
@@ -153,8 +154,8 @@ fn choose_tenth<T>(seed: u64, items: Vec<T>) -> Vec<T> {
     (0..).zip(items).filter(|(index, _)| is_chosen(*index)).map(|(_, item)| item).collect()
 }
 
-/// Returns a folder of test data next to this repository: the one that the environment variable
-/// names, otherwise `../shared/NAME`. `None` if neither exists.
+/// Returns a folder of test data next to this repository: the folder that the environment variable
+/// names, otherwise `../shared/NAME`, or `None` if neither exists.
 ///
 /// # Errors
 /// If the variable names a folder that does not exist.
@@ -175,7 +176,7 @@ fn choose_folder(
     if folder.is_dir() { Ok(Some(folder)) } else { Err(missing()) }
 }
 
-/// A folder of this process in the system's temporary folder, removed when dropped.
+/// A folder for this process in the system's temporary folder, removed on drop.
 #[derive(Debug)]
 pub struct TemporaryFolder {
     path: PathBuf,
@@ -185,14 +186,14 @@ impl TemporaryFolder {
     /// Creates the folder.
     ///
     /// # Errors
-    /// If it cannot be created; the text names it.
+    /// If it cannot be created; the message names it.
     pub fn create(name: &str) -> Result<Self, String> {
         let path = std::env::temp_dir().join(format!("alberti-{name}-{}", std::process::id()));
         std::fs::create_dir_all(&path).map_err(|error| format!("{}: {error}", path.display()))?;
         Ok(Self { path })
     }
 
-    /// Returns its path.
+    /// Returns the path of the folder.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
@@ -205,10 +206,10 @@ impl Drop for TemporaryFolder {
     }
 }
 
-/// Applies `work` to the index and value of every item on two threads; results keep the order of
+/// Applies `work` to the index and value of every item on two threads. Results keep the order of
 /// the items.
 ///
-/// A panic in `work` ends the program: work that may panic must catch it.
+/// A panic in `work` ends the program, so work that may panic must catch it.
 pub fn map_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(usize, &T) -> R + Sync) -> Vec<R> {
     let results: Vec<Mutex<Option<R>>> = items.iter().map(|_| Mutex::new(None)).collect();
     let next = AtomicUsize::new(0);
@@ -235,7 +236,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn arguments_that_are_no_flags_select_by_a_part_of_the_name() {
+    fn arguments_without_dashes_select_by_part_of_the_name() {
         let words = ["clip", "--all"].map(str::to_owned);
         let arguments = Arguments::from_words(words.into_iter());
         assert!(arguments.select("clip_polygon") && !arguments.select("viewport"));
@@ -244,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_that_is_named_must_exist_and_one_beside_need_not() {
+    fn a_folder_named_by_a_variable_must_exist_but_the_default_need_not() {
         let here = Path::new(env!("CARGO_MANIFEST_DIR"));
         let nowhere = here.join("nowhere");
         assert_eq!(choose_folder("X", None, &nowhere), Ok(None));
@@ -253,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn ten_seeds_choose_other_cases_each() {
+    fn ten_seeds_choose_different_cases() {
         let of_seed = |seed| choose_tenth(seed, (0..1000).collect::<Vec<u32>>());
         let mut seen = std::collections::BTreeSet::new();
         for seed in 20_000..20_010 {
@@ -265,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn results_of_two_threads_are_in_the_order_of_the_items() {
+    fn results_of_two_threads_keep_the_order_of_the_items() {
         let items: Vec<usize> = (0..100).collect();
         assert_eq!(map_parallel(&items, |index, item| index + item), {
             items.iter().map(|item| 2 * item).collect::<Vec<_>>()

@@ -1,9 +1,9 @@
 //! Malicious files, built here and loaded in this process.
 //!
-//! For any content, loading and checking return without a panic, in bounded time and memory. A
-//! returned model, from strict or lenient import, keeps every promise of its documentation. The
-//! expected outcome is stated if the message matters. Arguments that are not flags select cases by
-//! part of their name; `--write DIR` writes all files and loads none.
+//! For any content, loading and checking must return without a panic, in bounded time and memory. A
+//! returned model, from strict or lenient import, must keep every promise of its documentation. A
+//! case states the expected outcome if the message matters. Arguments that are not flags select
+//! cases by part of their name; `--write DIR` writes all files without loading them.
 
 mod accessors;
 mod animations;
@@ -29,17 +29,17 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-/// Memory limit of the whole run at any time.
+/// The memory limit of the whole run at any time.
 const MAX_MEMORY_MIB: u64 = 200;
 
-/// Time limit of a case, generous enough for a busy machine.
+/// The time limit of a case, generous enough for a busy machine.
 const TIME_LIMIT: Duration = Duration::from_secs(10);
 
 /// The extremes of a run, with their case names.
 #[derive(Default)]
 struct Extremes {
     slowest: (Duration, String),
-    /// In MiB.
+    /// The peak memory in MiB.
     largest: (u64, String),
 }
 
@@ -69,7 +69,7 @@ fn write_files(folder: &Path) -> std::io::Result<usize> {
     Ok(count)
 }
 
-/// Runs all selected cases: each is checked and loaded from memory, and some from a file first.
+/// Runs all selected cases. Each is checked and loaded from memory, and some from a file first.
 fn run_groups(folder: &Path, arguments: &Arguments) -> Result<Tally, String> {
     let (mut tally, mut extremes) = (Tally::default(), Extremes::default());
     for (group, cases) in case_groups() {
@@ -77,8 +77,8 @@ fn run_groups(folder: &Path, arguments: &Arguments) -> Result<Tally, String> {
             cases().into_iter().filter(|case| arguments.select(&case.name)).collect();
         println!("{group}: {} files", cases.len());
         let all: Vec<usize> = (0..cases.len()).collect();
-        // All cases share one path for reading files: in the first tier a tenth is enough. Cases
-        // selected by name run in full.
+        // All cases share one code path for reading files, so in the first tier a tenth is enough.
+        // Cases selected by name run in full.
         let is_named = !arguments.filters().is_empty();
         let from_files = if is_named { all } else { sample_cases(group, all) };
         for (index, case) in cases.iter().enumerate() {
@@ -127,7 +127,7 @@ fn case_groups() -> [(&'static str, Cases); 12] {
 }
 
 impl Extremes {
-    /// Runs a case, notes its time and the memory of the process, and turns a panic or a timeout
+    /// Runs a case, records its time and the memory of the process, and turns a panic or a timeout
     /// into an error.
     fn measure(&mut self, name: &str, run: &dyn Fn() -> Result<(), String>) -> Result<(), String> {
         let start = Instant::now();

@@ -1,4 +1,4 @@
-//! Shared by the cross-crate tests: the [harness] of the table-driven programs, a corpus of
+//! Code shared by the cross-crate tests: the [harness] of the table-driven programs, a corpus of
 //! [samples] with its [manifest], small [glTF documents](gltf) and [3MF files](threemf), the path
 //! of the program under test, and a PNG reader.
 
@@ -32,18 +32,19 @@ pub fn project_root() -> &'static Path {
 /// calling test.
 ///
 /// # Errors
-/// If `$ALBERTI` does not name a file, or if the program does not build.
+/// If `$ALBERTI` does not name a file, or the program does not build.
 pub fn program_path() -> Result<PathBuf, String> {
     if let Some(path) = std::env::var_os("ALBERTI").map(PathBuf::from) {
         let missing = || format!("ALBERTI names {}, which is not a file", path.display());
         return path.is_file().then(|| path.clone()).ok_or_else(missing);
     }
-    // A test is target/PROFILE/deps/NAME-HASH. Cargo knows whether the program in target/PROFILE is
-    // up to date.
+    // A test is at target/PROFILE/deps/NAME-HASH. Cargo determines whether the program in
+    // target/PROFILE is up to date.
     let test = std::env::current_exe().map_err(|error| error.to_string())?;
-    let folder = test.ancestors().nth(2).ok_or("the test is in no target folder")?;
+    let folder = test.ancestors().nth(2).ok_or("the test is not in a target folder")?;
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    // As in `cargo xtask test`: with the features of the whole workspace nothing is compiled twice.
+    // As in `cargo xtask test`, using the features of the whole workspace avoids compiling anything
+    // twice.
     cargo.args(["build", "--quiet", "--workspace", "--bin", "alberti"]);
     if let Some(target) = folder.parent() {
         cargo.arg("--target-dir").arg(target);
@@ -57,10 +58,10 @@ pub fn program_path() -> Result<PathBuf, String> {
     if status.success() { Ok(path) } else { Err("the program does not build".to_owned()) }
 }
 
-/// Width, height and 8-bit RGBA pixels of a PNG, rows from the top.
+/// Returns the width, height and 8-bit RGBA pixels of a PNG, with rows from the top.
 ///
 /// # Errors
-/// If the file cannot be read or is not a PNG; the text names it.
+/// If the file cannot be read or is not a PNG; the message names it.
 pub fn read_png(path: &Path) -> Result<(u32, u32, Vec<[u8; 4]>), String> {
     let with_path = |error: String| format!("{}: {error}", path.display());
     let file = File::open(path).map_err(|error| with_path(error.to_string()))?;
@@ -95,7 +96,7 @@ mod tests {
     use super::project_root;
 
     #[test]
-    fn the_scene_in_the_readme_is_the_committed_one() {
+    fn the_scene_in_the_readme_matches_the_committed_file() {
         let read = |name: &str| std::fs::read_to_string(project_root().join(name)).expect(name);
         let readme = read("README.md");
         let printed = readme.split("```ron\n").nth(1).and_then(|rest| rest.split("```").next());

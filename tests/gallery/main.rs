@@ -1,10 +1,10 @@
-//! Every model of a folder in every style and light, and from several sides, on one page, with
-//! statistics: `cargo xtask gallery --models DIR` runs it in release mode.
+//! Draws every model in a folder in every style and light, and from several sides, on one page with
+//! statistics. `cargo xtask gallery --models DIR` runs it in release mode.
 //!
-//! Pictures that are probably wrong have a red border: white or black ones, and those without
-//! contrast. The page is for people; the test `looks` enforces limits.
+//! Pictures that are probably wrong, because they are white, black or without contrast, have a red
+//! border. The page is for people; the test `looks` enforces limits.
 
-#![allow(clippy::print_stdout, reason = "a program speaks on its standard output")]
+#![allow(clippy::print_stdout, reason = "a program writes to standard output")]
 
 use alberti_tests::harness::map_parallel;
 use alberti_tests::project_root;
@@ -20,22 +20,22 @@ use std::process::ExitCode;
 
 /// The size of the pictures.
 const SIZE: (u32, u32) = (240, 180);
-/// The shares of white and of black pixels from which a picture is flagged.
+/// The fractions of white and of black pixels from which a picture is flagged.
 const MARKED_SHARES: (f64, f64) = (0.02, 0.05);
 /// The contrast below which a picture is flagged.
 const MARKED_CONTRAST: u8 = 10;
 
-/// Variants without shading: only empty pictures are flagged.
+/// Variants without shading, for which only empty pictures are flagged.
 const UNSHADED_VARIANTS: [&str; 8] =
     ["x-ray", "uv", "ids", "wireframe", "depth-cued", "lines", "dashed", "technical"];
 
-/// A way to render a model: its name, and its changes to the default.
+/// A way to render a model, with a name and changes to the default.
 struct Variant {
     name: &'static str,
     change: fn(&mut SceneFile),
 }
 
-/// The default, then every style, every light and every side.
+/// The default, followed by every style, every light and every side.
 const VARIANTS: [Variant; 22] = [
     Variant { name: "default", change: |_| () },
     Variant { name: "flat", change: |file| file.style = StyleFile::Flat },
@@ -67,7 +67,7 @@ const VARIANTS: [Variant; 22] = [
     Variant { name: "back", change: |file| file.camera.view = framed_from(FromFile::Back) },
 ];
 
-/// Everything framed from a direction.
+/// Frames everything from a direction.
 fn framed_from(from: FromFile) -> ViewFile {
     ViewFile::Frame { from: Some(from), padding_percent: DEFAULT_PADDING }
 }
@@ -112,7 +112,7 @@ fn write_gallery(folder: &Path) -> Result<PathBuf, String> {
     let mut models = Vec::new();
     list_models(folder, &mut models)?;
     if models.is_empty() {
-        return Err(format!("{} holds no .glb and no .gltf", folder.display()));
+        return Err(format!("{} contains no .glb or .gltf files", folder.display()));
     }
     let sections = map_parallel(&models, |index, model| model_section(index, model, &out));
     let page = out.join("index.html");

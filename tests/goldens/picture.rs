@@ -15,8 +15,8 @@ pub struct Picture {
 pub enum Difference {
     /// Their sizes differ.
     Size(String),
-    /// Number, bounds and size of the differences, and a map of them: the golden faded, differing
-    /// pixels red.
+    /// The number, bounds and magnitude of the differences, and a map of them: the faded golden,
+    /// with differing pixels in red.
     Pixels { message: String, map: Picture },
 }
 
@@ -42,7 +42,7 @@ impl Picture {
         if (self.width, self.height) != (actual.width, actual.height) {
             let [golden, size] = [self, actual].map(|p| format!("{}×{}", p.width, p.height));
             return Some(Difference::Size(format!(
-                "the golden has {golden} pixels, the picture {size}"
+                "the golden has {golden} pixels, but the picture has {size}"
             )));
         }
         let pairs = || self.pixels.iter().zip(&actual.pixels);
@@ -80,7 +80,7 @@ impl Picture {
     }
 }
 
-/// Returns a quarter of the contrast, towards white, so that differences are easy to see.
+/// Fades a pixel toward white, to a quarter of its contrast, so that differences are easy to see.
 fn fade_color([r, g, b, _]: [u8; 4]) -> [u8; 4] {
     let [r, g, b] = [r, g, b].map(|channel| 191 + channel / 4);
     [r, g, b, 255]

@@ -13,7 +13,8 @@ pub fn accessor_cases() -> Vec<Case> {
     cases
 }
 
-/// Every number in accessors, views and buffers, replaced by wrong numbers.
+/// Returns cases in which every number in accessors, views and buffers is replaced by wrong
+/// numbers.
 fn number_cases() -> Vec<Case> {
     let wrong = [
         json!(0),
@@ -73,7 +74,8 @@ fn number_cases() -> Vec<Case> {
         .collect()
 }
 
-/// Every stride from 0 to 300 over positions that have room for three elements of stride 252.
+/// Returns cases with every stride from 0 to 300 over positions that fit three elements of stride
+/// 252.
 fn stride_cases() -> Vec<Case> {
     let stride = |stride: usize| {
         let mut document = Document::single_triangle();
@@ -125,7 +127,7 @@ fn sparse_cases() -> Vec<Case> {
     ]
 }
 
-/// Values that are not valid positions, and indices without a vertex.
+/// Returns cases with invalid positions and with indices that are out of range.
 fn value_cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for wrong in
@@ -169,7 +171,7 @@ fn value_cases() -> Vec<Case> {
     cases
 }
 
-/// Accessors without bytes: zeros, in bounded numbers.
+/// Returns cases with accessors without bytes, whose zeros must be limited in number.
 fn zero_cases() -> Vec<Case> {
     let case = |count: u64, expected: Expected| {
         let mut document = Document::single_triangle().without_value("/accessors/0/bufferView");

@@ -4,7 +4,8 @@ use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::{Document, float_bytes};
 use serde_json::{Value, json};
 
-/// Returns a node that moves, turns, grows and morphs, each in a different way.
+/// Returns a node whose translation, rotation, scale and weights are animated, each with a
+/// different interpolation.
 fn animated_document() -> Document {
     let mut document = Document::with_all_members();
     let scalars = |count: usize| json!({"componentType": 5126, "type": "SCALAR", "count": count});
@@ -36,7 +37,7 @@ pub fn animation_cases() -> Vec<Case> {
     let whole = animated_document();
     let mut cases = vec![Case::from_document("animation: whole", &whole, Expected::LoadsClean)];
     let accessors = whole.json["accessors"].as_array().map_or(0, Vec::len);
-    // Every word of times and values replaced by numbers that are invalid or extreme.
+    // Every word of the times and values is replaced by numbers that are invalid or extreme.
     for accessor in accessors - 4..accessors {
         let view = whole.json["accessors"][accessor]["bufferView"].as_u64().unwrap_or(0);
         let view = &whole.json["bufferViews"][view as usize];
@@ -64,7 +65,7 @@ pub fn animation_cases() -> Vec<Case> {
     cases
 }
 
-/// Returns every member replaced by a wrong one.
+/// Returns cases in which each member is replaced by a wrong value.
 fn member_cases(whole: &Document) -> Vec<Case> {
     let wrong: [Value; 10] = [
         json!(0),

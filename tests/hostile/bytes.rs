@@ -8,17 +8,21 @@ pub fn byte_cases() -> Vec<Case> {
     let whole = Document::single_triangle().to_glb();
     for end in 0..whole.len() {
         cases.push(Case::new(
-            format!("glb cut at {end}"),
+            format!("glb truncated at {end}"),
             whole[..end].to_vec(),
             Expected::Refused,
         ));
         let mut shorter = whole[..end].to_vec();
         if let Some(length) = shorter.get_mut(8..12) {
             length.copy_from_slice(&(end as u32).to_le_bytes());
-            // A file that ends after its first chunk is complete: it only has no data.
+            // A file that ends after its first chunk is complete, but has no data.
             let ends_well = end == 20 + u32::from_le_bytes([whole[12], whole[13], 0, 0]) as usize;
             let expected = if ends_well { Expected::Warned } else { Expected::Refused };
-            cases.push(Case::new(format!("glb cut and repaired at {end}"), shorter, expected));
+            cases.push(Case::new(
+                format!("glb truncated and repaired at {end}"),
+                shorter,
+                expected,
+            ));
         }
     }
     for at in 0..whole.len() {
@@ -35,7 +39,7 @@ pub fn byte_cases() -> Vec<Case> {
     let text = Document::single_triangle().json.to_string().into_bytes();
     for end in 0..text.len() {
         cases.push(Case::new(
-            format!("gltf cut at {end}"),
+            format!("gltf truncated at {end}"),
             text[..end].to_vec(),
             Expected::Refused,
         ));

@@ -10,14 +10,14 @@ use std::path::Path;
 /// A malicious file.
 pub struct Case {
     pub name: String,
-    /// The name of the file, which decides its format if the content does not.
+    /// The file name, which determines the format if the content does not.
     pub file_name: &'static str,
     pub file: Vec<u8>,
     pub options: ImportOptions,
     pub expected: Expected,
 }
 
-/// The expected outcome of a file, in addition to loading returning and keeping its promises.
+/// The expected outcome of a file. In any case, loading must return and keep its promises.
 pub enum Expected {
     /// Either a model or an error.
     Anything,
@@ -27,11 +27,11 @@ pub enum Expected {
     LoadsClean,
     /// A model with a warning.
     Warned,
-    /// A model with exactly this warning: the pointer, a blank, the message.
+    /// A model with exactly this warning: the pointer, a blank and the message.
     Warns(String),
     /// An error.
     Refused,
-    /// Exactly this error, after the file's name.
+    /// Exactly this error, after the file name.
     Says(String),
 }
 
@@ -52,8 +52,8 @@ impl Case {
         check_path(&path, &self.options, &self.expected)
     }
 
-    /// Checks the file and loads it from memory, strictly and leniently: the report must say
-    /// whether it loads, and why not.
+    /// Checks the file and loads it from memory, strictly and leniently. The report must say
+    /// whether it loads and, if not, why.
     pub fn check_bytes(&self) -> Result<(), String> {
         let fault =
             load_bytes(self.file_name, &self.file, &self.options).err().map(|e| *e.diagnostic);
@@ -62,14 +62,17 @@ impl Case {
         self.load_leniently(loads)
     }
 
-    /// Compares the report about the file with the `fault` that loading found.
+    /// Compares the report on the file with the `fault` that loading found.
     fn check_report(&self, fault: Option<&Diagnostic>) -> Result<(), String> {
         let report = check_bytes(self.file_name, &self.file, &self.options);
         if report.load_error.as_ref() != fault {
-            return Err(format!("loading says {fault:?}, the report {:?}", report.load_error));
+            return Err(format!(
+                "loading reports {fault:?}, but the report has {:?}",
+                report.load_error
+            ));
         }
         if fault.is_some() && report.errors == 0 {
-            return Err("it is refused, and there is no error in the report".to_owned());
+            return Err("it is rejected, but there is no error in the report".to_owned());
         }
         let all = report.errors + report.warnings + report.notes;
         let is_whole = report.diagnostics.len() + report.omitted_count() == all;
@@ -81,14 +84,14 @@ impl Case {
         Err(format!("{} problems of {all} are listed", report.diagnostics.len()))
     }
 
-    /// Loads the file leniently, which must succeed if it `loads` strictly. The model that results
+    /// Loads the file leniently, which must succeed if it `loads` strictly. The resulting model
     /// must keep every promise.
     fn load_leniently(&self, loads: bool) -> Result<(), String> {
         let options = ImportOptions { lenient: true, ..self.options.clone() };
         match load_bytes(self.file_name, &self.file, &options) {
             Ok(model) => promises::check_model(&model),
             Err(error) if loads => {
-                Err(format!("it loads, but not leniently: {}", error.diagnostic))
+                Err(format!("it loads strictly but not leniently: {}", error.diagnostic))
             }
             Err(_) => Ok(()),
         }
@@ -100,7 +103,7 @@ pub fn check_path(path: &Path, options: &ImportOptions, expected: &Expected) -> 
     check_load_result(&load(path, options), expected)
 }
 
-/// Compares the result of a file with the expectation.
+/// Compares the result for a file with the expectation.
 pub fn check_load_result(
     loaded: &Result<Model, ImportError>,
     expected: &Expected,

@@ -4,7 +4,7 @@ use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
 use serde_json::json;
 
-/// A box of 24 vertices and 12 triangles, as the Draco encoder wrote it for the sample BoxDraco.
+/// A box of 24 vertices and 12 triangles, written by the Draco encoder for the sample BoxDraco.
 const DRACO_BOX: [u8; 118] = [
     0x44, 0x52, 0x41, 0x43, 0x4F, 0x02, 0x02, 0x01, 0x01, 0x00, 0x00, 0x00, 0x08, 0x0C, 0x01, 0x0B,
     0x00, 0x00, 0x03, 0x5F, 0x5B, 0x0A, 0x01, 0x01, 0x10, 0x55, 0x04, 0x5C, 0xE3, 0x8D, 0x46, 0x02,
@@ -34,14 +34,14 @@ fn compressed_document(stream: &[u8]) -> Document {
     )
 }
 
-/// Returns all cases about Draco streams.
+/// Returns all Draco cases.
 pub fn draco_cases() -> Vec<Case> {
     let whole = compressed_document(&DRACO_BOX);
     let mut cases = vec![Case::from_document("draco: whole", &whole, Expected::LoadsClean)];
     for end in 0..DRACO_BOX.len() {
         let document = compressed_document(&DRACO_BOX[..end]);
         cases.push(Case::from_document(
-            format!("draco: cut at {end}"),
+            format!("draco: truncated at {end}"),
             &document,
             Expected::Refused,
         ));
@@ -71,7 +71,7 @@ pub fn draco_cases() -> Vec<Case> {
     cases
 }
 
-/// Members of the extension and of its accessors, replaced by wrong values.
+/// Returns cases in which members of the extension and of its accessors have wrong values.
 fn wrong_member_cases(whole: &Document) -> Vec<Case> {
     let mut cases = Vec::new();
     let wrong = [

@@ -4,7 +4,7 @@ use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::{Document, encode_png};
 use serde_json::json;
 
-/// Returns a PNG with an arbitrary header; the checksum is correct.
+/// Returns a PNG with an arbitrary header and a correct checksum.
 fn png_with_false_size(width: u32, height: u32, depth: u8, color: u8) -> Vec<u8> {
     let mut bytes = encode_png(2, 2);
     bytes[16..20].copy_from_slice(&width.to_be_bytes());
@@ -15,13 +15,13 @@ fn png_with_false_size(width: u32, height: u32, depth: u8, color: u8) -> Vec<u8>
     bytes
 }
 
-/// Returns the PNG checksum (ISO 3309), bit by bit.
+/// Computes the PNG checksum (ISO 3309), bit by bit.
 fn crc32(bytes: &[u8]) -> u32 {
     let step = |crc: u32, _| if crc & 1 == 1 { (crc >> 1) ^ 0xEDB8_8320 } else { crc >> 1 };
     !bytes.iter().fold(u32::MAX, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))
 }
 
-/// Returns the header of a JPEG with components of these samplings, and nothing after it.
+/// Returns only the header of a JPEG, with these component sampling factors.
 fn jpeg_header(width: u16, height: u16, samplings: &[u8]) -> Vec<u8> {
     let components = samplings.len() as u8;
     let mut bytes = vec![0xFF, 0xD8, 0xFF, 0xC0, 0, 8 + 3 * components, 8];
@@ -50,7 +50,7 @@ fn warning_containing(problem: &str) -> Expected {
     Expected::Warns(format!("/images/0 {problem}; the surface is shown without it"))
 }
 
-/// JPEG headers with nothing after them, some of an unsupported kind.
+/// Returns cases with only the header of a JPEG, some of an unsupported kind.
 fn jpeg_cases() -> [Case; 4] {
     [
         textured_case("JPEG for printing", &jpeg_header(8, 8, &[0x11; 4]), Expected::Loads),
@@ -60,7 +60,7 @@ fn jpeg_cases() -> [Case; 4] {
             Expected::Loads,
         ),
         textured_case(
-            "JPEG with colour finer than brightness",
+            "JPEG with more samples for color than for brightness",
             &jpeg_header(64, 64, &[0x11, 0x11, 0x22]),
             warning_containing(
                 "the JPEG has more samples for color than for brightness; save it with a common \
@@ -71,7 +71,7 @@ fn jpeg_cases() -> [Case; 4] {
     ]
 }
 
-/// WebP files with wrong sizes.
+/// Returns cases with WebP files that have wrong sizes.
 fn webp_cases() -> [Case; 2] {
     [
         textured_case(
@@ -90,7 +90,7 @@ fn webp_cases() -> [Case; 2] {
     ]
 }
 
-/// Returns all cases about images.
+/// Returns all image cases.
 pub fn image_cases() -> Vec<Case> {
     let mut cases = vec![
         textured_case(
@@ -99,7 +99,7 @@ pub fn image_cases() -> Vec<Case> {
             warning_containing("the image declares 100000 x 100000 texels, too many for 74 bytes"),
         ),
         textured_case(
-            "16,384 squared without data",
+            "16,384 x 16,384 without data",
             &png_with_false_size(16_384, 16_384, 8, 6),
             Expected::Loads,
         ),
@@ -113,7 +113,7 @@ pub fn image_cases() -> Vec<Case> {
             &png_with_false_size(20_000, 1, 8, 6),
             warning_containing("the image has 20000 x 1 texels, more than the limit of 16384"),
         ),
-        textured_case("no width", &png_with_false_size(0, 7, 8, 6), Expected::Loads),
+        textured_case("zero width", &png_with_false_size(0, 7, 8, 6), Expected::Loads),
         textured_case("empty", &[], warning_containing("the image is empty")),
         textured_case(
             "text",
@@ -144,7 +144,8 @@ pub fn image_cases() -> Vec<Case> {
     cases
 }
 
-/// Returns every bit depth and color type, and files truncated or changed at every byte.
+/// Returns cases with every bit depth and color type, and with files truncated or changed at every
+/// byte.
 fn mutated_cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for depth in [0, 1, 2, 3, 4, 8, 16, 32] {
@@ -159,14 +160,22 @@ fn mutated_cases() -> Vec<Case> {
     }
     let whole = encode_png(9, 5);
     for end in 0..whole.len() {
-        cases.push(textured_case(&format!("PNG cut at {end}"), &whole[..end], Expected::Loads));
+        cases.push(textured_case(
+            &format!("PNG truncated at {end}"),
+            &whole[..end],
+            Expected::Loads,
+        ));
         let mut changed = whole.clone();
         changed[end] ^= 0xFF;
         cases.push(textured_case(&format!("PNG byte {end} changed"), &changed, Expected::Loads));
     }
     let header = jpeg_header(64, 64, &[0x11; 3]);
     for end in 0..header.len() {
-        cases.push(textured_case(&format!("JPEG cut at {end}"), &header[..end], Expected::Loads));
+        cases.push(textured_case(
+            &format!("JPEG truncated at {end}"),
+            &header[..end],
+            Expected::Loads,
+        ));
     }
     cases
 }

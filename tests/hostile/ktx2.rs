@@ -4,10 +4,10 @@ use crate::hostile::case::{Case, Expected};
 use crate::hostile::images::textured_case;
 use crate::hostile::mutants::{Random, mutate};
 
-/// The number of mutants of all images together.
+/// The total number of mutants of all images.
 const MUTANTS: usize = 2_000;
 
-/// ETC1S with alpha and with mip levels, UASTC plain and in Zstandard.
+/// ETC1S with alpha and with mip levels, and UASTC with and without Zstandard compression.
 const IMAGES: [&[u8]; 4] = [
     include_bytes!("../../crates/gltf-import/tests/ktx2/etc1s.ktx2"),
     include_bytes!("../../crates/gltf-import/tests/ktx2/etc1s_opaque_mips.ktx2"),
@@ -15,7 +15,7 @@ const IMAGES: [&[u8]; 4] = [
     include_bytes!("../../crates/gltf-import/tests/ktx2/uastc_zstd.ktx2"),
 ];
 
-/// Returns all cases about KTX2 images.
+/// Returns all KTX2 cases.
 pub fn ktx2_cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for (number, image) in IMAGES.into_iter().enumerate() {
@@ -24,7 +24,7 @@ pub fn ktx2_cases() -> Vec<Case> {
         };
         add("whole", image, Expected::LoadsClean);
         for end in 0..image.len() {
-            add(&format!("cut at {end}"), &image[..end], Expected::Warned);
+            add(&format!("truncated at {end}"), &image[..end], Expected::Warned);
             let mut changed = image.to_vec();
             changed[end] ^= 0xFF;
             add(&format!("byte {end} changed"), &changed, Expected::Loads);
@@ -48,5 +48,5 @@ pub fn ktx2_cases() -> Vec<Case> {
     cases
 }
 
-/// Numbers for the header fields.
+/// Values for the header fields.
 const LYING_NUMBERS: [u32; 8] = [0, 1, 2, 4096, 16_384, 65_536, i32::MAX as u32, u32::MAX];

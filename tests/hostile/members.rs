@@ -1,4 +1,5 @@
-//! Every member of a document that uses everything, replaced by every kind of value and removed.
+//! Takes a document that uses everything, and replaces each member by every kind of value or
+//! removes it.
 
 use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
@@ -16,7 +17,7 @@ pub fn member_cases() -> Vec<Case> {
     cases
 }
 
-/// Returns a document as it is, and with each of its members corrupted in each way.
+/// Returns the document unchanged, and with each of its members corrupted in each way.
 fn mutated_cases(document: &Document, pointers: &[String]) -> Vec<Case> {
     let values = [
         json!(null),
@@ -36,7 +37,7 @@ fn mutated_cases(document: &Document, pointers: &[String]) -> Vec<Case> {
         json!({}),
         json!({"x": 0}),
     ];
-    let mut cases = vec![Case::from_document("everything right", document, Expected::LoadsClean)];
+    let mut cases = vec![Case::from_document("everything valid", document, Expected::LoadsClean)];
     for pointer in pointers {
         for value in &values {
             let spoilt = document.clone().with_value(pointer, value.clone());
@@ -47,7 +48,7 @@ fn mutated_cases(document: &Document, pointers: &[String]) -> Vec<Case> {
             ));
         }
         cases.push(Case::from_document(
-            format!("no {pointer}"),
+            format!("{pointer} removed"),
             &document.clone().without_value(pointer),
             Expected::Anything,
         ));
@@ -55,7 +56,7 @@ fn mutated_cases(document: &Document, pointers: &[String]) -> Vec<Case> {
     cases
 }
 
-/// The JSON pointers of all values below the top.
+/// Collects the JSON pointers of all values below the root.
 fn collect_pointers(value: &Value, path: &mut String, pointers: &mut Vec<String>) {
     let members: Vec<(String, &Value)> = match value {
         Value::Array(items) => {

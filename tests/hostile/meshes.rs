@@ -4,23 +4,23 @@ use crate::hostile::case::{Case, Expected};
 use crate::hostile::mutants::{Random, mutate};
 use alberti_tests::threemf::encode_3mf;
 
-/// The number of mutants of each format.
+/// The number of mutants per format.
 const MUTANTS: usize = 2_000;
 
-/// Makes small files in a format.
+/// A function that makes small files in a format.
 type Files = fn() -> Vec<Vec<u8>>;
 
-/// Formats with the file names that select them, and small files to mutate.
+/// The formats, with the file names that select them and small files to mutate.
 const FORMATS: [(&str, Files); 5] = [
     ("model.stl", stl_files),
     ("model.obj", obj_files),
     ("model.ply", ply_files),
     ("model.3mf", threemf_files),
-    // The text inside an archive, so that the checksum is correct.
+    // The text is mutated before it is archived, so that the checksum is correct.
     (MODEL_PART, threemf_parts),
 ];
 
-/// The name of the mutants that are put in an archive.
+/// The name of the mutants that are archived.
 const MODEL_PART: &str = "3dmodel.model";
 
 pub fn mesh_cases() -> Vec<Case> {
@@ -47,7 +47,7 @@ pub fn mesh_cases() -> Vec<Case> {
     cases
 }
 
-/// Two solids as text, and a binary file with colors of either convention.
+/// Returns two solids as text, and a binary file with colors in either convention.
 fn stl_files() -> Vec<Vec<u8>> {
     let text = "solid a b\nfacet normal 0 0 1\n outer loop\n  vertex 0 0 0\n  vertex 1 0 0\n  \
                 vertex 1 1e0 -0.0\n endloop\nendfacet\nendsolid a b\nsolid\nfacet normal 0 0 0\nouter \
@@ -71,7 +71,8 @@ fn stl_files() -> Vec<Vec<u8>> {
     ]
 }
 
-/// Returns every supported statement, faces with all kinds of references, and a point cloud.
+/// Returns files with every supported statement, with faces that use all kinds of references, and
+/// with a point cloud.
 fn obj_files() -> Vec<Vec<u8>> {
     let text = "# two squares\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0 \nv 0.5 0.25 0 1\nvt 0 0\nvt 1 0 0\n\
                 vn 0 0 1\no first thing\ng a b\nusemtl red\ns 1\nf 1/1/1 2/2/1 3//1 -1\ns off\n\
@@ -82,7 +83,8 @@ fn obj_files() -> Vec<Vec<u8>> {
     [text, colors, points].map(|text| text.as_bytes().to_vec()).to_vec()
 }
 
-/// Faces, strips, edges, colors, texture coordinates and unknown elements, as text and in binary.
+/// Returns text and binary files with faces, strips, edges, colors, texture coordinates and unknown
+/// elements.
 fn ply_files() -> Vec<Vec<u8>> {
     let text = "ply\nformat ascii 1.0\ncomment TextureFile none.png\nelement vertex 5\n\
                 property float x\nproperty float y\nproperty double z\nproperty uchar red\n\
@@ -116,7 +118,7 @@ fn ply_files() -> Vec<Vec<u8>> {
     files
 }
 
-/// Objects, components, items and every kind of property.
+/// Returns a file with objects, components, items and every kind of property.
 fn threemf_parts() -> Vec<Vec<u8>> {
     let text = r##"<?xml version="1.0"?><model unit="inch" requiredextensions="m"
 xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
@@ -137,7 +139,7 @@ z="0"/><vertex x="0" y="4" z="0"/><vertex x="0" y="0" z="5"/></vertices><triangl
     vec![text.as_bytes().to_vec()]
 }
 
-/// These files in archives.
+/// Returns these files in archives.
 fn threemf_files() -> Vec<Vec<u8>> {
     threemf_parts().iter().map(|part| encode_3mf(part)).collect()
 }

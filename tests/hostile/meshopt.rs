@@ -4,7 +4,7 @@ use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
 use serde_json::json;
 
-/// Returns the triangle with its positions and indices compressed: every byte in full, and every
+/// Returns the triangle with compressed positions and indices, with every byte in full and every
 /// index written out.
 fn compressed_document() -> Document {
     let mut document = Document::single_triangle();
@@ -28,7 +28,8 @@ fn compressed_document() -> Document {
     document.with_value("/buffers", json!([streams, fallback]))
 }
 
-/// Returns a stream of version 0 with up to 16 elements; every group has eight bits per delta.
+/// Returns a version 0 stream with up to 16 elements, in which every group has eight bits per
+/// delta.
 fn attribute_stream(elements: &[u8], stride: usize) -> Vec<u8> {
     let mut stream = vec![0xA0];
     for byte in 0..stride {
@@ -56,7 +57,7 @@ pub fn meshopt_cases() -> Vec<Case> {
     cases
 }
 
-/// Returns every number and word of the extension replaced by a wrong one.
+/// Returns cases in which every number and string in the extension is replaced by a wrong value.
 fn number_cases() -> Vec<Case> {
     let wrong = [
         json!(null),
@@ -108,7 +109,7 @@ fn number_cases() -> Vec<Case> {
     cases
 }
 
-/// Returns the streams truncated at every byte, and with every byte changed.
+/// Returns cases in which the streams are truncated at every byte and every byte is changed.
 fn stream_cases() -> Vec<Case> {
     let whole = compressed_document();
     let mut cases = Vec::new();
@@ -136,7 +137,7 @@ fn stream_cases() -> Vec<Case> {
     cases
 }
 
-/// Short streams that claim to be long.
+/// Returns cases with short streams that claim to be long.
 fn oversized_count_cases() -> Vec<Case> {
     let claim = |mode: &str, stream: &[u8], count: u64, expected: Expected| {
         let mut document = compressed_document();
@@ -154,7 +155,11 @@ fn oversized_count_cases() -> Vec<Case> {
                 "/accessors/1",
                 json!({"bufferView": view, "componentType": 5125, "type": "SCALAR", "count": 3}),
             );
-        Case::from_document(format!("meshopt: {count} elements by {mode}"), &document, expected)
+        Case::from_document(
+            format!("meshopt: {count} elements in mode {mode}"),
+            &document,
+            expected,
+        )
     };
     let mut cases = Vec::new();
     for mode in ["ATTRIBUTES", "TRIANGLES", "INDICES"] {
@@ -164,7 +169,7 @@ fn oversized_count_cases() -> Vec<Case> {
             }
         }
     }
-    // 4,096 bytes that declare a million identical elements: the cheapest there is.
+    // The cheapest encoding: 4,096 bytes that declare a million identical elements.
     let mut same = vec![0b10_10_10_10; 4_096];
     same[0] = 0xA1;
     let end = same.len() - 24;

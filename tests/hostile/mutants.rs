@@ -1,6 +1,6 @@
-//! Mutants of files: bytes and numbers changed; parts removed, repeated and swapped.
+//! Mutants of files, with changed bytes and numbers, and with removed, repeated and swapped parts.
 
-/// Words that readers might stumble over.
+/// Words that may trip up readers.
 const WORDS: [&[u8]; 22] = [
     b"nan",
     b"-inf",
@@ -26,23 +26,23 @@ const WORDS: [&[u8]; 22] = [
     b"\0\0\xC0\x7F",
 ];
 
-/// A pseudorandom sequence (Knuth's linear congruence).
+/// A pseudorandom sequence (Knuth's linear congruential generator).
 pub struct Random(u64);
 
 impl Random {
-    /// Returns the sequence that starts with a number.
+    /// Creates the sequence with this seed.
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    /// Returns a number below a limit, or 0 if that is 0.
+    /// Returns a number below a limit, or 0 if the limit is 0.
     pub fn below(&mut self, limit: usize) -> usize {
         self.0 =
             self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 33) as usize % limit.max(1)
     }
 
-    /// Returns a slice of some bytes, shorter than 64.
+    /// Returns a random range within the bytes, shorter than 64.
     fn range(&mut self, length: usize) -> std::ops::Range<usize> {
         let start = self.below(length);
         start..(start + self.below(64)).min(length)

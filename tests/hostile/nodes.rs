@@ -1,4 +1,4 @@
-//! Node trees that are not trees, are too deep, or exceed all limits.
+//! Node hierarchies that are not trees, are too deep, or exceed all limits.
 
 use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
@@ -25,7 +25,7 @@ pub fn node_cases() -> Vec<Case> {
     cases
 }
 
-/// Returns a mesh with many instances, whose accessors are wrong or far too long.
+/// Returns cases of a mesh with many instances, whose accessors are wrong or far too long.
 fn position_cases() -> Vec<Case> {
     let case = |name: &str, attributes: Value, count: u64, expected: Expected| {
         let mut document = Document::single_triangle();
@@ -69,7 +69,7 @@ fn position_cases() -> Vec<Case> {
             ),
         ),
         case(
-            "another shape",
+            "wrong shape",
             json!({"TRANSLATION": 4}),
             5,
             warns(
@@ -77,28 +77,28 @@ fn position_cases() -> Vec<Case> {
             ),
         ),
         case("no accessor", json!({"TRANSLATION": 99}), 5, Expected::Warned),
-        case("no index", json!({"TRANSLATION": "x"}), 5, Expected::Warned),
-        case("no object", json!(7), 5, Expected::Warned),
+        case("not an index", json!({"TRANSLATION": "x"}), 5, Expected::Warned),
+        case("not an object", json!(7), 5, Expected::Warned),
         case("many", json!({"TRANSLATION": 3}), 100_000_000, Expected::Refused),
-        case("too many for numbers", json!({"SCALE": 3}), u64::MAX, Expected::Refused),
+        case("more than can be counted", json!({"SCALE": 3}), u64::MAX, Expected::Refused),
     ]
 }
 
-/// Nodes with invalid references.
+/// Returns cases with invalid node references.
 fn reference_cases() -> Vec<Case> {
     vec![
         node_case(
-            "below itself",
+            "its own child",
             json!([{"children": [0]}]),
             refusal_containing("/nodes/0/children: node 0 is its own descendant"),
         ),
         node_case(
-            "a ring of three",
+            "a cycle of three",
             json!([{"children": [1]}, {"children": [2]}, {"children": [0]}]),
             refusal_containing("/nodes/0/children: node 0 is its own descendant"),
         ),
         node_case(
-            "a ring beside the scene",
+            "a cycle outside the scene",
             json!([{}, {"children": [2]}, {"children": [1]}]),
             refusal_containing("/nodes/1/children: node 1 is its own descendant"),
         ),
@@ -108,29 +108,29 @@ fn reference_cases() -> Vec<Case> {
             refusal_containing("/nodes/1/children/0: node 2 already has a parent, node 0"),
         ),
         node_case(
-            "a child twice",
+            "a duplicate child",
             json!([{"children": [1, 1]}, {}]),
             refusal_containing("/nodes/0/children/1: node 1 already has a parent, node 0"),
         ),
         node_case(
-            "no such child",
+            "a missing child",
             json!([{"children": [1]}]),
             refusal_containing("/nodes/0/children/0: there is no node 1: the file has only node 0"),
         ),
         node_case(
-            "no such mesh",
+            "a missing mesh",
             json!([{"mesh": 1}]),
             refusal_containing("/nodes/0/mesh: there is no mesh 1: the file has only mesh 0"),
         ),
         node_case(
-            "no such skin",
+            "a missing skin",
             json!([{"mesh": 0, "skin": 0}]),
             refusal_containing("/nodes/0/skin: there is no skin 0: the file has none"),
         ),
     ]
 }
 
-/// Trees that are deep or wide, or only seem so.
+/// Returns cases with trees that are deep or wide, or only appear so.
 fn size_cases() -> Vec<Case> {
     let chain = |length: usize| {
         let node = |at: usize| {
@@ -170,14 +170,14 @@ fn transform_cases() -> Vec<Case> {
         json!([{"scale": [1e200, 1, 1], "children": [1]}, {"mesh": 0, "scale": [1e200, 1, 1]}]);
     vec![
         node_case(
-            "a matrix that divides",
+            "a projective matrix",
             matrix([0.0, 0.0, -1.0, 0.0]),
             refusal_containing(
                 "/nodes/0/matrix: the last row of the matrix is [0.0, 0.0, -1.0, 0.0], \
                  not [0, 0, 0, 1]",
             ),
         ),
-        node_case("a matrix rounded", matrix([0.0, 1e-9, 0.0, 0.999_999_9]), Expected::LoadsClean),
+        node_case("a rounded matrix", matrix([0.0, 1e-9, 0.0, 0.999_999_9]), Expected::LoadsClean),
         node_case("zero matrix", json!([{"mesh": 0, "matrix": vec![0; 16]}]), Expected::Refused),
         node_case(
             "15 numbers",
@@ -197,7 +197,7 @@ fn transform_cases() -> Vec<Case> {
         node_case("zero scale", json!([{"mesh": 0, "scale": [0, 0, 0]}]), Expected::LoadsClean),
         node_case("mirror", json!([{"mesh": 0, "scale": [-1, 1, 1]}]), Expected::LoadsClean),
         node_case(
-            "a product beyond numbers",
+            "a product that overflows",
             huge,
             refusal_containing("/nodes/1: the accumulated transform overflows"),
         ),
@@ -221,28 +221,28 @@ fn scene_cases() -> Vec<Case> {
     };
     vec![
         scene(
-            "no such scene",
+            "a missing scene",
             "/scene",
             json!(1),
             refusal_containing("/scene: there is no scene 1: the file has only scene 0"),
         ),
         scene(
-            "no such node",
+            "a missing node",
             "/scenes/0/nodes",
             json!([2]),
             refusal_containing("/scenes/0/nodes/0: there is no node 2: the file has nodes 0 to 1"),
         ),
         scene(
-            "a child listed",
+            "a child as a root",
             "/scenes/0/nodes",
             json!([1]),
             Expected::Warns(
                 "/scenes/0/nodes node 1 is listed as a root but has a parent".to_owned(),
             ),
         ),
-        scene("a child listed with its parent", "/scenes/0/nodes", json!([0, 1]), Expected::Loads),
+        scene("a child and its parent as roots", "/scenes/0/nodes", json!([0, 1]), Expected::Loads),
         scene(
-            "a node twice",
+            "a duplicate node",
             "/scenes/0/nodes",
             json!([0, 0]),
             Expected::Warns(

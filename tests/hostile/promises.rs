@@ -1,8 +1,8 @@
-//! Invariants of a loaded model: every promise of its documentation, checked.
+//! Checks the invariants of a loaded model, which are the promises of its documentation.
 
 use model::{Model, Primitive};
 
-/// Checks every verifiable sentence of the model's documentation.
+/// Checks every verifiable sentence in the model's documentation.
 pub fn check_model(model: &Model) -> Result<(), String> {
     for (at, mesh) in model.meshes.iter().enumerate() {
         for (part, primitive) in mesh.primitives.iter().enumerate() {
@@ -15,7 +15,7 @@ pub fn check_model(model: &Model) -> Result<(), String> {
         let used = material.base_color_texture;
         require(
             used.is_none_or(|used| used.texture < model.textures.len()),
-            "a texture is lacking",
+            "a texture is missing",
         )?;
         let numbers =
             [material.metallic, material.roughness].into_iter().chain(material.base_color);
@@ -27,7 +27,7 @@ pub fn check_model(model: &Model) -> Result<(), String> {
     for texture in &model.textures {
         require(
             texture.image.is_none_or(|image| image < model.images.len()),
-            "an image is lacking",
+            "an image is missing",
         )?;
     }
     for image in model.images.iter().flatten() {
@@ -46,13 +46,13 @@ pub fn check_model(model: &Model) -> Result<(), String> {
     Ok(())
 }
 
-/// Checks every instance in the scene, and the vertices there.
+/// Checks every instance in the scene and its vertices.
 fn check_instances(model: &Model) -> Result<(), String> {
     for instance in model.node_instances() {
-        require(instance.node_to_model.is_finite(), "a place is not finite")?;
+        require(instance.node_to_model.is_finite(), "an instance transform is not finite")?;
     }
     for instance in model.mesh_instances() {
-        require(instance.node_to_model.is_finite(), "a place of many is not finite")?;
+        require(instance.node_to_model.is_finite(), "a transform of GPU instancing is not finite")?;
         let mesh = model.nodes[instance.node].mesh.map(|mesh| &model.meshes[mesh]);
         for primitive in mesh.iter().flat_map(|mesh| &mesh.primitives) {
             check_posed(model, instance, primitive)?;
@@ -68,8 +68,11 @@ fn require(truth: bool, otherwise: &str) -> Result<(), String> {
 fn check_primitive(model: &Model, primitive: &Primitive) -> Result<(), String> {
     let vertices = primitive.positions.len();
     let whole = primitive.indices.len().is_multiple_of(primitive.topology.vertices_per_item());
-    require(whole, "an item is incomplete")?;
-    require(primitive.indices.iter().all(|&i| (i as usize) < vertices), "an index has no vertex")?;
+    require(whole, "a triangle, line or point is incomplete")?;
+    require(
+        primitive.indices.iter().all(|&i| (i as usize) < vertices),
+        "an index is out of range",
+    )?;
     require(
         primitive.positions.as_flattened().iter().all(|x| x.is_finite()),
         "a position is not finite",
@@ -85,29 +88,35 @@ fn check_primitive(model: &Model, primitive: &Primitive) -> Result<(), String> {
         .map(Vec::len)
         .chain(primitive.joint_weights.iter().map(Vec::len));
     let uvs = primitive.uvs.iter().map(Vec::len).chain(skins);
-    require(primitive.joint_indices.len() == primitive.joint_weights.len(), "joints lack weights")?;
+    require(
+        primitive.joint_indices.len() == primitive.joint_weights.len(),
+        "the numbers of joints and weights differ",
+    )?;
     let targets = primitive
         .morph_targets
         .iter()
         .flat_map(|t| [&t.positions, &t.normals, &t.tangents])
         .flatten();
-    require(targets.map(Vec::len).all(|n| n == vertices), "a target has another length")?;
+    require(targets.map(Vec::len).all(|n| n == vertices), "a morph target has the wrong length")?;
     let looks = primitive
         .morph_targets
         .iter()
         .flat_map(|t| t.colors.iter().map(Vec::len).chain(t.uvs.iter().flatten().map(Vec::len)));
-    require(looks.into_iter().all(|n| n == vertices), "a target's look has another length")?;
+    require(
+        looks.into_iter().all(|n| n == vertices),
+        "a morph target attribute has the wrong length",
+    )?;
     check_edge_lines(model, primitive)?;
     require(
         lengths.into_iter().flatten().chain(uvs).all(|n| n == vertices),
-        "an array has another length",
+        "an attribute has the wrong length",
     )?;
     require(primitive.normals.iter().flatten().all(is_unit), "a normal is not of unit length")?;
     let uvs = primitive.uvs.iter().flatten().flatten();
     require(uvs.into_iter().all(|x| x.is_finite()), "a texture coordinate is not finite")?;
     let colors = primitive.colors.iter().flatten().flatten();
-    require(colors.into_iter().all(|x| (0.0..=1.0).contains(x)), "a colour is not in [0, 1]")?;
-    require(primitive.material.is_none_or(|at| at < model.materials.len()), "a material is lacking")
+    require(colors.into_iter().all(|x| (0.0..=1.0).contains(x)), "a color is not in [0, 1]")?;
+    require(primitive.material.is_none_or(|at| at < model.materials.len()), "a material is missing")
 }
 
 fn check_edge_lines(model: &Model, primitive: &Primitive) -> Result<(), String> {
@@ -115,16 +124,16 @@ fn check_edge_lines(model: &Model, primitive: &Primitive) -> Result<(), String> 
     let visibility = edges.visibility.as_ref().map(Vec::len);
     require(
         visibility.is_none_or(|n| n == primitive.item_count()),
-        "edges of a triangle are lacking",
+        "a triangle has missing edges",
     )?;
     let ends = edges.lines.iter().flat_map(|lines| lines.vertex_pairs.as_flattened());
     let vertices = primitive.positions.len();
-    require(ends.into_iter().all(|&end| (end as usize) < vertices), "an edge has no vertex")?;
-    let materials = edges.lines.iter().filter_map(|lines| lines.material).chain(edges.material);
     require(
-        materials.into_iter().all(|at| at < model.materials.len()),
-        "an edge lacks its material",
-    )
+        ends.into_iter().all(|&end| (end as usize) < vertices),
+        "an edge index is out of range",
+    )?;
+    let materials = edges.lines.iter().filter_map(|lines| lines.material).chain(edges.material);
+    require(materials.into_iter().all(|at| at < model.materials.len()), "an edge has no material")
 }
 
 fn is_unit(normal: &[f32; 3]) -> bool {
@@ -135,23 +144,26 @@ fn is_unit(normal: &[f32; 3]) -> bool {
 fn check_nodes(model: &Model) -> Result<(), String> {
     for (at, node) in model.nodes.iter().enumerate() {
         require(node.to_parent.is_finite(), "a transform is not finite")?;
-        require(node.mesh.is_none_or(|mesh| mesh < model.meshes.len()), "a mesh is lacking")?;
+        require(node.mesh.is_none_or(|mesh| mesh < model.meshes.len()), "a mesh is missing")?;
         require(
             node.camera.is_none_or(|camera| camera < model.cameras.len()),
-            "a camera is lacking",
+            "a camera is missing",
         )?;
         let skin =
             node.skin.map(|skin| model.skins.get(skin).is_some_and(|s| !s.joints.is_empty()));
-        require(skin != Some(false), "a skin is lacking")?;
+        require(skin != Some(false), "a skin is missing")?;
         let child_knows =
             |&child: &usize| model.nodes.get(child).is_some_and(|c| c.parent == Some(at));
-        require(node.children.iter().all(child_knows), "a child has another parent")?;
+        require(node.children.iter().all(child_knows), "a child has the wrong parent")?;
     }
     for skin in &model.skins {
-        require(skin.joints.len() == skin.inverse_bind_matrices.len(), "a joint has no matrix")?;
-        require(skin.joints.iter().all(|&joint| joint < model.nodes.len()), "a joint is lacking")?;
+        require(
+            skin.joints.len() == skin.inverse_bind_matrices.len(),
+            "the numbers of joints and matrices differ",
+        )?;
+        require(skin.joints.iter().all(|&joint| joint < model.nodes.len()), "a joint is missing")?;
     }
-    require(model.roots.iter().all(|&root| root < model.nodes.len()), "a root is lacking")
+    require(model.roots.iter().all(|&root| root < model.nodes.len()), "a root is missing")
 }
 
 fn check_posed(
@@ -161,10 +173,13 @@ fn check_posed(
 ) -> Result<(), String> {
     let posed = model.skin_primitive(instance, primitive);
     let finite = posed.positions.as_flattened().iter().all(|x| x.is_finite());
-    require(finite, "a bent position is not finite")?;
-    require(posed.positions.len() == primitive.positions.len(), "a vertex is lost in bending")?;
+    require(finite, "a posed position is not finite")?;
+    require(
+        posed.positions.len() == primitive.positions.len(),
+        "posing changes the number of vertices",
+    )?;
     require(
         posed.normals.iter().flat_map(|n| n.iter()).all(is_unit),
-        "a bent normal is not of unit length",
+        "a posed normal is not of unit length",
     )
 }

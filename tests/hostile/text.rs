@@ -13,12 +13,12 @@ fn refusal_containing(text: &str) -> Expected {
     Expected::Says(text.to_owned())
 }
 
-/// Returns a valid document with one more member, as text.
+/// Returns the text of a valid document with one additional member.
 fn triangle_with_member(member: &str) -> String {
     format!(r#"{{"asset": {{"version": "2.0"}}, {member}}}"#)
 }
 
-/// Returns all cases about the text of a file.
+/// Returns all cases that concern the text of a file.
 pub fn text_cases() -> Vec<Case> {
     let mut cases = encoding_cases();
     cases.extend(json_cases());
@@ -28,7 +28,7 @@ pub fn text_cases() -> Vec<Case> {
     cases
 }
 
-/// Empty files, other formats, and encodings other than UTF-8.
+/// Returns cases with empty files, other formats, and encodings other than UTF-8.
 fn encoding_cases() -> Vec<Case> {
     let utf16: Vec<u8> = "\u{FEFF}{}".encode_utf16().flat_map(u16::to_le_bytes).collect();
     vec![
@@ -59,7 +59,7 @@ fn encoding_cases() -> Vec<Case> {
     ]
 }
 
-/// Deep, long and malformed JSON.
+/// Returns cases with deep, long and malformed JSON.
 fn json_cases() -> Vec<Case> {
     let deep = |n: usize| {
         triangle_with_member(&format!(r#""extras": {}{}"#, "[".repeat(n), "]".repeat(n)))
@@ -69,7 +69,7 @@ fn json_cases() -> Vec<Case> {
         text_case("120 deep", deep(120), Expected::Refused),
         text_case("100,000 deep", deep(100_000), Expected::Refused),
         text_case("100,000 open", "[{".repeat(50_000), Expected::Refused),
-        text_case("100,000 open in an object", "{\"a\":".repeat(100_000), Expected::Refused),
+        text_case("100,000 open objects", "{\"a\":".repeat(100_000), Expected::Refused),
         text_case(
             "20,000,000 values",
             triangle_with_member(&format!(r#""extras": [{}0]"#, "0,".repeat(20_000_000))),
@@ -83,7 +83,7 @@ fn json_cases() -> Vec<Case> {
             Expected::LoadsClean,
         ),
         text_case(
-            "a string without end",
+            "an unterminated string",
             triangle_with_member(&format!(r#""extras": "{}\"#, "x".repeat(1000))),
             Expected::Refused,
         ),
@@ -94,14 +94,14 @@ fn json_cases() -> Vec<Case> {
             triangle_with_member(&format!(r#""extras": {}"#, "9".repeat(100_000))),
             Expected::Refused,
         ),
-        text_case("a comma too many", triangle_with_member(r#""nodes": [],"#), Expected::Refused),
+        text_case("an extra comma", triangle_with_member(r#""nodes": [],"#), Expected::Refused),
         text_case(
-            "a member twice",
+            "a duplicate member",
             triangle_with_member(r#""nodes": [], "nodes": [{}]"#),
             Expected::Anything,
         ),
         text_case(
-            "more after the end",
+            "data after the end",
             format!("{} {{}}", triangle_with_member(r#""nodes": []"#)),
             Expected::Refused,
         ),
@@ -194,7 +194,7 @@ fn container_cases() -> Vec<Case> {
     let mut longer = encode_glb(json.as_bytes(), &bytes);
     longer.extend([0; 5]);
     let ignored = Expected::Warns(" ignored 5 bytes after the end of the GLB".to_owned());
-    cases.push(Case::new("glb with more after it", longer, ignored));
+    cases.push(Case::new("glb with data after it", longer, ignored));
     cases.push(Case::new(
         "glb without binary chunk",
         encode_glb(json.as_bytes(), &[]),

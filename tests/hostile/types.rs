@@ -1,4 +1,4 @@
-//! Every shape, component type and normalization for every use of an accessor.
+//! Tests every combination of shape, component type and normalization for every use of an accessor.
 
 use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
@@ -18,7 +18,7 @@ const SHAPES: [(&str, usize); 8] = [
 const COMPONENTS: [(u32, usize); 8] =
     [(5120, 1), (5121, 1), (5122, 2), (5123, 2), (5124, 4), (5125, 4), (5126, 4), (5130, 8)];
 
-/// A use of an accessor: the attribute, and the shapes and component types that are read.
+/// A use of an accessor: the attribute, with its accepted shapes and component types.
 type Use = (&'static str, &'static [&'static str], &'static [u32]);
 
 const USES: [Use; 7] = [
@@ -38,7 +38,7 @@ pub fn type_cases() -> Vec<Case> {
             for normalized in [false, true] {
                 let name = format!("{shape} of {component}, normalized {normalized}");
                 let accessor = json!({"componentType": component, "type": shape, "count": 3, "normalized": normalized});
-                // Room for any padding of columns; the bytes also read as ones in floats.
+                // There is room for any column padding; interpreted as floats, the bytes are ones.
                 let bytes = [0, 0, 0x80, 0x3F].repeat(3 * (width * size).max(16));
                 let readable = |shapes: &[&str], components: &[u32]| {
                     shapes.contains(&shape) && components.contains(&component)

@@ -1,4 +1,4 @@
-//! URIs that try to leave the folder, and URIs that only seem to.
+//! URIs that try to leave the folder, and URIs that only appear to.
 
 use crate::hostile::case::{Expected, check_load_result, check_path};
 use alberti_tests::gltf::Document;
@@ -10,7 +10,7 @@ use std::path::Path;
 const OUTSIDE: &str = "copy the file next to the model and refer to it by a relative path, or \
                        allow its folder with --allow-outside DIR";
 
-/// A case's name, and its fault.
+/// The name of a case, and its error.
 pub type UriResult = (String, Result<(), String>);
 
 /// Runs the cases in a separate folder; returns the outcome of each.
@@ -50,7 +50,7 @@ pub fn run_uri_cases(folder: &Path) -> Result<Vec<UriResult>, String> {
     Ok(results)
 }
 
-/// Folders allowed in addition to the model's own, and what remains forbidden.
+/// Tests folders that are allowed in addition to the model's own, and paths that remain forbidden.
 fn check_allowed_folders(
     folder: &Path,
     models: &Path,
@@ -89,7 +89,7 @@ fn check_allowed_folders(
     Ok(())
 }
 
-/// A file in memory may have data URIs; nothing else may be read.
+/// Checks that a file in memory may have data URIs, but cannot read anything else.
 fn check_in_memory(uri: &str, document: &Document, expected: &Expected) -> Result<(), String> {
     let text = document.json.to_string();
     let loaded = load_bytes("model.gltf", text.as_bytes(), &ImportOptions::default());
@@ -138,7 +138,7 @@ fn create_files(folder: &Path, models: &Path) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Names of existing files, written in every allowed way.
+/// Names of existing files, in every allowed spelling.
 const ALLOWED: [&str; 17] = [
     "data.bin",
     "a b.bin",
@@ -159,7 +159,7 @@ const ALLOWED: [&str; 17] = [
     "sub%2Fin.bin",
 ];
 
-/// Names that leave the folder by their characters only.
+/// Names that leave the folder only by their spelling.
 const FORBIDDEN: [&str; 7] = [
     "../secret.bin",
     "../../../../../../etc/passwd",
@@ -257,7 +257,7 @@ fn data_uri_cases() -> Vec<(String, Expected)> {
     ]
 }
 
-/// Names that only some systems allow, and symbolic links.
+/// Returns names that only some systems allow, and symbolic links.
 fn symlink_cases() -> Vec<(String, Expected)> {
     vec![
         ("x:y.bin".to_owned(), Expected::LoadsClean),

@@ -1,4 +1,4 @@
-//! Calibrated cameras: any K, R and t as matrices, and as the camera of a scene.
+//! Calibrated cameras: arbitrary K, R and t, as matrices and as the camera of a scene.
 
 use crate::numbers::Numbers;
 use crate::scene::resolve_and_draw;
@@ -10,7 +10,7 @@ use projection::{Convention, Intrinsics};
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/models");
 
-/// A camera from numbers.
+/// Tests a camera made of arbitrary numbers.
 pub fn calibrated(bytes: &[u8]) {
     let mut numbers = Numbers(bytes);
     let kind = numbers.byte();
@@ -32,13 +32,14 @@ pub fn calibrated(bytes: &[u8]) {
     drawn(kind, quaternion, translation, &mut numbers);
 }
 
-/// A lens: its matrix and the inverse are finite, and the matrix gives the same lens again.
+/// Checks that a lens has a finite matrix and inverse, and that the matrix gives the same lens
+/// again.
 fn lens(numbers: &mut Numbers<'_>, size: [u32; 2]) {
     let [fx, fy, cx] = triple(numbers);
     let [cy, skew, near] = triple(numbers);
     let Ok(lens) = Intrinsics::new([fx, fy], [cx, cy], size) else { return };
     let Ok(lens) = lens.with_skew(skew) else { return };
-    assert!(Intrinsics::from_rows(lens.to_rows(), size).is_ok(), "{lens:?} is none of its own");
+    assert!(Intrinsics::from_rows(lens.to_rows(), size).is_ok(), "{lens:?} is not valid as rows");
     let lens = lens.in_pixel_centers(PixelCenters::Half);
     for convention in [Convention::CHAPTER, Convention::OPENGL] {
         let planes = [near.abs(), f64::INFINITY];
@@ -52,12 +53,12 @@ fn lens(numbers: &mut Numbers<'_>, size: [u32; 2]) {
     }
 }
 
-/// A valid camera has an eye, a rotation, and the same numbers after a round trip through its
-/// matrix.
+/// Checks that a valid camera has an eye and a rotation, and the same numbers after a round trip
+/// through its matrix.
 fn check_place(place: Result<Extrinsics, camera::CameraError>) {
     let place = match place {
         Ok(place) => place,
-        Err(error) => return assert!(!error.to_string().is_empty(), "an error says nothing"),
+        Err(error) => return assert!(!error.to_string().is_empty(), "empty error message"),
     };
     let Ok(camera) = place.to_camera() else { return };
     let eye = <[f64; 3]>::from(camera.eye());
@@ -77,7 +78,7 @@ fn check_place(place: Result<Extrinsics, camera::CameraError>) {
     assert!(origin.iter().all(|c| c.abs() <= limit), "{place:?}: the eye is seen at {origin:?}");
 }
 
-/// The camera of a scene, drawn.
+/// Draws a scene with this camera.
 fn drawn(kind: u8, [w, x, y, z]: [f64; 4], [a, b, c]: [f64; 3], numbers: &mut Numbers<'_>) {
     let lens = [number(numbers), number(numbers), number(numbers), number(numbers)];
     let [fx, fy, cx, cy] = lens;
@@ -91,7 +92,7 @@ fn drawn(kind: u8, [w, x, y, z]: [f64; 4], [a, b, c]: [f64; 3], numbers: &mut Nu
     );
     match parse_scene("scene.ron", &text) {
         Ok(file) => resolve_and_draw(&Origin::from_text("scene.ron", text, FOLDER.into()), &file),
-        Err(error) => assert!(!error.to_string().is_empty(), "an error says nothing"),
+        Err(error) => assert!(!error.to_string().is_empty(), "empty error message"),
     }
 }
 
@@ -99,7 +100,7 @@ fn triple(numbers: &mut Numbers<'_>) -> [f64; 3] {
     [(); 3].map(|()| number(numbers))
 }
 
-/// Returns a number: any 64 bits, or one of ordinary size.
+/// Returns a number from any 64 bits, or a number of ordinary size.
 fn number(numbers: &mut Numbers<'_>) -> f64 {
     match numbers.byte() % 8 {
         0 => f64::from_le_bytes(numbers.take()),

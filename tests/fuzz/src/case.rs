@@ -1,4 +1,4 @@
-//! One case: work that must end soon, without a panic, and with little memory.
+//! One case, which must end soon, without a panic, and with little memory.
 
 use nix::sys::resource::{UsageWho, getrusage};
 use peak_alloc::PeakAlloc;
@@ -7,17 +7,17 @@ use std::time::{Duration, Instant};
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-/// The memory a case may take beyond what the fuzzer itself holds.
+/// The memory that a case may use in addition to the fuzzer's own.
 const MOST_BYTES: usize = 200 << 20;
 
-/// The processor time a case may take.
+/// The processor time that a case may use.
 const LONGEST: Duration = Duration::from_secs(1);
 
-/// Does the work of a case.
+/// Runs the work of a case.
 ///
 /// # Panics
-/// If it takes too much memory or too long. Only processor time counts, because a busy machine is
-/// not the fault of the case: slow work is repeated to measure it.
+/// If it uses too much memory or takes too long. Only processor time counts, because a busy machine
+/// must not fail a case; slow work is repeated to measure it.
 pub fn run(work: impl Fn()) {
     MEMORY.reset_peak_usage();
     let before = MEMORY.current_usage();
@@ -29,11 +29,11 @@ pub fn run(work: impl Fn()) {
         let before = processor_time();
         work();
         let taken = processor_time().saturating_sub(before);
-        assert!(taken <= LONGEST, "the case took {taken:?} of the processors");
+        assert!(taken <= LONGEST, "the case took {taken:?} of processor time");
     }
 }
 
-/// Returns the time that all threads of this process have run.
+/// Returns the processor time that all threads of this process have used.
 fn processor_time() -> Duration {
     let Ok(usage) = getrusage(UsageWho::RUSAGE_SELF) else { return Duration::ZERO };
     let micros = |time: nix::sys::time::TimeVal| {

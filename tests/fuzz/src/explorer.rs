@@ -1,4 +1,4 @@
-//! Requests to the explorer, as links and the page make them.
+//! Requests to the explorer, as sent by links and the page.
 
 use explorer::Explorer;
 use std::cell::RefCell;
@@ -17,7 +17,7 @@ const MODELS: [(&str, &[u8]); 6] = [
 ];
 
 thread_local! {
-    /// One for all requests, as in the program: an error must leave it unchanged.
+    /// One explorer for all requests, as in the program; an error must leave it unchanged.
     static EXPLORER: RefCell<Explorer> = RefCell::new(with_models());
 }
 
@@ -30,7 +30,7 @@ fn with_models() -> Explorer {
     explorer
 }
 
-/// A query, answered twice: the answers must be equal.
+/// Answers a query twice and checks that the answers are equal.
 pub fn query(bytes: &[u8]) {
     let Ok(query) = std::str::from_utf8(bytes) else { return };
     let query = match pixels(query) {
@@ -44,14 +44,14 @@ pub fn query(bytes: &[u8]) {
             Ok(answer) => assert!(!answer.bytes.is_empty(), "an answer is empty"),
             Err(error) => assert!(
                 !(error.code.is_empty() || error.message.is_empty() || error.help.is_empty()),
-                "an error says nothing"
+                "empty error message"
             ),
         }
-        assert!(explorer.answer(&query) == first, "the second answer is another one");
+        assert!(explorer.answer(&query) == first, "the second answer differs");
     });
 }
 
-/// Returns the size of the picture, if a query names one.
+/// Returns the size of the picture, if a query specifies it.
 fn pixels(query: &str) -> Option<u64> {
     let size = query.split('&').find_map(|pair| pair.strip_prefix("size="))?;
     let sides = size.split(['x', '%']).map(|side| side.parse::<u64>().unwrap_or(0));

@@ -1,4 +1,5 @@
-//! Binary glTF files: taken apart even if a mutation has corrupted their lengths, and put together.
+//! Takes binary glTF files apart, even if a mutation has corrupted their lengths, and puts them
+//! together.
 
 #[path = "../../../scenes/generator/src/glb.rs"]
 mod write;
@@ -6,7 +7,7 @@ mod write;
 pub use write::encode_glb as glb;
 
 /// Returns the JSON and the binary chunk of a file, or of a bare JSON text. Declared lengths are
-/// not trusted: the second chunk is where its name is.
+/// not trusted: the second chunk is found by its name.
 pub fn parts(file: &[u8]) -> (&[u8], &[u8]) {
     if !file.starts_with(b"glTF") || file.len() < 20 {
         return (file, &[]);

@@ -1,4 +1,5 @@
-//! Job lists for `alberti batch`: read with every picture's name and flags; nothing is rendered.
+//! Job lists for `alberti batch`, which are read with every picture's name and flags but not
+//! rendered.
 
 use std::fs;
 use std::path::PathBuf;
@@ -13,7 +14,8 @@ static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
     folder
 });
 
-/// A list, which `--verify` reads to its end: CSV if the first byte is odd, otherwise JSON lines.
+/// Verifies a list, which `--verify` reads to its end. It is CSV if the first byte is odd,
+/// otherwise JSON lines.
 pub fn list(bytes: &[u8]) {
     let Some((&kind, list)) = bytes.split_first() else { return };
     let name = ["jobs.jsonl", "jobs.csv"][usize::from(kind % 2)];
@@ -22,12 +24,12 @@ pub fn list(bytes: &[u8]) {
     assert!(written.is_ok(), "{}: {written:?}", path.display());
     let words = ["alberti", "batch", "--verify", "--list"].map(Into::into);
     let words = words.into_iter().chain([path.into(), "--out".into(), FOLDER.join("out").into()]);
-    // No list is complete: nothing was rendered.
+    // No list is complete, because nothing was rendered.
     let code = alberti::run(words);
-    assert!(code == 1 || code == 0 && !has_jobs(list), "`batch --verify` ends with {code}");
+    assert!(code == 1 || code == 0 && !has_jobs(list), "`batch --verify` exited with {code}");
 }
 
-/// Returns whether there is more than white space and a header in a list.
+/// Returns whether a list contains more than white space and a header.
 fn has_jobs(list: &[u8]) -> bool {
     list.split(|byte| *byte == b'\n').filter(|line| !line.trim_ascii().is_empty()).count() > 1
 }

@@ -1,4 +1,4 @@
-//! The work of the fuzz targets; the targets themselves only pass on their bytes.
+//! The work of the fuzz targets, which themselves only pass on their bytes.
 //!
 //! ```text
 //!  model ───────────────────────► a whole .glb or .gltf ─┐
@@ -12,8 +12,7 @@
 //!  raster ──────────────────────► triangles, lines and points, drawn whole, in parts, by all instructions
 //! ```
 //!
-//! A case fails by a panic, a broken promise, more than a second, or more than 200 MB; see
-//! [`case`].
+//! A case fails if it panics, breaks a promise, or uses more than a second or 200 MB; see [`case`].
 
 pub mod camera;
 pub mod case;

@@ -1,5 +1,5 @@
-//! A model from bytes: loaded, checked against its promises, posed, drawn from a few sides,
-//! encoded.
+//! Models from bytes, which are loaded, checked against their promises, posed, drawn from a few
+//! sides and encoded.
 
 use crate::{glb, promises};
 use homog::Affine;
@@ -12,7 +12,7 @@ use pipeline::{Origin, Scene, render};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Small enough that each case is fast, and large enough for every branch.
+/// Limits that are small enough to make each case fast and large enough to reach every branch.
 fn limits() -> Limits {
     Limits {
         json_values: 100_000,
@@ -25,7 +25,7 @@ fn limits() -> Limits {
     }
 }
 
-/// A file: as it is, leniently, and with corrected lengths. It is also checked for errors.
+/// Loads a file as it is, leniently, and with corrected lengths. It is also checked for errors.
 pub fn file(bytes: &[u8]) {
     let loaded = load(bytes, ImportOptions::default());
     let has_variants = loaded.as_ref().is_ok_and(|model| !model.variants.is_empty());
@@ -36,7 +36,7 @@ pub fn file(bytes: &[u8]) {
         bytes,
         &ImportOptions { limits: limits(), ..ImportOptions::default() },
     );
-    assert!(is_loaded || report.errors > 0, "a file that does not load has no error");
+    assert!(is_loaded || report.errors > 0, "a file does not load but has no errors");
     if !is_loaded {
         show(load(bytes, ImportOptions { lenient: true, ..ImportOptions::default() }));
     }
@@ -57,7 +57,7 @@ fn load(bytes: &[u8], options: ImportOptions) -> Result<Model, ImportError> {
     load_bytes("model.glb", bytes, &ImportOptions { limits: limits(), ..options })
 }
 
-/// A file in a format other than glTF, which `name` selects: as it is, and leniently.
+/// Loads a file in a format other than glTF, selected by `name`, as it is and leniently.
 pub fn mesh(name: &str, bytes: &[u8]) {
     let load = |lenient| {
         let options = ImportOptions { limits: limits(), lenient, ..ImportOptions::default() };
@@ -66,14 +66,14 @@ pub fn mesh(name: &str, bytes: &[u8]) {
     let loaded = load(false);
     let report =
         check_bytes(name, bytes, &ImportOptions { limits: limits(), ..ImportOptions::default() });
-    assert!(loaded.is_ok() || report.errors > 0, "a file that does not load has no error");
+    assert!(loaded.is_ok() || report.errors > 0, "a file does not load but has no errors");
     if loaded.is_err() {
         show(load(true));
     }
     show(loaded);
 }
 
-/// A material library whose first materials are used by a few triangles.
+/// Loads a material library whose first materials are used by a few triangles.
 pub fn material_library(bytes: &[u8]) {
     let escaped: String = bytes.iter().map(|byte| format!("%{byte:02X}")).collect();
     let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n";
@@ -88,23 +88,23 @@ pub fn material_library(bytes: &[u8]) {
     mesh("model.obj", &file);
 }
 
-/// A file that is loaded and checked against its promises but not drawn: a decoder's output is
-/// known by then.
+/// Loads a file and checks it against its promises. It is not drawn, because the decoder's output
+/// is known by then.
 pub fn loaded(bytes: &[u8]) {
     checked(load(bytes, ImportOptions::default()));
 }
 
-/// The model if there is one; otherwise an error that a person can read.
+/// Returns the model, if any, after checking its promises; an error must have a message.
 fn checked(loaded: Result<Model, ImportError>) -> Option<Model> {
     let problem = match &loaded {
         Ok(model) => promises::check_model(model).err(),
-        Err(error) => error.to_string().is_empty().then(|| "an error says nothing".to_owned()),
+        Err(error) => error.to_string().is_empty().then(|| "empty error message".to_owned()),
     };
     assert!(problem.is_none(), "a promise is broken: {problem:?}");
     loaded.ok()
 }
 
-/// Does what a person would do with the outcome: reads the error, or looks at the model.
+/// Does what a user would do with the outcome: reads the error, or looks at the model.
 fn show(loaded: Result<Model, ImportError>) {
     let Some(mut model) = checked(loaded) else { return };
     draw(&model, StyleFile::Shaded, ViewFile::DEFAULT);
@@ -126,13 +126,13 @@ fn draw(model: &Model, style: StyleFile, view: ViewFile) {
     file.camera.view = view;
     let origin = Origin::from_text("model.glb", "", PathBuf::new());
     let placed = ModelInstance { model: Arc::new(model.clone()), model_to_world: Affine::IDENTITY };
-    // A model with nothing to see has no picture, and the error says so.
+    // A model without anything visible has no picture, and the error says so.
     match Scene::from_models(&origin, &file, &[placed]) {
         Ok(scene) => {
             if let Ok(picture) = render(&scene, 1) {
                 assert!(!picture.to_png().is_empty(), "the PNG is empty");
             }
         }
-        Err(error) => assert!(!error.to_string().is_empty(), "an error has nothing to say"),
+        Err(error) => assert!(!error.to_string().is_empty(), "empty error message"),
     }
 }

@@ -1,4 +1,4 @@
-//! Variations of a glTF file that remain valid JSON, which random byte changes hardly ever do.
+//! Variations of a glTF file that remain valid JSON, unlike nearly all random byte changes.
 
 use crate::glb;
 use serde_json::{Value, json};
@@ -20,8 +20,8 @@ impl Random {
     }
 }
 
-/// Returns a variation of the file's JSON with its data unchanged, or `None` if it is better to
-/// change bytes.
+/// Returns a variation of the file's JSON with unchanged data, or `None` if it is better to change
+/// bytes.
 pub fn file(file: &[u8], seed: u32) -> Option<Vec<u8>> {
     let mut random = Random(seed.into());
     if random.below(4) == 0 {
@@ -46,7 +46,7 @@ fn size(value: &Value) -> usize {
     }
 }
 
-/// Returns the value with a number, counted from the value itself.
+/// Returns the value with this number, counted from the value itself.
 fn nth(value: &mut Value, mut number: usize) -> Option<&mut Value> {
     if number == 0 {
         return Some(value);
@@ -97,7 +97,7 @@ fn change(document: &mut Value, random: &mut Random) {
     }
 }
 
-/// Returns a number near another one.
+/// Returns a number near another number.
 fn near(number: &Value, random: &mut Random) -> Value {
     let step = [1i64, -1, 2, 4, 100][random.below(5)];
     match (number.as_i64(), number.as_f64()) {
@@ -132,7 +132,7 @@ fn any(random: &mut Random) -> Value {
     }
 }
 
-/// Component types, filters and wraps.
+/// Component types, filters and wrap modes.
 const COMPONENTS: [u32; 16] = [
     5120, 5121, 5122, 5123, 5125, 5126, 9728, 9729, 9984, 9985, 9986, 9987, 10497, 33071, 33648,
     34962,

@@ -1,6 +1,6 @@
 //! The fuzzer's bytes as numbers.
 
-/// The remaining bytes, with zeros after their end.
+/// The remaining bytes, followed by zeros.
 pub struct Numbers<'a>(pub &'a [u8]);
 
 impl Numbers<'_> {

@@ -1,13 +1,13 @@
-//! Any triangles, lines and points: drawn whole, in two parts and at every SIMD level, they give
-//! the same picture.
+//! Arbitrary triangles, lines and points, which must give the same picture whether drawn whole, in
+//! two parts or at any SIMD level.
 
 use crate::numbers::Numbers;
 use homog::{PixelRect, Point};
 use raster::{Frame, Opacity, Samples, ScreenVertex, SimdLevel, VisibilityBuffer};
 
 impl Numbers<'_> {
-    /// Returns a coordinate: any 64 bits, or one near the picture, on the grid or between its
-    /// steps.
+    /// Returns a coordinate from any 64 bits, or a coordinate near the picture, on the grid or
+    /// between its steps.
     fn number(&mut self) -> f64 {
         match self.byte() % 8 {
             0 => f64::from_le_bytes(self.take()),
@@ -25,7 +25,7 @@ impl Numbers<'_> {
     }
 }
 
-/// A picture from its description: size, samples, then one primitive after the other.
+/// Draws a picture from its description: the size, the samples, then one primitive after another.
 pub fn frames(bytes: &[u8]) {
     let mut numbers = Numbers(bytes);
     let size = [numbers.byte(), numbers.byte()].map(|side| 1 + u32::from(side) % 96);
@@ -33,7 +33,7 @@ pub fn frames(bytes: &[u8]) {
     let samples = samples[usize::from(numbers.byte() % 4)];
     let split = u32::from(numbers.byte()) % size[0];
     let [width, height] = size;
-    let Ok(mut whole) = Frame::new(width, height, samples) else { panic!("the size is right") };
+    let Ok(mut whole) = Frame::new(width, height, samples) else { panic!("the size is valid") };
     let region =
         |x: u32, width: u32| Frame::for_region(PixelRect { x, y: 0, width, height }, samples);
     let mut parts = Vec::new();
@@ -54,7 +54,7 @@ pub fn frames(bytes: &[u8]) {
     let seen = whole.visibility_buffer();
     for level in SimdLevel::available() {
         let other = whole.clone().with_simd_level(level).visibility_buffer();
-        assert!(same(&seen, &other), "{level:?} gives another picture");
+        assert!(same(&seen, &other), "{level:?} gives a different picture");
     }
     check_parts(&seen, &parts, [split, width]);
     whole.for_each_fragment(|fragment| {
@@ -93,7 +93,7 @@ fn same(a: &VisibilityBuffer, b: &VisibilityBuffer) -> bool {
     a.ids == b.ids && bits(a) == bits(b)
 }
 
-/// The parts, side by side, are equal to the whole.
+/// Checks that the parts, side by side, are equal to the whole.
 fn check_parts(whole: &VisibilityBuffer, parts: &[Frame], [split, width]: [u32; 2]) {
     let mut left = 0;
     for frame in parts {

@@ -1,4 +1,4 @@
-//! Scenes that read other files: included scenes, images behind a scene, environments.
+//! Scenes that read other files: included scenes, background images and environments.
 //!
 //! The files are in a folder of this process, next to a model.
 
@@ -14,7 +14,7 @@ const MODEL: &[u8] = include_bytes!("../../../scenes/models/crate.glb");
 /// The separator between the files in a case.
 const SEPARATOR: &str = "\n====\n";
 
-/// The files in a case: the first is the scene, the others can be included.
+/// The files in a case: the first is the scene, and the others can be included.
 const FILES: [&str; 4] = ["scene.ron", "a.ron", "b.ron", "sub/c.ron"];
 
 static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
@@ -26,19 +26,20 @@ static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
 });
 
 /// # Panics
-/// If the system's temporary folder is not writable, because then nothing can be tested.
+/// If the system's temporary folder is not writable, in which case nothing can be tested.
 fn write_file(path: &Path, bytes: &[u8]) {
     let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
     let written = folder.and_then(|()| fs::write(path, bytes));
     assert!(written.is_ok(), "{}: {written:?}", path.display());
 }
 
-/// A scene and the files that it includes: parts of the bytes, in the order of [`FILES`].
+/// Tests a scene with the files that it includes, which are parts of the bytes in the order of
+/// [`FILES`].
 pub fn included(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     let mut parts = text.splitn(FILES.len(), SEPARATOR);
     for name in FILES {
-        // Leftovers from the previous case would change this one.
+        // Files left over from the previous case would change this case.
         write_file(&FOLDER.join(name), parts.next().unwrap_or_default().as_bytes());
     }
     match Origin::read_scene(&FOLDER.join(FILES[0])) {
@@ -47,11 +48,11 @@ pub fn included(bytes: &[u8]) {
             file.models.truncate(2);
             resolve_and_draw(&origin, &file);
         }
-        Err(error) => assert!(!error.to_string().is_empty(), "an error says nothing"),
+        Err(error) => assert!(!error.to_string().is_empty(), "empty error message"),
     }
 }
 
-/// An image behind a scene; the first byte selects how it fills the picture.
+/// Tests a background image; the first byte selects how it fills the picture.
 pub fn background(bytes: &[u8]) {
     let Some((&kind, image)) = bytes.split_first() else { return };
     let fit = ["Cover", "Contain", "Stretch"][usize::from(kind % 3)];
@@ -59,7 +60,7 @@ pub fn background(bytes: &[u8]) {
     with_file("image", image, &background);
 }
 
-/// A Radiance image around a scene; the first byte rotates it.
+/// Tests a Radiance environment image; the first byte rotates it.
 pub fn environment(bytes: &[u8]) {
     let Some((&turn, image)) = bytes.split_first() else { return };
     let environment = format!(
@@ -69,13 +70,13 @@ pub fn environment(bytes: &[u8]) {
     with_file("sky.hdr", image, &environment);
 }
 
-/// A scene with more fields, one of which reads a file.
+/// Tests a scene with these additional fields, one of which reads a file.
 fn with_file(name: &str, bytes: &[u8], fields: &str) {
     write_file(&FOLDER.join(name), bytes);
     let text = format!("Scene(models: [Model(path: \"crate.glb\")], {fields})");
     let origin = Origin::from_text("scene.ron", text, FOLDER.clone());
     match origin.parse_with_includes(&[]) {
         Ok((origin, file)) => resolve_and_draw(&origin, &file),
-        Err(error) => panic!("the scene of this target is wrong: {error}"),
+        Err(error) => panic!("the scene of this target is invalid: {error}"),
     }
 }

@@ -1,15 +1,15 @@
-//! Compressed geometry and images: a model is built around the bytes, so that they reach their
+//! Compressed geometry and images. A model is built around the bytes so that they reach their
 //! decoder.
 //!
-//! The first bytes set what the JSON says about the rest, so that the fuzzer can make the two
+//! The first bytes determine what the JSON says about the rest, so that the fuzzer can make the two
 //! agree.
 
 use crate::{glb, model};
 use serde_json::{Value, json};
 
-/// A buffer view compressed by meshopt, used in the way that suits its mode.
+/// Tests a buffer view compressed with meshopt, used in a way that suits its mode.
 ///
-/// | byte | means |
+/// | byte | meaning |
 /// | --- | --- |
 /// | 0 | mode and filter |
 /// | 1 | stride in units of 4 bytes |
@@ -66,14 +66,14 @@ pub fn meshopt(bytes: &[u8]) {
     model::loaded(&whole(document, stream));
 }
 
-/// A primitive compressed by Draco.
+/// Tests a primitive compressed with Draco.
 ///
-/// | byte | means |
+/// | byte | meaning |
 /// | --- | --- |
-/// | 0, 1 | count of vertices |
-/// | 2, 3 | count of faces |
-/// | 4 | the stream's number of the positions, and in its high half of the normals |
-/// | 5 | the same of the texture coordinates and the colors |
+/// | 0, 1 | vertex count |
+/// | 2, 3 | face count |
+/// | 4 | the stream's ID for the positions, and in its high half for the normals |
+/// | 5 | the same for the texture coordinates and the colors |
 /// | 6… | the stream |
 pub fn draco(bytes: &[u8]) {
     let Some((&[v0, v1, f0, f1, ids, more], stream)) = bytes.split_first_chunk() else { return };
@@ -87,7 +87,7 @@ pub fn draco(bytes: &[u8]) {
     for (name, accessor, number) in
         [("NORMAL", 1, ids >> 4), ("TEXCOORD_0", 2, more & 15), ("COLOR_0", 3, more >> 4)]
     {
-        // A quarter of a byte's values is enough; the others mean that there is no such attribute.
+        // Twelve of the sixteen values are enough; the others mean that the attribute is absent.
         if number < 12 {
             attributes[name] = json!(accessor);
             numbers[name] = json!(number);
@@ -105,7 +105,7 @@ pub fn draco(bytes: &[u8]) {
     model::loaded(&whole(document, stream));
 }
 
-/// An image as the texture of a triangle; the first byte selects its declared type.
+/// Tests an image as the texture of a triangle; the first byte selects its declared type.
 pub fn image(bytes: &[u8]) {
     let Some((&kind, file)) = bytes.split_first() else { return };
     let (mime, extension) = match kind % 5 {
@@ -142,11 +142,11 @@ pub fn image(bytes: &[u8]) {
     model::file(&whole(document, file));
 }
 
-/// The numbers 0, 1 and 2 as bytes, one byte more, and the corners (0, 0, 0), (1, 0, 0), (0, 1, 0).
+/// The numbers 0, 1 and 2 as bytes, one more byte, and the corners (0, 0, 0), (1, 0, 0), (0, 1, 0).
 const CORNERS: &str =
     "data:application/octet-stream;base64,AAECAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAA==";
 
-/// Returns the file for a document without the boilerplate.
+/// Returns the file for a document, to which it adds the boilerplate.
 fn whole(mut document: Value, bytes: &[u8]) -> Vec<u8> {
     document["asset"] = json!({"version": "2.0"});
     document["scene"] = json!(0);

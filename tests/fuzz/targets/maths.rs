@@ -1,5 +1,5 @@
-//! Any numbers for any function of the five math crates: the calls of `tests/soak`, with arguments
-//! from the fuzzer's bytes.
+//! Arbitrary numbers for every function of the five math crates: the calls in `tests/soak`, with
+//! arguments from the fuzzer's bytes.
 #![no_main]
 
 #[path = "maths/bits.rs"]
@@ -14,7 +14,7 @@ mod finite;
 mod homog;
 #[path = "../../soak/projection.rs"]
 mod projection;
-#[allow(dead_code, reason = "used by the soak: to begin calls and to record arguments")]
+#[allow(dead_code, reason = "used by the soak test to begin calls and to record arguments")]
 #[path = "../../soak/random.rs"]
 mod random;
 #[path = "maths/subject.rs"]
@@ -30,7 +30,7 @@ use subject::Subject;
 const SUBJECTS: [&[Subject]; 5] =
     [homog::SUBJECTS, camera::SUBJECTS, projection::SUBJECTS, clip::SUBJECTS, viewport::SUBJECTS];
 
-// The first two bytes choose the function.
+// The first two bytes select the function.
 fuzz_target!(|bytes: &[u8]| {
     let Some((&choice, numbers)) = bytes.split_first_chunk() else { return };
     let count: usize = SUBJECTS.iter().map(|subjects| subjects.len()).sum();
@@ -40,6 +40,6 @@ fuzz_target!(|bytes: &[u8]| {
         let mut random = Random::new(Bits::of(numbers));
         let outcome = call(&mut random);
         let right = outcome != Some(false) || !random.drew_only_finite();
-        assert!(right, "{name} gives a number that is not finite, or a wrong answer");
+        assert!(right, "{name} returns a number that is not finite, or a wrong result");
     });
 });

@@ -1,6 +1,6 @@
-//! The source of numbers: the fuzzer's bytes, and zeros after their end.
+//! The source of numbers: the fuzzer's bytes, followed by zeros.
 
-/// The longest call needs fewer words.
+/// The number of words, which is more than the longest call needs.
 const WORDS: usize = 64;
 
 /// The remaining bytes, eight at a time.
@@ -12,7 +12,7 @@ pub struct Bits {
 }
 
 impl Bits {
-    /// The first byte is the mood of the call.
+    /// Creates the source. The first byte selects the mood of the call.
     pub fn of(bytes: &[u8]) -> Self {
         let (&mood, bytes) = bytes.split_first().unwrap_or((&0, &[]));
         let mut words = [0; WORDS];
@@ -31,7 +31,7 @@ impl Bits {
         word
     }
 
-    /// Bits that differ from all those to come.
+    /// Returns bits that differ from all that follow.
     pub fn peek(&self) -> u64 {
         self.mood.into()
     }
