@@ -1,9 +1,9 @@
-//! A user's first impression: every bare model has light and contrast in every style, and its
-//! default picture neither clips nor drowns. Ambient occlusion leaves no dots. No style loses a
-//! model, and alpha counts in all styles.
+//! Checks a user's first impression: every model without a scene has light and contrast in every
+//! style, and its default picture is neither overexposed nor underexposed. Ambient occlusion leaves
+//! no dots. No style loses a model, and every style respects alpha.
 //!
 //! Uses the scene models and, if it exists, the folder `$ASSETS` or `shared/assets` next to the
-//! repository. Scene pictures do not reveal such faults, because scenes have their own lights.
+//! repository. Scene pictures do not reveal such defects, because scenes have their own lights.
 //! Arguments that are not flags select models by part of their name.
 
 mod films;
@@ -23,11 +23,11 @@ use std::process::ExitCode;
 
 /// The size of the pictures.
 const SIZE: (u32, u32) = (160, 120);
-/// The maximum share of pixels with code 255 in all channels, in the default picture.
+/// The maximum fraction of pixels with code 255 in all channels, in the default picture.
 const MAX_WHITE: f64 = 0.02;
-/// The maximum share of pixels below code 5 in all channels, in the default picture.
+/// The maximum fraction of pixels below code 5 in all channels, in the default picture.
 const MAX_BLACK: f64 = 0.05;
-/// The minimum difference between dark and bright on a surface that is not flat, in codes.
+/// The minimum difference between dark and bright on a surface that is not flat, in 8-bit codes.
 const MIN_CONTRAST: u8 = 10;
 
 /// The styles that show the shape of surfaces by light or depth, with their names.
@@ -41,7 +41,7 @@ const SHAPED_STYLES: [(&str, StyleFile); 7] = [
     ("normals", StyleFile::Normals),
 ];
 
-/// Models whose own emission, unlit colors or lines are white, and the reason.
+/// Models whose own emission, unlit colors or lines are white, with the reason.
 const WHITE_MODELS: [(&str, &str); 13] = [
     ("anisotropy-strength-test", "labels that emit light"),
     ("blender-emission-strength", "spheres that emit light"),
@@ -58,7 +58,7 @@ const WHITE_MODELS: [(&str, &str); 13] = [
     ("primitives", "unlit points and lines"),
 ];
 
-/// Models whose materials are black, and the reason.
+/// Models whose materials are black, with the reason.
 const BLACK_MODELS: [(&str, &str); 4] = [
     ("black-cube-zerobuffer", "base color 0"),
     ("blender-texture-wrapping", "base color 0"),
@@ -66,10 +66,10 @@ const BLACK_MODELS: [(&str, &str); 4] = [
     ("sphere-with-circle-texture", "base color 0"),
 ];
 
-/// Models without contrast in some styles, and the reason.
+/// Models without contrast in some styles, with the reason.
 const EVEN_MODELS: [(&str, &str); 2] = [
     ("blender-gpu-instancing", "at this size outlines are wider than its cubes"),
-    ("normal-tangent-mirror-test", "plates of one plane"),
+    ("normal-tangent-mirror-test", "plates in one plane"),
 ];
 
 pub fn run() -> ExitCode {
@@ -96,7 +96,7 @@ pub fn run() -> ExitCode {
     })
 }
 
-/// Judges all models, two at a time.
+/// Checks all models, two at a time.
 fn judge_models(models: &[PathBuf], arguments: &Arguments) -> Tally {
     let mut tally = Tally::default();
     let is_listed = arguments.has_flag("--list");
@@ -115,8 +115,8 @@ fn judge_models(models: &[PathBuf], arguments: &Arguments) -> Tally {
     tally
 }
 
-/// Returns the faults in a model's pictures, or none if it cannot be drawn, which other tests
-/// cover.
+/// Returns the defects in a model's pictures, or none if the model cannot be drawn, which other
+/// tests cover.
 fn judge_model(model: &Path) -> Vec<String> {
     let name = model_name(model);
     let mut faults = occlusion::find_dots(model, &name);
@@ -132,16 +132,16 @@ fn judge_model(model: &Path) -> Vec<String> {
     faults
 }
 
-/// Returns the faults in a model's light and contrast.
+/// Returns the defects in a model's light and contrast.
 fn judge_light(model: &BareModel<'_>, name: &str) -> Vec<String> {
     let mut faults = Vec::new();
-    // A plane has one normal: light has nothing to show.
+    // A plane has only one normal, so light cannot vary on it.
     let has_shape = || {
         let normals = model.statistics(&StyleFile::Normals);
         normals.is_ok_and(|normals| normals.contrast >= MIN_CONTRAST)
             && !is_exempt(name, &EVEN_MODELS)
     };
-    // The default picture, and some of the others.
+    // The default picture and some of the others.
     let [default, others @ ..] = SHAPED_STYLES;
     let mut cases = others.to_vec();
     styles::keep_few(&mut cases, name, 1);
@@ -172,7 +172,8 @@ fn judge_light(model: &BareModel<'_>, name: &str) -> Vec<String> {
     faults
 }
 
-/// A model by itself, as `alberti render MODEL` shows it. It is loaded once for all its pictures.
+/// A model without a scene, as shown by `alberti render MODEL`. It is loaded once for all its
+/// pictures.
 struct BareModel<'a> {
     origin: Origin,
     file: SceneFile,
@@ -210,7 +211,7 @@ fn is_exempt(name: &str, list: &[(&str, &str)]) -> bool {
     list.iter().any(|(known, _)| name == *known)
 }
 
-/// Returns the name of a model: its file's, or its folder's if the folder has no other model.
+/// Returns the name of a model: the file name, or the folder name if the folder has no other model.
 fn model_name(model: &Path) -> String {
     let folder = model.parent().filter(|folder| !folder.ends_with("scenes/models"));
     let named = folder.map_or_else(|| model.file_stem(), Path::file_name);

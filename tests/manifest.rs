@@ -1,11 +1,11 @@
-//! Manifest of a corpus: a table of model files with the facts that tests compare against.
+//! The manifest of a corpus: a table of model files with the facts to compare.
 //!
-//! `MANIFEST.tsv` has one row per file, columns separated by tabs and named in the first row. Only
-//! `path` is required; columns that [`Row`] does not have are ignored.
+//! `MANIFEST.tsv` has one row per file. Columns are separated by tabs and named in the first row.
+//! Only `path` is required; columns that [`Row`] does not have are ignored.
 
 use std::path::Path;
 
-/// A file of a corpus.
+/// A file in a corpus.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Row {
     /// Column `path`: the file, relative to the manifest, with forward slashes.
@@ -15,8 +15,8 @@ pub struct Row {
     /// Column `validator_error_codes`: the codes of the errors that the Khronos glTF validator
     /// reports, separated by commas.
     pub validator_errors: Vec<String>,
-    /// Column `expected`: the required outcome of rendering the file. `drawn`, `blank` (a picture
-    /// of one color), or part of the reason for its refusal.
+    /// Column `expected`: the required outcome of rendering the file. It is `drawn`, `blank` (a
+    /// picture of one color), or part of the reason for its rejection.
     pub expected: Option<String>,
 }
 
@@ -43,7 +43,7 @@ pub fn read_manifest(folder: &Path) -> Result<Vec<Row>, String> {
     let text = std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     let rows = parse_manifest(&text).map_err(|error| format!("{}: {error}", path.display()))?;
     match rows.iter().find(|row| !folder.join(&row.path).is_file()) {
-        Some(row) => Err(format!("{}: no such file: {}", path.display(), row.path)),
+        Some(row) => Err(format!("{}: missing file: {}", path.display(), row.path)),
         None => Ok(rows),
     }
 }
@@ -89,7 +89,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_manifest_is_read_as_it_is_written() {
+    fn a_manifest_survives_a_round_trip() {
         let rows = vec![
             Row {
                 path: "bad/a.gltf".to_owned(),

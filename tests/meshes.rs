@@ -1,11 +1,11 @@
-//! Every mesh of a folder of STL, OBJ, PLY and 3MF files has the triangles and bounds of its
-//! manifest.
+//! Checks that the meshes in a folder of STL, OBJ, PLY and 3MF files have the triangles and bounds
+//! in its manifest.
 //!
-//! The folder is `$ASSETS` or `shared/assets` next to the repository, or `meshes` in it. Its
-//! `MANIFEST.tsv` begins with a comment (`#`) and lists the findings of another reader for each
-//! file: path, origin, triangles (polygons cut), bounds in file coordinates, and the outcome. Files
-//! that differ are in the table of [`expected`], with the reason. Arguments that are not flags
-//! select files by part of their path.
+//! The folder is `$ASSETS` or `shared/assets` next to the repository, or `meshes` inside it. Its
+//! `MANIFEST.tsv` begins with a comment (`#`) and lists the results of another reader for each
+//! file: path, origin, triangles (after triangulation), bounds in file coordinates, and the
+//! outcome. The table in [`expected`] lists the files that differ, with the reason. Arguments that
+//! are not flags select files by part of their path.
 
 mod expected;
 
@@ -22,7 +22,7 @@ pub fn run() -> ExitCode {
         let assets = data_folder("ASSETS", "assets")?;
         let folders = assets.map(|assets| [assets.join("meshes"), assets]);
         let Some(folder) = folders.into_iter().flatten().find(|folder| has_meshes(folder)) else {
-            tally.skip("meshes", "there is no folder shared/assets/meshes; name one by ASSETS");
+            tally.skip("meshes", "the folder shared/assets/meshes is missing; set ASSETS");
             return Ok(tally);
         };
         let known = std::env::var_os("ASSETS").is_none();
@@ -43,11 +43,11 @@ fn has_meshes(folder: &Path) -> bool {
 struct Row {
     /// The path below the folder.
     path: String,
-    /// The findings of the other reader; `None` if it refused the file.
+    /// The result of the other reader, or `None` if it rejected the file.
     facts: Option<MeshFacts>,
 }
 
-/// Reads the manifest: columns separated by tabs, without a heading other than a comment.
+/// Reads the manifest, whose columns are separated by tabs. Its only heading is a comment.
 fn read_manifest(folder: &Path) -> Result<Vec<Row>, String> {
     let path = folder.join("MANIFEST.tsv");
     let text = std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
@@ -55,7 +55,7 @@ fn read_manifest(folder: &Path) -> Result<Vec<Row>, String> {
     let parse = |line: &str| {
         let cells: Vec<&str> = line.split('\t').collect();
         let cell = |at: usize| cells.get(at).copied().unwrap_or("");
-        let wrong = || format!("{}: this is not a row: {line}", path.display());
+        let wrong = || format!("{}: invalid row: {line}", path.display());
         let facts = match cell(2) {
             "-" => None,
             count => Some(MeshFacts {
@@ -68,8 +68,8 @@ fn read_manifest(folder: &Path) -> Result<Vec<Row>, String> {
     rows.map(parse).collect()
 }
 
-/// Six numbers, the minimum corner first; `-` for a file without vertices.
-#[allow(clippy::option_option, reason = "no numbers, or no bounds")]
+/// Parses six numbers, the minimum corner first, or `-` for a file without vertices.
+#[allow(clippy::option_option, reason = "invalid text, absent bounds or bounds")]
 fn parse_bounds(text: &str) -> Option<Option<[f64; 6]>> {
     if text == "-" {
         return Some(None);
@@ -80,7 +80,7 @@ fn parse_bounds(text: &str) -> Option<Option<[f64; 6]>> {
 
 /// Loads a file and compares it with the manifest or with the table of known differences.
 fn check_file(folder: &Path, row: &Row, known: bool) -> Result<(), String> {
-    // In the coordinates of the file, for any up axis.
+    // The bounds are in file coordinates, for any up axis.
     let options = ImportOptions { up: Some(UpAxis::Y), ..ImportOptions::default() };
     let found = match load(&folder.join(&row.path), &options) {
         Ok(model) => Ok(mesh_facts(&model)),
@@ -93,16 +93,16 @@ fn check_file(folder: &Path, row: &Row, known: bool) -> Result<(), String> {
         }
         (None, Some(wanted), Ok(found)) => wanted.compare(&found),
         (Some(_), _, Err(error)) | (None, Some(_), Err(error)) => {
-            Err(format!("it is refused: {error}"))
+            Err(format!("it is rejected: {error}"))
         }
         (None, None, found) => {
-            println!("{}: refused by the other reader; here: {found:?}", row.path);
+            println!("{}: rejected by the other reader; here: {found:?}", row.path);
             Ok(())
         }
     }
 }
 
-/// Triangles and bounds of the visible parts of a model.
+/// Returns the triangles and bounds of the visible parts of a model.
 fn mesh_facts(model: &Model) -> MeshFacts {
     let shown = model.scene_primitives().map(|(_, primitive)| primitive);
     let triangles = shown.filter(|primitive| primitive.topology == Topology::Triangles);

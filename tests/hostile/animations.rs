@@ -4,8 +4,8 @@ use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::{Document, float_bytes};
 use serde_json::{Value, json};
 
-/// Returns a node whose translation, rotation, scale and weights are animated, each with a
-/// different interpolation.
+/// Returns a document that animates translation, rotation, scale and morph weights, with every
+/// interpolation mode.
 fn animated_document() -> Document {
     let mut document = Document::with_all_members();
     let scalars = |count: usize| json!({"componentType": 5126, "type": "SCALAR", "count": count});

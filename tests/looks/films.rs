@@ -1,8 +1,8 @@
-//! Frames of films against pictures: with a given camera, a frame of an animation has the bytes of
-//! the picture at its time, in every style.
+//! Compares frames of animations with still pictures: with the same camera, a frame has the same
+//! bytes as the picture at its time, in every style.
 //!
-//! A model's lights, cameras and grounds move with it, so a film that is resolved only once shows
-//! them at their starting positions.
+//! A model's lights, cameras and ground move with it, so a film whose scene is resolved only once
+//! would show them at their starting positions.
 
 use super::styles::{all_styles, keep_few};
 use base64::Engine as _;
@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 /// The generated model, whose light and camera move.
 const MOVING_LAMP: &str = "moving-lamp.gltf";
 
-/// Frames of each film.
+/// The number of frames per film.
 const FRAMES: usize = 3;
 
 /// Writes a square below a point light and a camera that move to the right within a second.
@@ -77,8 +77,8 @@ pub fn write_moving_lamp(folder: &Path) -> Result<PathBuf, String> {
     Ok(path)
 }
 
-/// Returns the differences between frames of a model's film and pictures at their times, or none if
-/// the model has no animation or cannot be drawn.
+/// Returns the differences between the frames of a model's film and the pictures at the same times,
+/// or none if the model has no animation or cannot be drawn.
 pub fn compare_frames(model: &Path) -> Vec<String> {
     let (origin, mut file) = Origin::from_model_path(model);
     file.image.size = super::SIZE;
@@ -120,7 +120,7 @@ pub fn compare_frames(model: &Path) -> Vec<String> {
     faults
 }
 
-/// Returns a static camera, and the model's first, if it has one.
+/// Returns a static camera, and the model's first camera if it has one.
 fn cameras(scene: &Scene) -> Vec<(&'static str, CameraFile)> {
     let bounds = Bounds::from_points(world_points(&scene.models));
     let Some(bounds) = bounds else { return Vec::new() };
@@ -130,7 +130,7 @@ fn cameras(scene: &Scene) -> Vec<(&'static str, CameraFile)> {
     let triple = |v: glam::DVec3| Triple([v.x, v.y, v.z]);
     let view =
         ViewFile::LookAt { eye: triple(eye), target: triple(middle), up: Triple([0.0, 1.0, 0.0]) };
-    let mut cameras = vec![("a given camera", CameraFile { view, ..CameraFile::default() })];
+    let mut cameras = vec![("a static camera", CameraFile { view, ..CameraFile::default() })];
     if !scene.models[0].model.cameras.is_empty() {
         let view = ViewFile::FromModel(CameraChoice::Index(0));
         cameras.push(("the model's camera", CameraFile { view, ..CameraFile::default() }));
@@ -164,12 +164,12 @@ fn compare_film(
     });
     taken.map_err(|error| error.to_string())?;
     if frames.windows(2).all(|pair| pair[0] == pair[1]) && must_move {
-        return Err("all frames are alike".to_owned());
+        return Err("all frames are identical".to_owned());
     }
     for (index, frame) in frames.iter().enumerate() {
         let time = end * (index as f64 / FRAMES as f64);
         if *frame != picture_at(time)? {
-            return Err(format!("frame {index} is not the picture at {time} s"));
+            return Err(format!("frame {index} differs from the picture at {time} s"));
         }
     }
     Ok(())

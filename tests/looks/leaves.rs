@@ -1,5 +1,5 @@
-//! Three leaves with the same half-empty image: opaque, masked and blended. In every style the
-//! empty halves of the last two are see-through.
+//! Three leaves with the same half-empty image: opaque, masked and blended. In every style, the
+//! empty halves of the last two are transparent.
 
 use super::styles::all_styles;
 use alberti_tests::gltf::{Document, float_bytes};
@@ -15,7 +15,7 @@ use std::path::Path;
 const MODES: [&str; 3] = ["OPAQUE", "MASK", "BLEND"];
 const BACKGROUND: [u8; 4] = [0, 255, 0, 255];
 
-/// Returns the faults of the leaves in each style; `folder` gets the model.
+/// Returns the defects of the leaves in each style. The model is written to `folder`.
 pub fn judge_leaves(folder: &Path) -> Result<Vec<String>, String> {
     let written = create_dir_all(folder).and_then(|()| write(folder.join("leaves.glb"), leaves()));
     written.map_err(|error| format!("{}: {error}", folder.display()))?;
@@ -24,24 +24,24 @@ pub fn judge_leaves(folder: &Path) -> Result<Vec<String>, String> {
         let (picture, warnings, scene) = render_leaves(folder, style, false)?;
         if matches!(scene.style, Style::Wireframe | Style::Lines(_)) {
             if !warnings.contains(&Warning::Lines(hidden_line::Warning::CutOutsDrawnWhole)) {
-                faults.push(format!("{name} draws whole leaves and does not say so: {warnings:?}"));
+                faults.push(format!("{name} draws whole leaves without a warning: {warnings:?}"));
             }
             continue;
         }
         for (index, mode) in MODES.iter().enumerate() {
             let [empty, full] = [25, 75].map(|x| picture.pixels[50 * 300 + 100 * index + x]);
             if full == BACKGROUND {
-                faults.push(format!("{name}: nothing is seen of a leaf of {mode}"));
+                faults.push(format!("{name}: the {mode} leaf is invisible"));
             }
             if (empty == BACKGROUND) != (*mode != "OPAQUE") {
-                faults.push(format!("{name}: the empty half of a leaf of {mode} is {empty:?}"));
+                faults.push(format!("{name}: the empty half of the {mode} leaf is {empty:?}"));
             }
         }
     }
     Ok(faults)
 }
 
-/// Finds numeric passes that a ground below the model changes.
+/// Finds numeric passes that are changed by a ground below the model.
 pub fn judge_grounds(folder: &Path) -> Result<Vec<String>, String> {
     let mut faults = Vec::new();
     for (name, style) in all_styles() {
@@ -81,7 +81,7 @@ fn render_leaves(
     Ok((picture, warnings, scene))
 }
 
-/// Three squares side by side with one texture, whose left half is transparent.
+/// Returns three squares side by side with one texture, whose left half is transparent.
 fn leaves() -> Vec<u8> {
     let mut document = Document::single_triangle();
     let mut image = Picture::<u8>::default();

@@ -5,7 +5,8 @@ use pipeline::{Origin, Picture, Scene, render};
 use scene_file::parse_scene;
 use std::path::Path;
 
-/// Models with inner silhouettes: a torus in front of itself, dense meshes, a helmet full of edges.
+/// Models with inner silhouettes: a torus that overlaps itself, dense meshes, and a helmet full of
+/// edges.
 const MODELS: [&str; 5] =
     ["bearing", "dense-sphere-draco-quantized", "flight-helmet", "teapot", "torus"];
 /// The tested samples per pixel.
@@ -13,7 +14,7 @@ const SAMPLES: [u32; 4] = [1, 4, 8, 16];
 /// The fraction of its neighbors' light below which a pixel is a dot.
 const DOT: f64 = 0.25;
 
-/// Returns the dots in a model's pictures in even light, or none for other models.
+/// Returns the dots in a model's pictures in even light, or none for models that are not listed.
 pub(super) fn find_dots(model: &Path, name: &str) -> Vec<String> {
     let mut faults = Vec::new();
     if !MODELS.contains(&name) {
@@ -34,7 +35,7 @@ pub(super) fn find_dots(model: &Path, name: &str) -> Vec<String> {
     faults
 }
 
-/// Returns a picture of a model that is lit from everywhere.
+/// Returns a picture of a model that is lit from all directions.
 fn render_model(model: &Path, samples: u32, occlusion: &str) -> Option<Picture> {
     let (folder, file) = (model.parent()?, model.file_name()?.to_str()?);
     let text = format!(
@@ -46,10 +47,11 @@ fn render_model(model: &Path, samples: u32, occlusion: &str) -> Option<Picture> 
     render(&Scene::resolve(&origin, &scene, &Default::default()).ok()?, 1).ok()
 }
 
-/// The share of the light that occlusion leaves to each pixel.
+/// The fraction of the light that remains at each pixel after occlusion.
 struct Visibility {
     width: usize,
-    /// Rows from the top; NaN where there is no surface, or a black one.
+    /// The fractions in rows from the top; NaN for pixels without a surface or with a black
+    /// surface.
     values: Vec<f64>,
 }
 
@@ -90,7 +92,7 @@ impl Visibility {
     }
 }
 
-/// Returns the linear light of an sRGB code.
+/// Converts an sRGB code to linear light.
 fn linear(code: u8) -> f64 {
     let srgb = f64::from(code) / 255.0;
     if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }

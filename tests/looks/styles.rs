@@ -1,5 +1,5 @@
-//! Every model in every style, still and as a thumbnail: no picture is empty, and lines leave some
-//! of the paper free.
+//! Checks every model in every style, as a still and as a thumbnail: no picture is empty, and lines
+//! leave some paper visible.
 
 use super::BareModel;
 use alberti_tests::harness::is_thorough;
@@ -8,9 +8,10 @@ use scene_file::file::StyleFile;
 
 /// The size of a thumbnail.
 const THUMBNAIL: (u32, u32) = (64, 64);
-/// The minimum share of the picture in its most frequent color: the paper, in line drawings.
+/// The minimum fraction of the picture in its most frequent color, which is the paper in line
+/// drawings.
 const LEAST_PAPER: f64 = 0.25;
-/// The minimum share of pixels that differ from the most frequent color.
+/// The minimum fraction of pixels that differ from the most frequent color.
 const LEAST_DRAWN: f64 = 0.0005;
 
 /// The number of pictures per model in the first tier.
@@ -43,8 +44,8 @@ pub fn all_styles() -> Vec<(&'static str, StyleFile)> {
     ]
 }
 
-/// Keeps a few cases, chosen by the model's name, so that each style meets some of the models;
-/// keeps all if the environment variable `THOROUGH` is set.
+/// Keeps a few cases, chosen by the model name so that each style is tested with some of the
+/// models. Keeps all if the environment variable `THOROUGH` is set.
 pub fn keep_few<T>(cases: &mut Vec<T>, name: &str, count: usize) {
     if !is_thorough() {
         let turn =
@@ -54,7 +55,7 @@ pub fn keep_few<T>(cases: &mut Vec<T>, name: &str, count: usize) {
     }
 }
 
-/// Returns the faults in a model's pictures in some of the styles, or in all.
+/// Returns the defects in a model's pictures in some or all of the styles.
 pub(super) fn judge_styles(model: &BareModel<'_>, name: &str) -> Vec<String> {
     let mut cases: Vec<_> = all_styles()
         .into_iter()
@@ -64,7 +65,8 @@ pub(super) fn judge_styles(model: &BareModel<'_>, name: &str) -> Vec<String> {
     let mut faults = Vec::new();
     for ((style_name, style), size) in cases {
         let fault = judge_picture(model, style.with_fitting_lines(size), size);
-        // Refused, with the flag that allows it: copies make millions of triangles.
+        // Such a drawing is rejected with the flag that allows it, because copies add up to
+        // millions of triangles.
         let is_refused = |fault: &String| fault.contains("--no-line-limits");
         let (width, height) = size;
         let in_style = |fault| format!("{style_name}, {width} x {height}: {fault}");
@@ -73,7 +75,7 @@ pub(super) fn judge_styles(model: &BareModel<'_>, name: &str) -> Vec<String> {
     faults
 }
 
-/// Renders a model in a style and looks at the picture.
+/// Renders a model in a style and checks the picture.
 fn judge_picture(model: &BareModel<'_>, style: StyleFile, size: (u32, u32)) -> Result<(), String> {
     let (picture, scene, warnings) = model.render(style, size)?;
     if let Some(empty) =
@@ -92,7 +94,7 @@ fn judge_picture(model: &BareModel<'_>, style: StyleFile, size: (u32, u32)) -> R
     }
     let is_drawing = matches!(scene.style, Style::Wireframe | Style::Lines(_));
     if is_drawing && share < LEAST_PAPER {
-        return Err(format!("lines leave {:.1} % of the paper", 100.0 * share));
+        return Err(format!("lines leave only {:.1} % of the paper", 100.0 * share));
     }
     Ok(())
 }

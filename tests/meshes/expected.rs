@@ -1,30 +1,30 @@
-//! The compared facts, and the files that differ from the manifest for a reason.
+//! The compared facts, and the files that intentionally differ from the manifest.
 
-/// Triangles and bounds of a mesh.
+/// The triangles and bounds of a mesh.
 #[derive(Clone, PartialEq, Debug)]
 pub struct MeshFacts {
     pub triangles: usize,
-    /// Minimum and maximum corner of the bounding box; `None` if there is nothing to draw.
+    /// The minimum and maximum corners of the bounding box, or `None` if there is nothing to draw.
     pub bounds: Option<[f64; 6]>,
 }
 
-/// Files in the known folder that differ from its manifest, and the reason.
+/// Files in the known folder that differ from its manifest, with the reason.
 pub const DIFFERENCES: &[(&str, MeshFacts, &str)] = &[
     (
         "obj/box.obj",
         MeshFacts { triangles: 12, bounds: Some([-1.0, -1.0, -1.0, 1.0, 1.0, 1.0]) },
-        "the manifest lists two files of this name, and the folder has the second",
+        "the manifest lists two files with this name, and the folder has the second",
     ),
     (
         "3mf/production_components.3mf",
         MeshFacts { triangles: 8, bounds: Some([0.0, 0.0, 0.0, 25.0, 10.0, 10.0]) },
-        "objects of two parts have the same id; the other reader shows both at each component",
+        "objects in two parts have the same id, and the other reader shows both for each component",
     ),
 ];
 
 impl MeshFacts {
-    /// Compares with the findings; bounds agree to the six digits of the manifest, relative to the
-    /// mesh size.
+    /// Compares with the facts found. Bounds must agree to the six digits of the manifest, relative
+    /// to the mesh size.
     pub fn compare(&self, found: &Self) -> Result<(), String> {
         if self.triangles != found.triangles {
             return Err(format!("{} triangles instead of {}", found.triangles, self.triangles));

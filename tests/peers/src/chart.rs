@@ -1,5 +1,5 @@
-//! The chart: for each scene one bar per contestant, as long as the logarithm of its time over
-//! ours.
+//! The chart, with one bar per contestant for each scene. Its length is the logarithm of the
+//! contestant's time relative to ours.
 
 use crate::contest::Heat;
 use crate::measure::Spread;
@@ -7,7 +7,7 @@ use crate::report::Figures;
 use std::fmt::Write as _;
 
 const WIDTH: f64 = 900.0;
-/// The start of the bars, and the end of the longest.
+/// The start of the bars and the end of the longest bar.
 const LEFT: f64 = 150.0;
 const RIGHT: f64 = 820.0;
 const ROW: f64 = 18.0;
@@ -23,7 +23,7 @@ pub fn svg(figures: &Figures) -> String {
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" font-family=\"sans-serif\" \
          font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n\
-         <text x=\"16\" y=\"24\" font-size=\"15\">CPU time over that of raster, one thread, 1920 × 1080: medians and spread</text>\n"
+         <text x=\"16\" y=\"24\" font-size=\"15\">CPU time relative to raster, one thread, 1920 × 1080: medians and spread</text>\n"
     );
     let mut y = 34.0;
     grid(&mut text, y, height - 12.0);

@@ -1,7 +1,7 @@
 //! Clocks: the CPU time of this process, and the cost of other programs.
 //!
-//! Other work on the machine stretches wall time and hardly affects CPU time, so the figures are
-//! CPU time.
+//! Other work on the machine stretches wall time but hardly affects CPU time, so the figures are
+//! CPU times.
 
 use nix::sys::resource::{UsageWho, getrusage};
 use nix::time::{ClockId, clock_gettime};
@@ -10,9 +10,9 @@ use std::time::{Duration, Instant};
 /// The cost of a piece of work.
 #[derive(Clone, Copy, Debug)]
 pub struct Took {
-    /// CPU time of all threads.
+    /// The CPU time of all threads.
     pub cpu: Duration,
-    /// Wall time.
+    /// The wall time.
     pub wall: Duration,
 }
 
@@ -21,7 +21,7 @@ fn cpu() -> Duration {
     clock_gettime(ClockId::CLOCK_PROCESS_CPUTIME_ID).map_or(Duration::ZERO, Duration::from)
 }
 
-/// Does some work and returns its cost.
+/// Runs some work and returns its cost.
 pub fn timed(work: impl FnOnce()) -> Took {
     let (wall, start) = (Instant::now(), cpu());
     work();
@@ -31,16 +31,16 @@ pub fn timed(work: impl FnOnce()) -> Took {
 /// The cost of a program from start to end.
 #[derive(Clone, Copy, Debug)]
 pub struct Cost {
-    /// CPU time of all its threads, its own and the kernel's on its behalf.
+    /// The CPU time of all its threads, including kernel time on its behalf.
     pub cpu: Duration,
-    /// Wall time.
+    /// The wall time.
     pub wall: Duration,
     /// The peak memory in bytes.
     pub peak: u64,
 }
 
-/// Returns the cost of the programs that this process has started and that have ended. Start only
-/// one, because the peak is the largest program's.
+/// Returns the cost of the programs that this process started and that have ended. Start only one
+/// program, because the peak is that of the largest.
 pub fn children(wall: Duration) -> Option<Cost> {
     let usage = getrusage(UsageWho::RUSAGE_CHILDREN).ok()?;
     let time = |t: nix::sys::time::TimeVal| {

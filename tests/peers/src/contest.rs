@@ -1,4 +1,5 @@
-//! The contests: each scene drawn by every contestant that can, then the limits, then threads.
+//! The contests: every scene is drawn by all contestants that support it, then come the limits and
+//! the threads.
 
 use crate::clock::{Took, timed};
 use crate::gl::Context;
@@ -14,7 +15,7 @@ use std::rc::Rc;
 pub struct Options {
     /// The number of rounds.
     pub rounds: usize,
-    /// Parts of the names to measure; all if empty.
+    /// Parts of the names to measure; if empty, everything is measured.
     pub only: Vec<String>,
 }
 
@@ -41,18 +42,18 @@ pub struct Heat {
 pub struct Agreement {
     /// The peer whose picture was compared with ours.
     pub peer: String,
-    /// Pixels that only one of the two drew.
+    /// The number of pixels that only one of the two drew.
     pub coverage: usize,
-    /// Pixels both drew whose colors differ by more than 3 of 255.
+    /// The number of pixels that both drew but whose colors differ by more than 3 of 255.
     pub color: usize,
-    /// Pixels we drew.
+    /// The number of pixels we drew.
     pub drawn: usize,
 }
 
-/// A scene's name and how to make it.
+/// A scene's name and the function that creates it.
 type Recipe = (&'static str, fn(&'static str) -> Result<Scene, String>);
 
-/// Name and maker of each scene; the helmet needs the shared models.
+/// The name and constructor of each scene. The helmet needs the shared models.
 const SCENES: [Recipe; 9] = [
     ("sphere-1m", |name| sphere(name, 500, false)),
     ("sphere-4m", |name| sphere(name, 1000, false)),
@@ -64,15 +65,15 @@ const SCENES: [Recipe; 9] = [
     ("layers-back-to-front-textured", |name| layers(name, 50, Order::BackToFront, true)),
     ("layers-front-to-back-textured", |name| layers(name, 50, Order::FrontToBack, true)),
     ("floor", floor),
-    // Like `sphere-1m`, for a rasterizer that does not cull back faces.
+    // Like `sphere-1m`, but for a rasterizer that does not cull back faces.
     ("sphere-1m-both-sides", |name| sphere(name, 500, true)),
 ];
 
-/// Scenes that are also drawn with four samples: those with edges.
+/// The scenes with edges, which are also drawn with four samples.
 const WITH_SAMPLES: [&str; 4] = ["sphere-1m", "helmet", "layers-back-to-front-flat", "floor"];
 
-/// Draws the scenes one after the other and prints each table, with a note if something cannot be
-/// drawn.
+/// Draws the scenes one after another and prints a table for each, with a note if something cannot
+/// be drawn.
 pub fn scenes(gl: Option<&Rc<Context>>, options: &Options) -> Result<Vec<Heat>, String> {
     let mut heats = Vec::new();
     for (name, make) in SCENES {
@@ -85,7 +86,7 @@ pub fn scenes(gl: Option<&Rc<Context>>, options: &Options) -> Result<Vec<Heat>, 
                 println!("{}", report::scene(&heat));
                 heats.push(heat);
             }
-            Err(reason) => println!("{name}: left out: {reason}"),
+            Err(reason) => println!("{name}: skipped: {reason}"),
         }
     }
     Ok(heats)
@@ -136,9 +137,9 @@ fn peers<'a>(
 /// Draws one scene repeatedly, with only the crate or with the whole pipeline.
 pub fn repeat(name: &str, frames: usize, whole: bool, samples: u32) -> Result<(), String> {
     let known = SCENES.iter().find(|(known, _)| *known == name);
-    let (name, make) = known.ok_or_else(|| format!("there is no scene `{name}`"))?;
+    let (name, make) = known.ok_or_else(|| format!("unknown scene `{name}`"))?;
     let scene = make(name)?;
-    let samples = Samples::from_count(samples).ok_or("1, 4, 8 or 16 samples")?;
+    let samples = Samples::from_count(samples).ok_or("use 1, 4, 8 or 16 samples")?;
     let mut peer: Box<dyn Peer + '_> = if whole {
         Box::new(Render::new(&scene, samples, 1)?)
     } else {
@@ -197,10 +198,10 @@ pub struct Threads {
     pub peer: &'static str,
     /// The scene's name.
     pub scene: &'static str,
-    /// Wall time with two threads over wall time with one, in the rounds in which each had its
+    /// The wall time with two threads relative to one thread, in the rounds in which each had its
     /// processors to itself.
     pub wall: Option<Spread>,
-    /// CPU time over wall time with two threads, in all rounds.
+    /// The ratio of CPU time to wall time with two threads, in all rounds.
     pub parallel: Option<Spread>,
     /// The number of rounds that counted.
     pub counted: usize,
@@ -208,11 +209,11 @@ pub struct Threads {
     pub same: bool,
 }
 
-/// A single thread that got less of the wall time than this was disturbed, and its round does not
-/// count.
+/// A single thread that got less than this fraction of the wall time was disturbed, and its round
+/// does not count.
 const ALONE: f64 = 0.97;
 
-/// One and two threads in turn.
+/// Measures one and two threads in turn.
 pub fn threads(options: &Options) -> Result<Vec<Threads>, String> {
     let mut found = Vec::new();
     for (name, make) in [SCENES[0], SCENES[2], SCENES[3]] {

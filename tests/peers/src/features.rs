@@ -1,8 +1,9 @@
-//! The cost of each shading feature: the flight helmet at 1080p, lit by the studio, and the same
-//! picture with one thing more or less.
+//! The cost of each shading feature, measured on the flight helmet at 1080p in studio light, with
+//! one feature added or removed.
 //!
-//! There is one scene per feature, all rendered in this process with one thread, in turn. The base
-//! is the program's default picture: four samples, every material map, an environment, no shadows.
+//! There is one scene per feature. They are rendered in turn in this process, with one thread. The
+//! base is the program's default picture: four samples, every material map, an environment, no
+//! shadows.
 
 use crate::measure::{Contestant, Series, rounds};
 use model::{Anisotropy, Clearcoat, Iridescence, MaterialExtensions, Sheen, Transmission, Volume};
@@ -12,10 +13,11 @@ use scene_file::parse_scene;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The name of the base, to which the others are compared.
+/// The name of the base, with which the others are compared.
 pub const BASE: &str = "default picture";
 
-/// Each feature with its changes to the base: lights and the like, image fields, and materials.
+/// Each feature with its changes to the base: scene fields such as lights, image fields, and
+/// materials.
 const FEATURES: [(&str, &str, &str, Change); 19] = [
     (BASE, "", "", AS_IT_IS),
     ("flat style", "style: Flat", "", AS_IT_IS),
@@ -72,7 +74,7 @@ const TINT: Volume = Volume {
     attenuation_color: [0.3, 0.8, 0.6],
 };
 
-/// Draws every feature in each round; returns the times, the base's first.
+/// Draws every feature in each round, and returns the times, starting with the base.
 pub fn features(models: &Path, count: usize) -> Result<Vec<Series>, String> {
     eprintln!("features: FlightHelmet");
     let folder = models.join("flight-helmet");
@@ -99,9 +101,9 @@ fn scene(fields: &str, image: &str, folder: &Path) -> Result<Scene, String> {
     Scene::resolve(&origin, &file, &ResolveOptions::default()).map_err(|error| error.to_string())
 }
 
-/// Renders the scene repeatedly, reusing the memory of the first time.
+/// Renders the scene repeatedly, reusing the memory of the first rendering.
 fn frames(scene: Scene) -> Result<Box<dyn FnMut()>, String> {
-    // They live as long as the process: there are few.
+    // They are leaked, because there are few.
     let scene: &'static Scene = Box::leak(Box::new(scene));
     let textures = Textures::for_models(&scene.models);
     let mut renderer = Renderer::default();
@@ -109,7 +111,7 @@ fn frames(scene: Scene) -> Result<Box<dyn FnMut()>, String> {
     let context = RenderContext::new(scene, &textures, 1);
     renderer.render(&context, &mut picture).map_err(|e| e.to_string())?;
     Ok(Box::new(move || {
-        // It was rendered a moment ago.
+        // The scene has just been rendered, so this cannot fail.
         let context = RenderContext::new(scene, &textures, 1);
         let _ = renderer.render(&context, &mut picture);
     }))

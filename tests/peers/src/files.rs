@@ -1,9 +1,9 @@
-//! From a file to a PNG with the real programs: `alberti render` and, if installed, f3d on a
-//! virtual display.
+//! Measures the path from a file to a PNG with the real programs: `alberti render` and, if
+//! installed, f3d on a virtual display.
 //!
-//! Each run is a separate process. Its CPU time and peak memory come from the system's account of
-//! ended children. A child's peak includes the moment before it became the program, when it was a
-//! copy of its parent. Therefore the parent is another small process: this program with the
+//! Each run is a separate process. Its CPU time and peak memory come from the system's accounting
+//! of child processes. A child's peak includes the moment before it executes the program, when it
+//! is a copy of its parent. The parent is therefore a separate small process: this program with the
 //! argument `cost`.
 
 use crate::clock::children;
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Instant;
 
-/// The models, by path below `models`.
+/// The models, by their paths below `models`.
 const MODELS: [&str; 6] = [
     "flight-helmet/FlightHelmet.gltf",
     "cave/cave.glb",
@@ -26,7 +26,7 @@ const MODELS: [&str; 6] = [
 
 /// The figures of one model.
 pub struct FileHeat {
-    /// The model's path.
+    /// The path of the model.
     pub model: &'static str,
     /// CPU times in seconds: `alberti`, then `f3d`.
     pub cpu: Vec<Series>,
@@ -43,7 +43,7 @@ struct Viewer {
     display: Option<Display>,
 }
 
-/// A virtual display, taken down when dropped.
+/// A virtual display, stopped on drop.
 struct Display {
     server: Child,
     number: String,
@@ -82,7 +82,7 @@ pub fn files(
     let mut viewers = vec![alberti];
     match f3d() {
         Ok(viewer) => viewers.push(viewer),
-        Err(reason) => println!("f3d: left out: {reason}"),
+        Err(reason) => println!("f3d: skipped: {reason}"),
     }
     let mut heats = Vec::new();
     for model in MODELS {
@@ -136,7 +136,7 @@ fn contest(
 }
 
 impl Viewer {
-    /// Makes a picture; CPU seconds, wall seconds, peak bytes.
+    /// Makes a picture; returns CPU seconds, wall seconds and peak bytes.
     fn picture(&self, model: &Path, out: &Path) -> Result<[f64; 3], String> {
         let stem = model.file_stem().unwrap_or_default().to_string_lossy();
         let picture = out.join(format!("{stem}.{}.png", self.name));
@@ -155,22 +155,24 @@ impl Viewer {
         let text = String::from_utf8_lossy(&output.stdout);
         let figures: Vec<f64> =
             text.lines().last().unwrap_or("").split(' ').filter_map(|n| n.parse().ok()).collect();
-        let fault = || format!("{} made no picture of {}\n{text}", self.name, model.display());
+        let fault = || format!("{} did not draw {}\n{text}", self.name, model.display());
         let figures = figures.try_into().map_err(|_| fault())?;
         if picture.is_file() { Ok(figures) } else { Err(fault()) }
     }
 }
 
-/// Runs a command and prints its cost: CPU seconds, wall seconds, peak bytes.
+/// Runs a command and prints its cost: CPU seconds, wall seconds and peak bytes.
 pub fn cost(arguments: &[String]) -> Result<(), String> {
-    let [program, arguments @ ..] = arguments else { return Err("cost of what?".into()) };
+    let [program, arguments @ ..] = arguments else {
+        return Err("missing command after `cost`".into());
+    };
     let start = Instant::now();
     let output = Command::new(program).args(arguments).output().map_err(|e| e.to_string())?;
     let wall = start.elapsed();
     if !output.status.success() {
         return Err(String::from_utf8_lossy(&output.stderr).into_owned());
     }
-    let cost = children(wall).ok_or("the system keeps no account")?;
+    let cost = children(wall).ok_or("the system does not report the cost of child processes")?;
     println!("{} {} {}", cost.cpu.as_secs_f64(), cost.wall.as_secs_f64(), cost.peak);
     Ok(())
 }

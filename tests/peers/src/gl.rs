@@ -1,11 +1,11 @@
 //! Mesa's software OpenGL, found at run time: the only module that calls foreign code.
 //!
 //! Every call goes through a pointer that was looked up by name in the library and has the type
-//! given by the OpenGL 3.0 and OSMesa headers. The calls are sound because
+//! given by the OpenGL 3.0 and OSMesa headers. The calls are sound for these reasons:
 //!
-//! - the library stays loaded as long as the process lives: its handle is leaked;
-//! - a context is current on the thread that made it, and [`Context`] cannot leave that thread (it
-//!   holds raw pointers);
+//! - the library stays loaded as long as the process lives, because its handle is leaked;
+//! - a context is current on the thread that created it, and [`Context`] cannot leave that thread
+//!   because it holds raw pointers;
 //! - data read through a pointer during a call is a slice that outlives the call, with its own
 //!   length; OpenGL copies the data it keeps (`glBufferData`, `glTexImage2D`, `glShaderSource`),
 //!   except for OSMesa's own picture, which the context owns;
@@ -22,10 +22,10 @@ use std::ffi::{CStr, CString, c_char, c_int, c_uchar, c_uint, c_void};
 use std::ops::Range;
 use std::ptr::{null, null_mut};
 
-/// The library's names, the newest first.
+/// The names of the library, newest first.
 const NAMES: [&str; 2] = ["libOSMesa.so.8", "libOSMesa.so.6"];
 
-/// Declares a table of functions, with their lookup.
+/// Declares a table of functions and their lookup.
 macro_rules! functions {
     ($($field:ident = $symbol:literal ($($argument:ty),*) $(-> $result:ty)?;)*) => {
         struct Functions { $($field: unsafe extern "C" fn($($argument),*) $(-> $result)?),* }
@@ -33,8 +33,8 @@ macro_rules! functions {
         impl Functions {
             fn load(library: &Library) -> Result<Self, String> {
                 Ok(Self { $(
-                    // SAFETY: the symbol is a function of the type that the OpenGL and OSMesa
-                    // headers give it, and the library is never unloaded.
+                    // SAFETY: the symbol is a function of the type declared in the OpenGL and
+                    // OSMesa headers, and the library is never unloaded.
                     $field: *unsafe { library.get($symbol) }.map_err(|error| error.to_string())?,
                 )* })
             }
@@ -89,10 +89,10 @@ functions! {
     finish = "glFinish" ();
 }
 
-/// An OpenGL context that draws in memory, current on this thread.
+/// An OpenGL context that draws to memory and is current on this thread.
 pub struct Context {
     gl: Functions,
-    /// OSMesa's own picture; we draw elsewhere, but it must exist as long as the context.
+    /// OSMesa's own picture, which must exist as long as the context, although we draw elsewhere.
     _picture: RefCell<Box<[u32]>>,
     /// Keeps the context on its thread.
     _context: *mut c_void,
@@ -115,13 +115,13 @@ pub struct Program {
 #[derive(Clone, Copy)]
 pub struct TextureName(u32);
 
-/// Vertices and indices in buffers.
+/// Buffers with vertices and indices.
 pub struct Geometry {
     buffers: [u32; 2],
     count: usize,
 }
 
-/// A run of triangles with a look.
+/// A run of triangles with a material.
 pub struct Part {
     buffers: [u32; 2],
     indices: Range<usize>,
@@ -131,28 +131,28 @@ pub struct Part {
 }
 
 impl Context {
-    /// Loads the library and makes a context. `None` if the library is not installed.
+    /// Loads the library and creates a context. Returns `None` if the library is not installed.
     pub fn open() -> Result<Option<Self>, String> {
-        // Mesa's initializers require nothing of the process; the handle is leaked, so nothing is
-        // unloaded.
+        // Mesa's initializers have no requirements on the process. The handle is leaked, so nothing
+        // is unloaded.
         let library = NAMES.iter().find_map(|name| unsafe { Library::new(*name) }.ok());
         let Some(library) = library else { return Ok(None) };
         let library: &'static Library = Box::leak(Box::new(library));
         let gl = Functions::load(library)?;
         let mut picture = vec![0_u32; 16 * 16].into_boxed_slice();
-        // SAFETY: no context is shared (null); the picture has room for 16 × 16 pixels of 4 bytes
-        // and is kept.
+        // SAFETY: no context is shared (null); the picture holds 16 × 16 pixels of 4 bytes and
+        // outlives the context.
         let context = unsafe {
             let context = (gl.create_context)(name::RGBA, 24, 0, 0, null_mut());
             let data = picture.as_mut_ptr().cast();
             let current = (gl.make_current)(context, data, name::UNSIGNED_BYTE, 16, 16);
             (current != 0).then_some(context)
         };
-        let context = context.ok_or("OSMesa makes no context")?;
+        let context = context.ok_or("OSMesa cannot create a context")?;
         Ok(Some(Self { gl, _picture: RefCell::new(picture), _context: context }))
     }
 
-    /// Returns the renderer's name, with its version.
+    /// Returns the name and version of the renderer.
     pub fn renderer(&self) -> String {
         let text = |which| {
             // SAFETY: the result is null or a static string that ends in 0.
@@ -166,7 +166,7 @@ impl Context {
         format!("{}, {}", text(name::RENDERER), text(name::VERSION))
     }
 
-    /// Returns a picture of 8-bit RGBA with 32-bit float depth.
+    /// Creates a picture with 8-bit RGBA and 32-bit float depth.
     pub fn framebuffer(&self, size: (u32, u32), samples: u32) -> Result<Framebuffer, String> {
         let samples = if samples == 1 { 0 } else { samples as c_int };
         let mut framebuffer = 0;
@@ -174,7 +174,7 @@ impl Context {
             (name::COLOR_ATTACHMENT0, name::RGBA8),
             (name::DEPTH_ATTACHMENT, name::DEPTH_COMPONENT32F),
         ];
-        // SAFETY: each generator writes one name; the others take numbers.
+        // SAFETY: each generator writes one name; the other calls take only numbers.
         let status = unsafe {
             (self.gl.gen_framebuffers)(1, &mut framebuffer);
             (self.gl.bind_framebuffer)(name::FRAMEBUFFER, framebuffer);
@@ -189,18 +189,18 @@ impl Context {
             (self.gl.check_framebuffer)(name::FRAMEBUFFER)
         };
         let complete = status == name::FRAMEBUFFER_COMPLETE;
-        let fault = || format!("no framebuffer with {samples} samples: {status:#x}");
+        let fault = || format!("cannot create a framebuffer with {samples} samples: {status:#x}");
         complete.then_some(Framebuffer { name: framebuffer, size }).ok_or_else(fault)
     }
 
     /// Copies vertices and indices into buffers.
     pub fn geometry(&self, vertices: &[Vertex], indices: &[u32]) -> Result<Geometry, String> {
         if indices.iter().any(|&index| index as usize >= vertices.len()) {
-            return Err("an index names no vertex".into());
+            return Err("an index is out of range".into());
         }
         let mut buffers = [0; 2];
-        // SAFETY: two names are written to an array of two; the data are slices with their own
-        // sizes.
+        // SAFETY: two names are written to an array of two, and the data are slices passed with
+        // their sizes.
         unsafe {
             (self.gl.gen_buffers)(2, buffers.as_mut_ptr());
             self.bind(buffers);
@@ -213,14 +213,14 @@ impl Context {
         Ok(Geometry { buffers, count: indices.len() })
     }
 
-    /// Copies a texture: repeated, bilinear, no mip maps.
+    /// Copies a texture, which is repeated and bilinear, without mip maps.
     pub fn texture(&self, texture: &Texture) -> Result<TextureName, String> {
         if texture.rgba.len() != texture.width * texture.height {
-            return Err("a texture without all of its texels".into());
+            return Err("incomplete texture".into());
         }
         let (width, height) = (texture.width as c_int, texture.height as c_int);
         let mut created = 0;
-        // One name is written; the texels match width and height, 4 bytes each.
+        // One name is written; the number of texels, 4 bytes each, matches the width and height.
         unsafe {
             (self.gl.gen_textures)(1, &mut created);
             (self.gl.bind_texture)(name::TEXTURE_2D, created);
@@ -254,7 +254,7 @@ impl Context {
     ) -> Result<Program, String> {
         let vertex = self.shader(name::VERTEX_SHADER, vertex)?;
         let fragment = self.shader(name::FRAGMENT_SHADER, fragment)?;
-        // SAFETY: the strings end in 0, the matrix has 16 numbers, one number is written to
+        // SAFETY: the strings end in 0, the matrix has 16 numbers, and one number is written to
         // `status`.
         unsafe {
             let program = (self.gl.create_program)();
@@ -267,7 +267,7 @@ impl Context {
             let mut status = 0;
             (self.gl.program_status)(program, name::LINK_STATUS, &mut status);
             if status == 0 {
-                return Err("a program does not link".into());
+                return Err("cannot link a program".into());
             }
             (self.gl.use_program)(program);
             let place = (self.gl.uniform_location)(program, c"world_to_clip".as_ptr());
@@ -280,7 +280,7 @@ impl Context {
     fn shader(&self, kind: u32, source: &str) -> Result<u32, String> {
         let text = CString::new(source).map_err(|error| error.to_string())?;
         let mut status = 0;
-        // SAFETY: one string that ends in 0 (so no lengths are needed); one number is written to
+        // SAFETY: the only string ends in 0, so no lengths are needed, and one number is written to
         // `status`.
         let shader = unsafe {
             let shader = (self.gl.create_shader)(kind);
@@ -289,13 +289,13 @@ impl Context {
             (self.gl.shader_status)(shader, name::COMPILE_STATUS, &mut status);
             shader
         };
-        if status == 0 { Err(format!("a shader does not compile:\n{source}")) } else { Ok(shader) }
+        if status == 0 { Err(format!("cannot compile a shader:\n{source}")) } else { Ok(shader) }
     }
 
     /// Begins a frame: clears color and depth.
     pub fn begin(&self, target: &Framebuffer) {
         let (width, height) = (target.size.0 as c_int, target.size.1 as c_int);
-        // SAFETY: only numbers.
+        // SAFETY: the arguments are only numbers.
         unsafe {
             (self.gl.bind_framebuffer)(name::FRAMEBUFFER, target.name);
             (self.gl.viewport)(0, 0, width, height);
@@ -313,7 +313,7 @@ impl Context {
         let offset = |bytes: usize| null::<u8>().wrapping_add(bytes).cast::<c_void>();
         let (first, count) = (part.indices.start * 4, part.indices.len() as c_int);
         // SAFETY: with buffers bound, pointers are offsets into them; the attributes are the fields
-        // of `Vertex`, the indices are in range (`Geometry::part`) and name vertices that are there
+        // of `Vertex`, the index range is valid (`Geometry::part`), and so are the indices
         // (`geometry`).
         unsafe {
             let switch = if part.cull { self.gl.enable } else { self.gl.disable };
@@ -333,17 +333,17 @@ impl Context {
     }
 
     fn bind(&self, [vertices, indices]: [u32; 2]) {
-        // SAFETY: only numbers.
+        // SAFETY: the arguments are only numbers.
         unsafe {
             (self.gl.bind_buffer)(name::ARRAY_BUFFER, vertices);
             (self.gl.bind_buffer)(name::ELEMENT_ARRAY_BUFFER, indices);
         }
     }
 
-    /// Averages each pixel's samples into another picture of the same size.
+    /// Averages the samples of each pixel into another picture of the same size.
     pub fn resolve(&self, from: &Framebuffer, to: &Framebuffer) {
         let (w, h) = (to.size.0 as c_int, to.size.1 as c_int);
-        // SAFETY: only numbers.
+        // SAFETY: the arguments are only numbers.
         unsafe {
             (self.gl.bind_framebuffer)(name::READ_FRAMEBUFFER, from.name);
             (self.gl.bind_framebuffer)(name::DRAW_FRAMEBUFFER, to.name);
@@ -353,11 +353,11 @@ impl Context {
 
     /// Waits until everything is drawn.
     pub fn finish(&self) {
-        // SAFETY: no arguments.
+        // SAFETY: there are no arguments.
         unsafe { (self.gl.finish)() }
     }
 
-    /// Returns the pixels of a picture with one sample, rows from the top.
+    /// Returns the pixels of a picture with one sample, in rows from the top.
     pub fn read(&self, from: &Framebuffer) -> Vec<[u8; 4]> {
         let (width, height) = from.size;
         let mut pixels = vec![[0_u8; 4]; width as usize * height as usize];
@@ -369,7 +369,7 @@ impl Context {
             (self.gl.bind_framebuffer)(name::FRAMEBUFFER, from.name);
             (self.gl.read_pixels)(0, 0, w, h, name::RGBA, name::UNSIGNED_BYTE, data);
         }
-        // OpenGL's rows run upwards.
+        // OpenGL's rows run from the bottom up.
         pixels.chunks(width as usize).rev().flatten().copied().collect()
     }
 }
@@ -384,7 +384,7 @@ impl Geometry {
         cull: bool,
     ) -> Result<Part, String> {
         if indices.start > indices.end || indices.end > self.count {
-            return Err("a part beyond the indices".into());
+            return Err("a part is out of range".into());
         }
         Ok(Part { buffers: self.buffers, indices, tint, texture, cull })
     }

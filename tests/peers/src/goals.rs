@@ -1,4 +1,4 @@
-//! The goals: the ratios that the rasterizer was built for.
+//! The goals: the ratios that the rasterizer was designed to achieve.
 //!
 //! Nothing fails here; the report lists the goals that are met.
 
@@ -9,18 +9,18 @@ use crate::report::Figures;
 pub struct Goal {
     /// The comparison.
     pub about: String,
-    /// Whose figure: `raster`, `render`, `alberti`.
+    /// The owner of the figure: `raster`, `render` or `alberti`.
     pub whose: &'static str,
     /// The figure.
     pub reached: Spread,
     /// The bound.
     pub wanted: f64,
-    /// Whether the figure must be at least as large as the bound, not at most.
+    /// Whether the bound is a minimum rather than a maximum.
     pub at_least: bool,
 }
 
 impl Goal {
-    /// Returns whether the median keeps the bound.
+    /// Returns whether the median is within the bound.
     pub fn met(&self) -> bool {
         if self.at_least {
             self.reached.median >= self.wanted
@@ -30,7 +30,7 @@ impl Goal {
     }
 }
 
-/// Scene, peer, and the required time of the peer as a multiple of ours.
+/// The scene, the peer, and the peer's required time as a multiple of ours.
 const FASTER: [(&str, &str, f64); 14] = [
     ("sphere-1m", "llvmpipe", 2.2),
     ("sphere-1m", "euc 0.5", 2.2),

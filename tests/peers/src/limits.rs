@@ -1,4 +1,4 @@
-//! The best that the machine can do, measured in the same process: filling memory, and the
+//! The best that the machine can do, measured in the same process: clearing memory, and the
 //! innermost loop of a rasterizer.
 
 use crate::scene::SIZE;
@@ -6,23 +6,23 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x8, u32x8};
 use std::hint::black_box;
 
-/// Pixels in a tile: 32 KiB of depth and numbers, which fit the nearest cache.
+/// The number of pixels in a tile, whose 32 KiB of depth and numbers fit in the L1 cache.
 const TILE: usize = 64 * 64;
-/// The number of times the kernel fills its tile: as many pixels as fifty layers have.
+/// The number of pixels that the kernel fills, as many as fifty layers have.
 pub const KERNEL_PIXELS: usize = 50 * (SIZE.0 * SIZE.1) as usize / TILE * TILE;
 
-/// Pictures between two clears of the same one: too much memory for any cache.
+/// The number of pictures cleared in turn, which exceed any cache.
 const PICTURES: usize = 16;
 
-/// Color and depth buffers of pictures, for clearing.
+/// The color and depth buffers of pictures to clear.
 pub struct Clearing {
     pictures: Vec<(Vec<[u8; 4]>, Vec<f32>)>,
     next: usize,
 }
 
 impl Clearing {
-    /// Of the size of the scenes' pictures: one that stays in the caches, or many that are cleared
-    /// in turn.
+    /// Creates buffers of the size of the scenes' pictures: one picture that stays in the caches,
+    /// or many that are cleared in turn.
     pub fn new(cached: bool) -> Self {
         let area = (SIZE.0 * SIZE.1) as usize;
         let picture = || (vec![[1; 4]; area], vec![1.0; area]);
@@ -30,7 +30,7 @@ impl Clearing {
         Self { pictures: (0..count).map(|_| picture()).collect(), next: 0 }
     }
 
-    /// Clears color and depth of one picture.
+    /// Clears the color and depth of one picture.
     pub fn run(&mut self) {
         let (color, depth) = &mut self.pictures[self.next];
         color.fill(black_box([0; 4]));
@@ -40,9 +40,9 @@ impl Clearing {
     }
 }
 
-/// The innermost loop: for each pixel of a tile, interpolate depth, compare, keep the nearer one
-/// with its number. It has no edges, no setup and no occlusion test, and every pixel passes. No
-/// rasterizer that stores depth and number can beat it with the same instructions.
+/// The innermost loop, which interpolates the depth at each pixel of a tile, compares it, and
+/// stores the nearer depth with its number. It has no edges, setup or occlusion test, and every
+/// pixel passes. No rasterizer that stores depth and number can beat it with the same instructions.
 #[derive(Clone)]
 pub struct Kernel {
     depth: Vec<f32>,
@@ -51,7 +51,8 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    /// Returns one for each set of vector instructions from AVX2 (or the best available) upward.
+    /// Returns one kernel for each set of vector instructions from AVX2 (or the best available)
+    /// upward.
     pub fn all() -> Vec<Self> {
         let best = Level::new();
         let mut levels = vec![best];
@@ -62,7 +63,7 @@ impl Kernel {
         levels.into_iter().map(Self::new).collect()
     }
 
-    /// Uses these instructions.
+    /// Creates a kernel with these instructions.
     fn new(level: Level) -> Self {
         Self { depth: vec![0.0; TILE], number: vec![0; TILE], level }
     }
@@ -73,7 +74,7 @@ impl Kernel {
         text.split('(').next().unwrap_or(&text).to_owned()
     }
 
-    /// Fills the tile as often as [`KERNEL_PIXELS`] says, each time a little nearer.
+    /// Fills the tile until [`KERNEL_PIXELS`] are filled, a little nearer each time.
     pub fn vectors(&mut self) {
         let level = self.level;
         for layer in 0..KERNEL_PIXELS / TILE {
@@ -82,7 +83,7 @@ impl Kernel {
         self.empty();
     }
 
-    /// A plain loop with the same result, left to the compiler.
+    /// Runs a plain loop with the same result, whose vectorization is left to the compiler.
     pub fn plain(&mut self) {
         for layer in 0..KERNEL_PIXELS / TILE {
             let (start, dx) = plane(layer as u32);
@@ -105,7 +106,7 @@ impl Kernel {
     }
 }
 
-/// Depth at the first pixel, and its step.
+/// Returns the depth at the first pixel, and its step.
 fn plane(layer: u32) -> (f32, f32) {
     (black_box(0.001 * (layer + 1) as f32), black_box(1e-6))
 }
@@ -132,7 +133,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_kernel_keeps_the_nearest() {
+    fn the_kernel_keeps_the_nearest_layer() {
         let mut kernel = Kernel::new(Level::new());
         for layer in [4, 2] {
             dispatch!(Level::new(), simd => fill(simd, &mut kernel.depth, &mut kernel.number, layer));

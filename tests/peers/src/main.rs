@@ -1,4 +1,5 @@
-//! `alberti-peers`: our rasterizer and others in one process, compared by ratios of CPU time.
+//! `alberti-peers` runs our rasterizer and others in one process and compares them by ratios of CPU
+//! time.
 //!
 //! ```text
 //!  scenes ──► raster, render (ours) ┐
@@ -8,7 +9,7 @@
 //!  files  ──► alberti, f3d as processes
 //! ```
 //!
-//! Run by `cargo xtask bench raster`. No figure is asserted: people judge a falling ratio.
+//! Run by `cargo xtask bench raster`. No figure is asserted; a falling ratio is judged by people.
 
 mod chart;
 mod clock;
@@ -69,7 +70,7 @@ fn plan(arguments: &[String]) -> Result<Plan, String> {
             "--alberti" => plan.alberti = Some(value()?.into()),
             "--rounds" => {
                 let rounds = value()?.parse().ok().filter(|rounds| (1..=1000).contains(rounds));
-                plan.options.rounds = rounds.ok_or("--rounds is a number from 1 to 1000")?;
+                plan.options.rounds = rounds.ok_or("--rounds must be from 1 to 1000")?;
             }
             flag if flag.starts_with('-') => return Err(format!("unknown flag `{flag}`\n{USAGE}")),
             part => plan.options.only.push(part.to_owned()),
@@ -103,7 +104,7 @@ fn run(arguments: &[String]) -> Result<(), String> {
             files::files(&alberti, &folder.join("models"), &out, options.rounds.min(5))?
         }
         _ => {
-            println!("files: left out: --alberti or the folder of shared models is missing");
+            println!("files: skipped: --alberti or the folder of shared models is missing");
             Vec::new()
         }
     };
@@ -118,28 +119,29 @@ fn run(arguments: &[String]) -> Result<(), String> {
     write("raster.svg", chart::svg(&figures))
 }
 
-/// Returns the llvmpipe context; warns clearly if there is none.
+/// Returns the llvmpipe context, or warns clearly if there is none.
 fn llvmpipe() -> Result<Option<Rc<gl::Context>>, String> {
-    // Mesa reads it when loaded; its threads would make CPU times incomparable.
+    // Mesa reads the variable when loaded. Its threads would make CPU times incomparable.
     if std::env::var_os("LP_NUM_THREADS").is_none_or(|threads| threads != "0") {
         println!(
-            "llvmpipe: LEFT OUT: run with LP_NUM_THREADS=0, as `cargo xtask bench raster` does"
+            "llvmpipe: SKIPPED: run with LP_NUM_THREADS=0, as `cargo xtask bench raster` does"
         );
         return Ok(None);
     }
     let gl = gl::Context::open()?;
     if gl.is_none() {
-        println!("llvmpipe: LEFT OUT: libosmesa6 is not installed");
+        println!("llvmpipe: SKIPPED: libosmesa6 is not installed");
     }
     Ok(gl.map(Rc::new))
 }
 
-/// `profile SCENE FRAMES [render] [SAMPLES]`: draws one scene repeatedly, for a profiler to watch.
+/// Implements `profile SCENE FRAMES [render] [SAMPLES]`, which draws one scene repeatedly for a
+/// profiler.
 fn profile(arguments: &[String]) -> Result<(), String> {
     let [scene, frames, rest @ ..] = arguments else {
         return Err("profile SCENE FRAMES [render] [4]".into());
     };
-    let frames: usize = frames.parse().map_err(|_| "FRAMES is a number")?;
+    let frames: usize = frames.parse().map_err(|_| "FRAMES must be a number")?;
     let whole = rest.iter().any(|word| word == "render");
     let samples = if rest.iter().any(|word| word == "4") { 4 } else { 1 };
     contest::repeat(scene, frames, whole, samples)

@@ -1,8 +1,8 @@
-//! Side-by-side measurement: every contestant runs once per round, and only times of the same round
-//! are compared.
+//! Side-by-side measurement: every contestant runs once per round, and only times from the same
+//! round are compared.
 //!
-//! A machine that is slow for a second is slow for all, so ratios vary less than times. The order
-//! rotates from round to round, so that nobody always follows the same neighbor.
+//! If the machine is slow for a second, it is slow for all, so ratios vary less than times. The
+//! order rotates from round to round, so that no contestant always follows the same neighbor.
 
 use crate::clock::timed;
 use std::time::Duration;
@@ -15,12 +15,12 @@ pub struct Contestant<'a> {
     pub work: Box<dyn FnMut() + 'a>,
 }
 
-/// The CPU times of one contestant in seconds, by round; `None` for rounds it sat out.
+/// The CPU times of one contestant in seconds, by round; `None` for rounds that it skipped.
 #[derive(Clone, Debug)]
 pub struct Series {
     /// The contestant's name.
     pub name: String,
-    /// Its times.
+    /// The times.
     pub times: Vec<Option<f64>>,
 }
 
@@ -35,7 +35,7 @@ pub struct Spread {
     pub high: f64,
 }
 
-/// Slow contestants run in fewer rounds: as many as fit this time, but at least three.
+/// The time for slow contestants, which run in as many rounds as it allows, but in at least three.
 const PATIENCE: Duration = Duration::from_secs(6);
 
 /// Runs every contestant `rounds` times, after one warm-up round.
@@ -57,8 +57,8 @@ pub fn rounds(contestants: &mut [Contestant<'_>], rounds: usize) -> Vec<Series> 
     series
 }
 
-/// Returns whether a contestant that took `warm` to warm up runs in this round; its rounds are
-/// spread over all.
+/// Returns whether a contestant that took `warm` to warm up runs in this round. Its rounds are
+/// spread evenly over all rounds.
 fn takes_part(warm: Duration, round: usize, rounds: usize) -> bool {
     let affordable = PATIENCE.as_secs_f64() / warm.as_secs_f64().max(1e-9);
     let runs = (affordable as usize).clamp(3.min(rounds), rounds);
@@ -66,12 +66,12 @@ fn takes_part(warm: Duration, round: usize, rounds: usize) -> bool {
 }
 
 impl Series {
-    /// Returns its times in seconds.
+    /// Returns the spread of its times in seconds.
     pub fn spread(&self) -> Option<Spread> {
         Spread::of(self.times.iter().flatten().copied())
     }
 
-    /// Returns its times as multiples of those for `other`, round by round.
+    /// Returns the spread of its times relative to `other`, round by round.
     pub fn over(&self, other: &Self) -> Option<Spread> {
         let both = self.times.iter().zip(&other.times);
         Spread::of(both.filter_map(|(mine, its)| Some((*mine)? / (*its)?)))
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_median_stands_in_the_middle() {
+    fn the_median_is_in_the_middle() {
         let spread = Spread::of([3.0, 1.0, 2.0].into_iter()).unwrap();
         assert_eq!((spread.low, spread.median, spread.high), (1.0, 2.0, 3.0));
         assert_eq!(Spread::of([4.0, 1.0].into_iter()).unwrap().median, 2.5);
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn the_slow_run_three_times_and_the_quick_in_every_round() {
+    fn slow_contestants_run_three_times_and_quick_contestants_in_every_round() {
         let runs = |millis| {
             let warm = Duration::from_millis(millis);
             (0..11).filter(|&round| takes_part(warm, round, 11)).count()
@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn ratios_are_taken_within_a_round() {
+    fn ratios_are_computed_within_a_round() {
         let series = |times| Series { name: String::new(), times };
         let a = series(vec![Some(2.0), Some(8.0), None]);
         let b = series(vec![Some(1.0), Some(2.0), Some(1.0)]);

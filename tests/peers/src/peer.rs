@@ -19,22 +19,23 @@ pub trait Peer {
     /// Returns the name in reports.
     fn name(&self) -> String;
 
-    /// Returns whether its picture can be compared with ours: same colors, one sample per pixel.
+    /// Returns whether its picture can be compared with ours, which needs the same colors and one
+    /// sample per pixel.
     fn is_comparable(&self) -> bool;
 
-    /// Draws one frame from the buffers, including the clear but not the readback. This is
-    /// measured.
+    /// Draws one frame from the buffers, including the clear but not the readback. This is the
+    /// measured work.
     fn draw(&mut self);
 
-    /// Returns the last frame drawn, rows from the top; alpha is 0 where nothing was drawn.
+    /// Returns the last frame, in rows from the top. Alpha is 0 where nothing was drawn.
     fn pixels(&mut self) -> Vec<[u8; 4]>;
 }
 
-/// Pixels of the picture.
+/// The number of pixels in the picture.
 pub const AREA: usize = (SIZE.0 * SIZE.1) as usize;
 
-/// Colors, each channel from 0 to 1, stored as the peers' shaders write them: 8 bits per channel,
-/// no sRGB curve.
+/// Converts colors with channels from 0 to 1 to the format that the peers' shaders write: 8 bits
+/// per channel, without the sRGB curve.
 pub struct Quantized;
 
 impl ::raster::Encode<[u8; 4]> for Quantized {
@@ -56,7 +57,8 @@ impl ::raster::Encode<[u8; 4]> for Quantized {
     }
 }
 
-/// At 2²³ floats are whole numbers: the sum rounds, and its last bits are the result.
+/// Converts a channel to 8 bits. From 2²³ up, floats are integers, so the sum is rounded and its
+/// last bits are the result.
 #[inline(always)]
 fn quantized(channel: f32) -> u32 {
     (channel * 255.0 + 8_388_608.0).to_bits() & 255

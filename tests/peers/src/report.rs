@@ -1,4 +1,4 @@
-//! The report: tables for a terminal, and the same figures as JSON.
+//! The report, as tables for a terminal and as JSON.
 
 use crate::contest::{Heat, Threads};
 use crate::features::BASE;
@@ -11,19 +11,19 @@ use std::fmt::Write as _;
 
 /// All measurements.
 pub struct Figures {
-    /// The description that llvmpipe gives of itself, if it was there.
+    /// The name that llvmpipe reports, if it was available.
     pub llvmpipe: Option<String>,
-    /// The version of f3d, if it drew.
+    /// The version of f3d, if it was used.
     pub f3d: Option<String>,
     /// The scenes.
     pub scenes: Vec<Heat>,
     /// The limits of the machine.
     pub bounds: Option<Vec<Series>>,
-    /// One thread against two.
+    /// The comparison of one thread with two.
     pub threads: Vec<Threads>,
     /// The cost of shading features.
     pub features: Vec<Series>,
-    /// From files to pictures.
+    /// The measurements from file to picture.
     pub files: Vec<FileHeat>,
 }
 
@@ -34,25 +34,26 @@ pub fn scene(heat: &Heat) -> String {
     for found in &heat.agreements {
         let _ = writeln!(
             text,
-            "  against {}: {} of {} pixels covered otherwise, {} coloured otherwise",
+            "  compared with {}: {} of {} pixels differ in coverage, {} in color",
             found.peer, found.coverage, found.drawn, found.color
         );
     }
     text
 }
 
-/// Returns the table of the limits.
+/// Returns the table of limits.
 pub fn limits(series: &[Series]) -> String {
-    let mut text = format!("\nlimits: fifty layers, and the kernel, are {KERNEL_PIXELS} pixels\n");
+    let mut text =
+        format!("\nlimits: fifty layers have {KERNEL_PIXELS} pixels, and so does the kernel\n");
     table(&mut text, series, ["clear", "kernel"]);
     text
 }
 
-/// Returns the table of the shading's features.
+/// Returns the table of shading features.
 pub fn features(series: &[Series]) -> String {
     let mut text = String::new();
     if !series.is_empty() {
-        text += "\nfeatures: the flight helmet at 1080p, by `render`\n";
+        text += "\nfeatures: the flight helmet at 1080p, drawn by `render`\n";
         table(&mut text, series, [BASE, "1 sample"]);
     }
     text
@@ -87,16 +88,16 @@ fn table(text: &mut String, series: &[Series], bases: [&str; 2]) {
     }
 }
 
-/// Returns the table of the threads.
+/// Returns the table of threads.
 pub fn threads(threads: &[Threads]) -> String {
     let mut text = String::new();
     if !threads.is_empty() {
-        text += "\ntwo threads: wall time over that of one; CPU time over wall time\n";
+        text += "\ntwo threads: wall time relative to one thread; CPU time relative to wall time\n";
     }
     for Threads { peer, scene, wall, parallel, counted, same } in threads {
-        let wall = wall.map_or("no quiet round".into(), shown);
+        let wall = wall.map_or("no quiet rounds".into(), shown);
         let parallel = parallel.map(shown).unwrap_or_default();
-        let same = if *same { "same picture" } else { "ANOTHER PICTURE" };
+        let same = if *same { "same picture" } else { "DIFFERENT PICTURE" };
         let name = format!("{scene}, {peer}");
         let _ =
             writeln!(text, "  {name:34} {wall:22} {parallel:22} {counted} quiet rounds, {same}");

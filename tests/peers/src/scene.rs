@@ -1,4 +1,5 @@
-//! The compared scenes: plain arrays that every rasterizer draws from, and one camera for all.
+//! The compared scenes, which are plain arrays that all rasterizers draw from, with one camera for
+//! all.
 
 mod floor;
 mod layers;
@@ -18,45 +19,45 @@ use std::ops::Range;
 /// The picture's width and height.
 pub const SIZE: (u32, u32) = (1920, 1080);
 
-/// The direction towards the light, of length 1.
+/// The unit direction toward the light.
 pub const TOWARDS_LIGHT: [f32; 3] = [0.48, 0.6, 0.64];
-/// The share of light that comes from all directions; the rest is directional.
+/// The fraction of light that comes from all directions; the rest is directional.
 pub const AMBIENT: f32 = 0.2;
 
 /// A vertex as stored in the buffers: 32 bytes.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C)]
 pub struct Vertex {
-    /// In world space.
+    /// The position in world space.
     pub position: [f32; 3],
-    /// Of length 1, in world space.
+    /// The unit normal in world space.
     pub normal: [f32; 3],
-    /// Texture coordinates, (0, 0) at the first texel.
+    /// The texture coordinates, with (0, 0) at the first texel.
     pub uv: [f32; 2],
 }
 
-/// An image: 8-bit RGBA, shown as it is, repeated in both directions, bilinear between texels,
+/// An 8-bit RGBA image, shown unchanged, repeated in both directions, and bilinear between texels
 /// without mip maps.
 #[derive(Clone, Debug)]
 pub struct Texture {
-    /// Texels per row.
+    /// The number of texels per row.
     pub width: usize,
-    /// Rows.
+    /// The number of rows.
     pub height: usize,
     /// The texels, row by row.
     pub rgba: Vec<[u8; 4]>,
 }
 
-/// A run of triangles that look alike: `tint` × texture × (ambient + Lambert).
+/// A run of triangles with one material: `tint` × texture × (ambient + Lambert).
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// Its range of the indices.
+    /// The range of its indices.
     pub indices: Range<usize>,
     /// The color.
     pub tint: [f32; 3],
     /// Whether it is lit.
     pub lit: bool,
-    /// The number of its texture.
+    /// The index of its texture.
     pub texture: Option<usize>,
     /// Whether its back is visible too.
     pub two_sided: bool,
@@ -76,11 +77,11 @@ pub enum Lens {
 pub struct Scene {
     /// The name in reports.
     pub name: &'static str,
-    /// A description for people.
+    /// A readable description.
     pub about: String,
     /// All vertices.
     pub vertices: Vec<Vertex>,
-    /// Three for each triangle, counter-clockwise seen from the front.
+    /// Three indices per triangle, counter-clockwise as seen from the front.
     pub indices: Vec<u32>,
     /// The parts, in the order of their triangles.
     pub parts: Vec<Part>,
@@ -90,7 +91,7 @@ pub struct Scene {
     pub camera: Camera,
     /// The projection.
     pub lens: Lens,
-    /// Whether something is behind the eye, where a rasterizer must clip.
+    /// Whether something is behind the eye, so that a rasterizer must clip.
     pub behind_the_eye: bool,
 }
 
@@ -100,7 +101,7 @@ impl Scene {
         self.indices.len() / 3
     }
 
-    /// From the world to clip space in a convention.
+    /// Returns the map from the world to clip space in a convention.
     pub fn world_to_clip(&self, convention: Convention) -> Projective<World, Clip> {
         self.camera.world_to_view().then_project(self.view_to_clip(convention))
     }
@@ -114,7 +115,7 @@ impl Scene {
     }
 }
 
-/// From a texel's channel to the range from 0 to 1.
+/// The factor from a texel's channel to the range from 0 to 1.
 pub const TEXTURE_SCALE: f32 = 1.0 / 255.0;
 
 impl Texture {
@@ -130,8 +131,8 @@ impl Texture {
         Self { width: size, height: size, rgba: (0..size * size).map(texel).collect() }
     }
 
-    /// Returns the color at texture coordinates, 0 to 1 each: the shaders of all Rust rasterizers
-    /// read it like this.
+    /// Returns the color at texture coordinates, with channels from 0 to 1. The shaders of all Rust
+    /// rasterizers use it.
     #[inline]
     pub fn bilinear(&self, [u, v]: [f32; 2]) -> [f32; 3] {
         let (x, y) = (u * self.width as f32 - 0.5, v * self.height as f32 - 0.5);
@@ -149,14 +150,14 @@ impl Texture {
     }
 }
 
-/// Returns the largest whole number not above `x`.
+/// Returns the largest integer not greater than `x`.
 #[inline(always)]
 pub fn floor_of(x: f32) -> i32 {
     let cut = x as i32;
     cut - i32::from(cut as f32 > x)
 }
 
-/// Returns the texel that is read for number `at` of a repeated row.
+/// Returns the texel at index `at` of a repeated row.
 #[inline(always)]
 pub fn wrap(at: i32, size: usize) -> usize {
     if size.is_power_of_two() {
@@ -165,7 +166,7 @@ pub fn wrap(at: i32, size: usize) -> usize {
     at.rem_euclid(size as i32) as usize
 }
 
-/// Returns the share of light that a surface with this normal sends to the eye.
+/// Returns the fraction of light that a surface with this normal reflects to the eye.
 #[inline(always)]
 pub fn light(normal: [f32; 3]) -> f32 {
     let [x, y, z] = normal;
@@ -175,7 +176,7 @@ pub fn light(normal: [f32; 3]) -> f32 {
     AMBIENT + (1.0 - AMBIENT) * cosine.max(0.0)
 }
 
-/// Width over height of the picture.
+/// Returns the aspect ratio of the picture.
 fn aspect() -> f64 {
     f64::from(SIZE.0) / f64::from(SIZE.1)
 }

@@ -1,4 +1,5 @@
-//! euc 0.5, a rasterizer in Rust: float edges, every pixel of a bounding box, no clipping.
+//! euc 0.5, a rasterizer in Rust. It uses float edges, tests every pixel of a bounding box, and
+//! does not clip.
 
 use super::{AREA, Peer, Quantized};
 use crate::scene::{Part, SIZE, Scene, Texture, light};
@@ -8,7 +9,7 @@ use euc::rasterizer::{BackfaceCullingDisabled, BackfaceCullingEnabled, Triangles
 use euc::{Interpolate, Pipeline, Target};
 use projection::Convention;
 
-/// euc with a scene.
+/// The euc rasterizer with a scene.
 pub struct Euc<'a> {
     scene: &'a Scene,
     world_to_clip: [[f32; 4]; 4],
@@ -17,7 +18,7 @@ pub struct Euc<'a> {
 }
 
 impl<'a> Euc<'a> {
-    /// One sample and one thread: it supports no more.
+    /// Creates the rasterizer with one sample and one thread, because it supports no more.
     pub fn new(scene: &'a Scene) -> Self {
         let size = [SIZE.0 as usize, SIZE.1 as usize];
         let matrix = scene.world_to_clip(Convention::OPENGL).raw().as_mat4();

@@ -1,5 +1,5 @@
-//! Mesa's llvmpipe: OpenGL on the processor, shaders compiled to machine code, one thread
-//! (`LP_NUM_THREADS=0`).
+//! Mesa's llvmpipe, which runs OpenGL on the processor, with shaders compiled to machine code and
+//! one thread (`LP_NUM_THREADS=0`).
 
 use super::Peer;
 use crate::gl::{Context, Framebuffer, Part as GlPart, Program};
@@ -46,10 +46,10 @@ void main() {{
     )
 }
 
-/// llvmpipe with a scene.
+/// The llvmpipe rasterizer with a scene.
 pub struct Llvmpipe {
     gl: Rc<Context>,
-    /// The render target; with several samples, `resolved` gets their means.
+    /// The render target. With several samples, `resolved` receives their means.
     target: Framebuffer,
     resolved: Option<Framebuffer>,
     samples: u32,
@@ -73,7 +73,7 @@ impl Llvmpipe {
         let mut parts = Vec::new();
         for part in &scene.parts {
             let kind = usize::from(part.lit) * 2 + usize::from(part.texture.is_some());
-            let program = programs[kind].ok_or("a kind of part without a shader")?;
+            let program = programs[kind].ok_or("missing shader for a kind of part")?;
             let texture = part.texture.map(|at| textures[at]);
             let (indices, cull) = (part.indices.clone(), !part.two_sided);
             parts.push((program, geometry.part(indices, part.tint, texture, cull)?));

@@ -1,5 +1,5 @@
-//! The shader of our rasterizer: tint × texture × light, like the GLSL of the other peer, for eight
-//! fragments at once.
+//! The shader of our rasterizer, which computes tint × texture × light for eight fragments at once,
+//! like the GLSL of the other peer.
 
 use crate::scene::{Scene, TEXTURE_SCALE, Texture, Vertex, floor_of, light, wrap};
 use raster::{F32x8, Fragment, Fragments, LANES, Surface};
@@ -11,7 +11,7 @@ pub struct Look<'a> {
     parts: Vec<u32>,
 }
 
-/// The interpolated values: normal and texture coordinates.
+/// The interpolated values: the normal and the texture coordinates.
 const VARYING: usize = 5;
 
 impl<'a> Look<'a> {
@@ -30,7 +30,7 @@ impl<'a> Look<'a> {
         [at(0), at(1), at(2)]
     }
 
-    /// Normals and texture coordinates.
+    /// Interpolates normals and texture coordinates.
     #[inline(always)]
     fn varying(&self, fragments: &Fragments<'_>) -> [F32x8; VARYING] {
         let mut varying = [[0.0; LANES]; VARYING];
@@ -77,7 +77,7 @@ impl Surface for Look<'_> {
     }
 
     fn shade(&self, _: &Fragment<'_>) -> [f32; 4] {
-        unreachable!("colours are asked for eight at a time")
+        unreachable!("colors are requested eight at a time")
     }
 
     #[inline(always)]
@@ -135,7 +135,7 @@ impl Look<'_> {
     }
 }
 
-/// [`Texture::bilinear`] for eight fragments.
+/// Evaluates [`Texture::bilinear`] for eight fragments.
 #[inline(always)]
 fn bilinear(texture: &Texture, u: F32x8, v: F32x8) -> [F32x8; 3] {
     let (width, height) = (texture.width, texture.height);

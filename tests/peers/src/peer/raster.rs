@@ -1,5 +1,5 @@
-//! The crate `raster` with the stages before it and a shader written for this comparison, which
-//! does what the other peers do and no more.
+//! The crate `raster` with the preceding stages and a shader written for this comparison, which
+//! does exactly what the other peers do.
 
 use super::look::Look;
 use super::{AREA, Peer, Quantized};
@@ -24,11 +24,11 @@ pub struct Raster<'a> {
     volume: Volume,
     frame: Frame,
     positions: Vec<[f32; 3]>,
-    /// Of the box around them.
+    /// The corners of the box around the positions.
     corners: [[f32; 3]; 8],
     /// The clusters of each part, built once like vertex buffers.
     clusters: Vec<Clusters>,
-    /// The portion of each part drawn now.
+    /// The selection of each part that is currently drawn.
     selections: Vec<MeshSelection>,
     clip: Vec<HPoint<Clip>>,
     codes: Vec<Outcode>,
@@ -39,7 +39,7 @@ pub struct Raster<'a> {
 }
 
 impl<'a> Raster<'a> {
-    /// Uses `samples` per pixel and this many threads.
+    /// Creates the rasterizer with `samples` per pixel and this many threads.
     pub fn new(scene: &'a Scene, samples: Samples, threads: usize) -> Result<Self, String> {
         let viewport = Viewport::image_for(SIZE.0, SIZE.1, ClipRange::CHAPTER)
             .map_err(|error| error.to_string())?;
@@ -75,7 +75,7 @@ impl<'a> Raster<'a> {
         Self { frame, baseline: true, ..self }
     }
 
-    /// The vertices on the screen and, if some may need clipping, in clip space too.
+    /// Projects the vertices to the screen and, if some may need clipping, also to clip space.
     fn vertices(&mut self) {
         let simd_level = self.frame.simd_level();
         let mut corners = [HPoint::new(0.0, 0.0, 0.0, 1.0); 8];
@@ -136,7 +136,8 @@ impl<'a> Raster<'a> {
         for (part, selection) in scene.parts.iter().zip(&selections) {
             let first = (part.indices.start / 3) as u32;
             let triangles = scene.indices[part.indices.clone()].as_chunks::<3>().0;
-            // Counter-clockwise in the world is negative on a screen whose y runs down.
+            // Counter-clockwise triangles in the world have negative area on a screen whose y
+            // points down.
             let cull = if part.two_sided { CullMode::Nothing } else { CullMode::Clockwise };
             let runs = selection.triangles();
             let mesh = MeshTriangles {
@@ -162,7 +163,7 @@ impl<'a> Raster<'a> {
         self.selections = selections;
     }
 
-    /// A triangle that reaches beyond the near or far plane or the guard band.
+    /// Clips a triangle that extends beyond the near or far plane or the guard band.
     fn cut(&mut self, corners: [u32; 3], id: u32, part: &Part) {
         let points = corners.map(|at| self.clip[at as usize]);
         if !Outcode::trivially_rejects(&points.map(|point| self.volume.outcode(point))).is_inside()
@@ -186,7 +187,7 @@ fn clusters(scene: &Scene, part: &Part, positions: &[[f32; 3]]) -> Clusters {
     Clusters::build(positions, triangles, !part.two_sided)
 }
 
-/// Returns the corners of the box around positions.
+/// Returns the corners of the bounding box of positions.
 fn corners(positions: &[[f32; 3]]) -> [[f32; 3]; 8] {
     let (mut least, mut greatest) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
     for position in positions {

@@ -1,8 +1,8 @@
-//! The whole of `pipeline::render`: our rasterizer with the shading of the finished program,
+//! The whole of `pipeline::render`: our rasterizer with the shading of the finished program, with
 //! colors in linear light.
 //!
-//! It does more than the peers: it evaluates materials, and colors go through the sRGB curve both
-//! ways. People wait for a whole frame of the program, so it is listed next to the bare rasterizer.
+//! It does more than the peers: it evaluates materials, and converts colors from and to sRGB. It is
+//! listed next to the bare rasterizer because users wait for a whole frame of the program.
 
 use super::Peer;
 use crate::scene::{AMBIENT, Part, SIZE, Scene, TOWARDS_LIGHT, Texture};
@@ -22,7 +22,7 @@ use std::f32::consts::PI;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The pipeline with a scene.
+/// The whole pipeline with a scene.
 pub struct Render {
     scene: pipeline::Scene,
     textures: Textures<'static>,
@@ -32,7 +32,7 @@ pub struct Render {
 }
 
 impl Render {
-    /// Uses `samples` per pixel and this many threads.
+    /// Creates the pipeline with `samples` per pixel and this many threads.
     pub fn new(scene: &Scene, samples: Samples, threads: usize) -> Result<Self, String> {
         let lux = |share: f32| [share * PI; 3];
         let (width, height) = SIZE;
@@ -51,7 +51,7 @@ impl Render {
         let image = ImageSpec { samples, ..ImageSpec::new(width, height) };
         let scene =
             pipeline::Scene { lights, ..pipeline::Scene::new(models, view_projection, image) };
-        // They live as long as the process: there are few, and their textures refer to them.
+        // They are leaked, because there are few and their textures refer to them.
         let models: &'static [ModelInstance] = scene.models.clone().leak();
         Ok(Self {
             scene,
@@ -86,7 +86,7 @@ impl Peer for Render {
     }
 }
 
-/// Returns the scene as the importer would have read it: one node, one mesh, one primitive per
+/// Returns the scene as the importer would read it, with one node, one mesh, and one primitive per
 /// part.
 fn model(scene: &Scene) -> Result<Model, String> {
     let one_node = one_node()?;
@@ -95,7 +95,7 @@ fn model(scene: &Scene) -> Result<Model, String> {
         primitives: numbered().map(|(number, part)| primitive(scene, part, number)).collect(),
         ..Mesh::default()
     };
-    // No mip maps, like the peers.
+    // Like the peers, it uses no mip maps.
     let sampler = Sampler { mipmap_mode: MipmapMode::None, ..Sampler::default() };
     let count = scene.textures.len();
     Ok(Model {
@@ -107,14 +107,14 @@ fn model(scene: &Scene) -> Result<Model, String> {
     })
 }
 
-/// Returns a model with one node that shows mesh 0 without a transform: the importer's result for
-/// the simplest file.
+/// Returns a model with one node that shows mesh 0 without a transform, which is the importer's
+/// result for the simplest file.
 fn one_node() -> Result<Model, String> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("node.gltf");
     load(&file, &ImportOptions::default()).map_err(|error| error.to_string())
 }
 
-/// Returns the part with the vertices it uses, renumbered.
+/// Returns the part with only the vertices it uses, renumbered.
 fn primitive(scene: &Scene, part: &Part, number: usize) -> Primitive {
     let mut places = vec![u32::MAX; scene.vertices.len()];
     let mut used = Vec::new();

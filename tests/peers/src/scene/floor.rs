@@ -1,15 +1,15 @@
-//! A tiled floor that passes under and behind the eye: the cost of clipping, and of textures at a
-//! slant.
+//! A tiled floor that passes under and behind the eye, for the cost of clipping and of oblique
+//! textures.
 
 use super::{Lens, Part, Scene, Texture, Vertex, aspect};
 use camera::Camera;
 use homog::{Point, Vector};
 use projection::{Fov, Perspective};
 
-/// Squares of the floor along each side.
+/// The number of squares along each side of the floor.
 const SIDE: u32 = 200;
 
-/// Returns the floor, `SIDE` × `SIDE` squares around the eye.
+/// Returns the floor, which has `SIDE` × `SIDE` squares around the eye.
 pub fn floor(name: &'static str) -> Result<Scene, String> {
     let place = |n: u32| n as f32 - SIDE as f32 / 2.0;
     let vertices: Vec<Vertex> = (0..=SIDE)

@@ -1,20 +1,21 @@
-//! Full-screen layers, one behind the other: the cost of overdraw.
+//! Full-screen layers, one behind the other, for the cost of overdraw.
 
 use super::{Lens, Part, SIZE, Scene, Texture, Vertex};
 use camera::Camera;
 use homog::{Point, Vector};
 use projection::Orthographic;
 
-/// The order in which the layers are given.
+/// The order in which the layers are drawn.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Order {
-    /// The farthest first: every layer is visible until the next one hides it.
+    /// The farthest layer first, so that every layer is visible until the next layer hides it.
     BackToFront,
-    /// The nearest first: all others are hidden.
+    /// The nearest layer first, so that all others are hidden.
     FrontToBack,
 }
 
-/// `count` layers, each of two triangles and one color, some with a texture of 256 × 256 texels.
+/// Returns `count` layers, each with two triangles and one color, some with a texture of 256 × 256
+/// texels.
 pub fn layers(
     name: &'static str,
     count: usize,
@@ -29,9 +30,10 @@ pub fn layers(
         let away = if order == Order::BackToFront { count - layer } else { layer + 1 };
         let first = vertices.len() as u32;
         for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
-            // Layers are slightly tilted, so that depth must be interpolated.
+            // The layers are slightly tilted, so that depth must be interpolated.
             let z = -(away as f32) - 0.2 * x;
-            // One texel per pixel, slightly off, so that all four texels around a pixel count.
+            // There is one texel per pixel, with a slight offset, so that all four texels around a
+            // pixel count.
             let uv = [x * 0.97 * width / 256.0, y * 0.97 * height / 256.0];
             vertices.push(Vertex { position: [x, y, z], normal: [0.0, 0.0, 1.0], uv });
         }

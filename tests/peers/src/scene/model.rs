@@ -1,4 +1,4 @@
-//! A model of the shared assets as plain arrays: the cost of an ordinary textured model.
+//! A model from the shared assets as plain arrays, for the cost of an ordinary textured model.
 
 use super::{Lens, Part, Scene, Texture, Vertex, aspect};
 use camera::{NamedView, Slopes, frame_perspective};
@@ -15,7 +15,7 @@ pub fn assets() -> Option<PathBuf> {
     folder.is_dir().then_some(folder)
 }
 
-/// Returns the flight helmet: base colors from textures, and Lambert's law.
+/// Returns the flight helmet with base colors from textures and Lambert's law.
 pub fn helmet(name: &'static str, folder: &Path) -> Result<Scene, String> {
     let path = folder.join("models/flight-helmet/FlightHelmet.gltf");
     let model = load(&path, &ImportOptions::default()).map_err(|error| error.to_string())?;
@@ -29,7 +29,7 @@ pub fn helmet(name: &'static str, folder: &Path) -> Result<Scene, String> {
     Ok(scene)
 }
 
-/// Returns the scene without triangles: camera, lens and textures.
+/// Returns the scene with its camera, lens and textures, but without triangles.
 fn framed(name: &'static str, model: &Model) -> Result<Scene, String> {
     let fov = Fov::vertical_degrees(35.0);
     let half = fov.half_slopes(aspect()).map_err(|error| error.to_string())?;

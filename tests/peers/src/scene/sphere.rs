@@ -1,4 +1,4 @@
-//! A bumpy sphere of a million triangles or more: the cost of geometry.
+//! A bumpy sphere of a million triangles or more, for the cost of geometry.
 
 use super::{Lens, Part, Scene, Vertex, aspect};
 use camera::Camera;
@@ -6,8 +6,8 @@ use homog::{Point, Vector};
 use projection::{Fov, Perspective};
 use std::f64::consts::{PI, TAU};
 
-/// Returns a sphere of `rows` × 2 `rows` quads: 4 `rows`² triangles. Half of them face away and are
-/// skipped unless both sides are drawn.
+/// Returns a sphere of `rows` × 2 `rows` quads, which are 4 `rows`² triangles. Half of them face
+/// away and are skipped unless both sides are drawn.
 pub fn sphere(name: &'static str, rows: u32, two_sided: bool) -> Result<Scene, String> {
     let vertices: Vec<Vertex> = (0..=rows)
         .flat_map(|i| (0..=2 * rows).map(move |j| (i, j)))
@@ -39,7 +39,8 @@ pub fn sphere(name: &'static str, rows: u32, two_sided: bool) -> Result<Scene, S
     })
 }
 
-/// Returns the vertex at a position in the unit square, `down` from pole to pole and `around`.
+/// Returns the vertex at a position in the unit square, where `down` runs from pole to pole and
+/// `around` along the equator.
 fn vertex(down: f64, around: f64) -> Vertex {
     let step = 1e-4;
     let p = place(down, around);
@@ -47,7 +48,7 @@ fn vertex(down: f64, around: f64) -> Vertex {
     let (a, b) = (along(place(down + step, around)), along(place(down, around + step)));
     let normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
     let length = (normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]).sqrt();
-    // At the poles the step around has zero length.
+    // At the poles, the step around has zero length.
     let normal = if length > 1e-12 { normal.map(|c| c / length) } else { p };
     let narrow = |v: [f64; 3]| v.map(|c| c as f32);
     Vertex { position: narrow(p), normal: narrow(normal), uv: [around as f32, down as f32] }
