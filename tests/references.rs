@@ -1,12 +1,12 @@
-//! Reference pictures: ours must be equal except for invisible differences.
+//! Compares our pictures with reference pictures: only invisible differences are allowed.
 //!
-//! There are two sets. [`analytic`] computes one by ray tracing and the formulas of the
-//! specification. The other was made with three.js: the folder `$REFERENCES`, or
+//! There are two sets. [`analytic`] computes the first set by ray tracing with the formulas of the
+//! specification. The second set was made with three.js. It is in the folder `$REFERENCES`, or in
 //! `shared/references` next to the repository, with its models below `$ASSETS` or `shared/assets`.
-//! Each `NAME.json` states the camera, lights and time of `NAME.png`. The real program renders the
-//! same scene, and the two pictures are scored. `NAME.png` in the printed folder shows ours, the
-//! reference and the difference side by side. The limits are in `limits.rs`. Arguments that are not
-//! flags select pictures by part of their name.
+//! Each `NAME.json` specifies the camera, lights and time of `NAME.png`. The real program renders
+//! the same scene, and the two pictures are scored. `NAME.png` in the printed folder shows ours,
+//! the reference and the difference side by side. The limits are in `limits.rs`. Arguments that are
+//! not flags select pictures by part of their name.
 
 mod analytic;
 mod limits;
@@ -74,7 +74,7 @@ fn reference_names(references: &Path) -> Result<Vec<String>, String> {
     Ok(names)
 }
 
-/// A picture to render and to score.
+/// A picture to render and score.
 struct Job<'a> {
     program: &'a Path,
     references: &'a Path,
@@ -84,8 +84,8 @@ struct Job<'a> {
 }
 
 impl Job<'_> {
-    /// Renders the picture and scores it; returns the score, its limits, and the reason if they are
-    /// not the default ones.
+    /// Renders the picture and scores it. Returns the score, its limits, and the reason if the
+    /// limits are not the default.
     fn run(&self) -> Result<(Score, limits::Limits, &'static str), String> {
         let file = |ending: &str| self.references.join(format!("{}.{ending}", self.name));
         let setup = Setup::read_json(&file("json"))?;

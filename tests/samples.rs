@@ -1,9 +1,9 @@
-//! A corpus of small glTF files that this code writes: ordinary, odd and broken ones, with the
+//! A corpus of small glTF files written by this code: ordinary, odd and broken files, with the
 //! expected outcome of each.
 //!
-//! The tests `corpus` and `check` run on it in every clone. `models` holds valid files, `bad`
-//! broken ones; the manifest lists the errors that the Khronos glTF validator reports for each, and
-//! what rendering does with it.
+//! The tests `corpus` and `check` run on it in every clone. `models` contains valid files, `bad`
+//! contains broken files. For each file, the manifest lists the errors that the Khronos glTF
+//! validator reports and the outcome of rendering.
 
 mod broken;
 mod containers;
@@ -18,12 +18,12 @@ use std::path::Path;
 #[derive(Clone, Debug)]
 pub struct Sample {
     row: Row,
-    /// File names and bytes; the row names the first file.
+    /// The file names and contents; the row names the first file.
     files: Vec<(String, Vec<u8>)>,
 }
 
 impl Sample {
-    /// Creates a valid file that is drawn; `triangles` as a manifest counts them.
+    /// Creates a valid file that is drawn. `triangles` is the count in a manifest.
     fn valid(name: &str, file_name: &str, bytes: Vec<u8>, triangles: usize) -> Self {
         let row = Row {
             path: format!("models/{name}/{file_name}"),
@@ -34,7 +34,7 @@ impl Sample {
         Self { row, files: vec![(file_name.to_owned(), bytes)] }
     }
 
-    /// Creates a broken file with the errors that a validator reports.
+    /// Creates a broken file, with the errors that a validator reports.
     fn broken(name: &str, file_name: &str, bytes: Vec<u8>, errors: &[&str]) -> Self {
         let row = Row {
             path: format!("bad/{name}/{file_name}"),
@@ -50,7 +50,8 @@ impl Sample {
         self
     }
 
-    /// States a different rendering outcome: `drawn`, `blank`, or part of the reason for a refusal.
+    /// States a different rendering outcome: `drawn`, `blank`, or part of the reason for a
+    /// rejection.
     fn expect(mut self, outcome: &str) -> Self {
         self.row.expected = Some(outcome.to_owned());
         self
@@ -76,7 +77,7 @@ pub fn all_samples() -> Result<Vec<Sample>, String> {
 /// Writes all samples and their `MANIFEST.tsv` to a folder, which is created if necessary.
 ///
 /// # Errors
-/// If a file cannot be written; the text names it.
+/// If a file cannot be written; the message names it.
 pub fn write_samples(folder: &Path) -> Result<(), String> {
     let samples = all_samples()?;
     for sample in &samples {
@@ -102,8 +103,8 @@ fn triangle() -> Document {
         .with_value("/accessors/0/max", json!([1, 1, 0]))
 }
 
-/// Returns a valid quad of two triangles with normals and texture coordinates: accessors 0 to 3 are
-/// positions, normals, texture coordinates and indices.
+/// Returns a valid quad of two triangles. Accessors 0 to 3 are positions, normals, texture
+/// coordinates and indices.
 fn quad() -> Document {
     let mut document = triangle();
     document.bytes.clear();
@@ -124,7 +125,7 @@ fn quad() -> Document {
     )
 }
 
-/// Returns a quad with a base color texture of 2 × 2 pixels and this material.
+/// Returns a quad with a 2 × 2 base color texture and this material.
 fn textured_quad(material: &Value) -> Document {
     let mut document = quad();
     let view = document.add_buffer_view(&crate::gltf::encode_png(2, 2));
@@ -133,8 +134,8 @@ fn textured_quad(material: &Value) -> Document {
     quad_material(document, material)
 }
 
-/// Returns the document with a material on its first primitive, and the material's extensions
-/// listed.
+/// Returns the document with a material on its first primitive, and lists the material's
+/// extensions.
 fn quad_material(mut document: Document, material: &Value) -> Document {
     if let Some(extensions) = material["extensions"].as_object() {
         let names: Vec<&String> = extensions.keys().collect();
@@ -164,7 +165,7 @@ fn add_indices(document: &mut Document, indices: &[u16]) -> usize {
     document.add_accessor(&bytes, accessor)
 }
 
-/// Adds times with their bounds, as an animation needs them, and returns the index of the accessor.
+/// Adds times with their bounds, as required for an animation, and returns the accessor index.
 fn add_times(document: &mut Document, times: &[f32]) -> usize {
     let index = add_floats(document, "SCALAR", times);
     document.json["accessors"][index]["min"] = json!([times.first()]);
@@ -178,14 +179,14 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn every_sample_has_a_path_of_its_own() {
+    fn every_sample_has_a_unique_path() {
         let samples = all_samples().unwrap();
         let paths: BTreeSet<&str> = samples.iter().map(|sample| &*sample.row.path).collect();
         assert_eq!(paths.len(), samples.len());
     }
 
     #[test]
-    fn broken_samples_state_their_errors_and_valid_ones_have_none() {
+    fn broken_samples_state_their_errors_and_valid_samples_have_none() {
         for sample in all_samples().unwrap() {
             let is_bad = sample.row.group() == "bad";
             assert_eq!(sample.row.validator_errors.is_empty(), !is_bad, "{}", sample.row.path);

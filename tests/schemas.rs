@@ -1,6 +1,6 @@
-//! The program's JSON documents against the published JSON Schemas, with a validator for draft
-//! 2020-12. Commands run over all scenes, models in all formats, broken files and the explorer;
-//! `validate.py` does the rest.
+//! Checks the program's JSON documents against the published JSON Schemas with a validator for
+//! draft 2020-12. The commands cover all scenes, models in all formats, broken files and the
+//! explorer. `validate.py` validates their output.
 
 mod documents;
 mod server;
@@ -38,7 +38,7 @@ fn schema_folder() -> PathBuf {
     project_root().join("docs/schemas")
 }
 
-/// Returns all schemas, by name and file.
+/// Returns all schemas with their names and files.
 fn schema_files() -> Result<Vec<(String, PathBuf)>, String> {
     let folder = schema_folder();
     let entries =
@@ -54,7 +54,7 @@ fn schema_files() -> Result<Vec<(String, PathBuf)>, String> {
     Ok(files)
 }
 
-/// `reference --schema` prints the file, and the file has its name.
+/// Checks that `reference --schema` prints the file, and that the file contains its name.
 fn check_printed(program: &Path, name: &str, path: &Path) -> Result<(), String> {
     let output = Command::new(program).args(["reference", "--schema", name]).output();
     let output = output.map_err(|error| error.to_string())?;
@@ -70,7 +70,7 @@ fn check_printed(program: &Path, name: &str, path: &Path) -> Result<(), String> 
     Ok(())
 }
 
-/// An unknown name is wrong usage, and the message lists the known ones.
+/// Checks that an unknown name is a usage error and that the message lists the known names.
 fn check_unknown_name(program: &Path) -> Result<(), String> {
     let output = Command::new(program).args(["reference", "--schema", "nonsense"]).output();
     let output = output.map_err(|error| error.to_string())?;
@@ -80,14 +80,14 @@ fn check_unknown_name(program: &Path) -> Result<(), String> {
     is_right.then_some(()).ok_or_else(|| format!("{}: {said}", output.status))
 }
 
-/// The explanation in the explorer's answers has the schema of `explain`.
+/// Checks that the explanation in the explorer's answers has the schema of `explain`.
 fn check_embedded() -> Result<(), String> {
     let read = |name: &str| read_json(&schema_folder().join(format!("{name}.schema.json")));
     let mut explain = read("explain")?;
     explain.as_object_mut().ok_or("it is not an object")?.remove("$schema");
     for name in ["explore-state", "explore-pick"] {
         if read(name)?["$defs"]["explanation"] != explain {
-            return Err(format!("`explanation` of {name} is not explain.schema.json"));
+            return Err(format!("`explanation` of {name} does not match explain.schema.json"));
         }
     }
     Ok(())
@@ -98,7 +98,7 @@ fn read_json(path: &Path) -> Result<Value, String> {
     serde_json::from_slice(&text).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// Returns the documents of all commands.
+/// Returns the documents from all commands.
 fn collect_documents(
     program: &Path,
     arguments: &Arguments,
@@ -135,7 +135,8 @@ fn validate_documents(documents: &[Document], tally: &mut Tally) -> Result<(), S
     fs::write(&file, lines).map_err(|error| format!("{}: {error}", file.display()))?;
     let script = project_root().join("tests/schemas/validate.py");
     let Some(python) = python_with_validator() else {
-        tally.skip("schemas", "there is no Python with jsonschema (Debian: python3-jsonschema)");
+        tally
+            .skip("schemas", "jsonschema is not installed for Python (Debian: python3-jsonschema)");
         return Ok(());
     };
     let output = Command::new(python).arg(script).arg(schema_folder()).arg(&file).output();
@@ -153,7 +154,7 @@ fn validate_documents(documents: &[Document], tally: &mut Tally) -> Result<(), S
     Ok(())
 }
 
-/// Returns a Python that has the validator: the one in the path, or the system's.
+/// Returns a Python that has the validator: the first in the path, or the system's.
 fn python_with_validator() -> Option<&'static str> {
     let has_validator = |python: &&str| {
         let call = "from jsonschema import Draft202012Validator";

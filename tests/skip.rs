@@ -1,4 +1,4 @@
-//! Reports what a test could not do here, where nobody can miss it.
+//! Reports the parts of tests that cannot run here, where nobody can overlook them.
 
 use std::fs::OpenOptions;
 use std::io::Write;
@@ -9,13 +9,13 @@ use std::io::Write;
 /// end of that file. `cargo xtask test` repeats those lines in its summary, even if a harness
 /// captures the output of a test.
 pub fn report_skip(name: &str, reason: &str) {
-    // A reason may be the output of another program: its first line is enough.
+    // A reason may be the output of another program, of which the first line is enough.
     let reason = reason.lines().next().unwrap_or_default();
     let line = format!("SKIPPED {name}: {reason}\n");
-    // Not `eprint!`, which Rust's test harness captures.
+    // Rust's test harness would capture `eprint!`.
     let _ = std::io::stderr().write_all(line.as_bytes());
     let Some(path) = std::env::var_os("SKIP_LOG") else { return };
     let log = OpenOptions::new().create(true).append(true).open(path);
-    // One call, so that lines from other processes do not come between.
+    // A single call prevents interleaving with lines from other processes.
     let _ = log.and_then(|mut log| log.write_all(line.as_bytes()));
 }

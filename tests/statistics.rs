@@ -1,27 +1,27 @@
-//! Picture statistics: five numbers that reveal problems with the light.
+//! Picture statistics, which are five numbers that reveal lighting problems.
 
 use pipeline::Picture;
 
 /// Statistics of the covered pixels of a picture, which are at least half opaque.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct PictureStatistics {
-    /// The share of the picture that is covered, from 0 to 1.
+    /// The fraction of the picture that is covered.
     pub cover: f64,
-    /// The share of covered pixels with code 255 in all channels.
+    /// The fraction of covered pixels with code 255 in all channels.
     pub white: f64,
-    /// The share of covered pixels below code 5 in all channels.
+    /// The fraction of covered pixels below code 5 in all channels.
     pub black: f64,
-    /// Their mean code, over all channels.
+    /// The mean code of covered pixels over all channels.
     pub mean: f64,
-    /// The difference between two codes: the one that 5 % of the pixels stay below, and the one
-    /// that 95 % stay below. It is the largest of the three channels.
+    /// The difference between the 5th and 95th percentiles of the codes, in the channel where it is
+    /// largest.
     pub contrast: u8,
     /// The maximum code in any channel.
     pub brightest: u8,
 }
 
 impl PictureStatistics {
-    /// Returns the statistics of a picture; all 0 if nothing is covered.
+    /// Returns the statistics of a picture, which are all 0 if nothing is covered.
     #[must_use]
     pub fn of_picture(picture: &Picture) -> Self {
         let covered = || picture.pixels.iter().filter(|pixel| pixel[3] >= 128);
@@ -57,7 +57,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_transparent_does_not_count() {
+    fn transparent_pixels_do_not_count() {
         let mut picture = Picture::default();
         picture.resize(4, 1);
         assert_eq!(PictureStatistics::of_picture(&picture), PictureStatistics::default());

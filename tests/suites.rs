@@ -1,11 +1,11 @@
 //! The table-driven test suites in one program: `suites NAME [FILTER…]` runs one of them.
 //!
-//! Their cases are files found at run time, so they do not use Rust's test harness; see
-//! `harness.rs` for what they share. They are one program because each would link the whole engine.
+//! Their cases are files found at run time, so they do not use Rust's test harness but share
+//! `harness.rs`. They are one program because each separate program would link the whole engine.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a test program prints its results")]
-#![allow(missing_docs, unreachable_pub, reason = "in a program `pub` means: used by another file")]
-#![allow(dead_code, reason = "the helpers of another crate's tests are used in part")]
+#![allow(missing_docs, unreachable_pub, reason = "in a program, `pub` means used by another file")]
+#![allow(dead_code, reason = "only some helpers from another crate's tests are used")]
 
 mod assemblies;
 mod check;
@@ -24,7 +24,7 @@ mod vectors;
 
 use std::process::ExitCode;
 
-/// The `run` of a suite.
+/// The `run` function of a suite.
 type Suite = fn() -> ExitCode;
 
 /// The suites by name.
@@ -53,6 +53,7 @@ fn main() -> ExitCode {
     }
     let names: Vec<&str> = SUITES.iter().map(|(name, _)| *name).collect();
     eprintln!("usage: suites NAME [FILTER…], where NAME is one of {}", names.join(", "));
-    // `cargo test` without arguments runs every program: those suites are steps of `cargo xtask test`.
+    // `cargo test` without arguments runs every program, but these suites are steps of `cargo xtask
+    // test`.
     ExitCode::from(if name.is_some() { 2 } else { 0 })
 }

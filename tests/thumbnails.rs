@@ -1,8 +1,8 @@
-//! Every format gets a thumbnail from a real thumbnail service, through the files that
+//! Checks that a real thumbnail service makes a thumbnail for every format, using the files that
 //! `alberti thumbnailer --install` writes.
 //!
-//! The service is tumbler, from Xfce. It runs on a separate message bus, without a display, in
-//! folders of the test. If it is not installed, the step is reported as skipped; `.ci/run` installs
+//! The service is tumbler, from Xfce. It runs on a separate message bus, without a display, in the
+//! test's own folders. If it is not installed, the step is reported as skipped; `.ci/run` installs
 //! it if it can.
 
 mod samples;
@@ -14,7 +14,7 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-/// The requested side of the thumbnails: `normal` in the specification.
+/// The requested side length of the thumbnails, which the specification calls `normal`.
 const SIDE: &str = "128";
 
 pub fn run() -> ExitCode {
@@ -32,14 +32,14 @@ pub fn run() -> ExitCode {
         }
         let outcome = match made.get(samples::BROKEN) {
             None => Ok(()),
-            Some(_) => Err("there is a thumbnail of a broken file".to_owned()),
+            Some(_) => Err("a broken file has a thumbnail".to_owned()),
         };
         tally.record(samples::BROKEN, outcome);
         Ok(tally)
     })
 }
 
-/// Names the missing programs, with their Debian packages.
+/// Returns a message that names the missing programs and their Debian packages.
 fn missing_program() -> Option<String> {
     let names = [
         ("dbus-run-session", "dbus-daemon"),
@@ -63,7 +63,7 @@ struct ThumbnailService {
 }
 
 impl ThumbnailService {
-    /// Writes the files that get thumbnails, and installs the thumbnailer.
+    /// Writes the files for which thumbnails are requested, and installs the thumbnailer.
     fn prepare(folder: &Path) -> Result<Self, String> {
         let service = Self { folder: folder.to_owned(), program: alberti_tests::program_path()? };
         for part in ["models", "cache", "home", "run"] {
@@ -97,8 +97,8 @@ impl ThumbnailService {
         Err(format!("{} failed: {said}{text}", command.get_program().display()))
     }
 
-    /// Asks the service for thumbnails of all files, the broken one first, and waits for them;
-    /// returns the thumbnails by file name.
+    /// Requests thumbnails of all files from the service, starting with the broken file, and waits
+    /// for them. Returns the thumbnails by file name.
     fn queue_files(&self) -> Result<BTreeMap<String, PathBuf>, String> {
         let names: Vec<&str> = [samples::BROKEN].into_iter().chain(samples::SHOWN).collect();
         let uris = names
@@ -120,9 +120,9 @@ impl ThumbnailService {
         Ok(made)
     }
 
-    /// The thumbnail of a file is the picture that the program renders of it.
+    /// Checks that the thumbnail of a file is the picture that the program renders from it.
     fn check_thumbnail(&self, name: &str, made: &BTreeMap<String, PathBuf>) -> Result<(), String> {
-        let thumbnail = made.get(name).ok_or("the service made no thumbnail")?;
+        let thumbnail = made.get(name).ok_or("the service did not make a thumbnail")?;
         let expected = self.folder.join("expected.png");
         let model = self.folder.join("models").join(name);
         let mut thumbnailer = Command::new(&self.program);
@@ -141,12 +141,12 @@ impl ThumbnailService {
         {
             return Ok(());
         }
-        Err("the thumbnail is another picture than that of the program".to_owned())
+        Err("the thumbnail differs from the picture of the program".to_owned())
     }
 }
 
-/// Queues files and types, and ends once there are as many thumbnails as the last argument says, or
-/// after a minute. The service notifies only the requester, which has ended by then.
+/// Queues files and types, and ends after a minute or once the number of thumbnails reaches the
+/// last argument. The service notifies only the requester, which has ended by then.
 const SESSION: &str = r#"
 name=org.freedesktop.thumbnails.Thumbnailer1
 path=/org/freedesktop/thumbnails/Thumbnailer1
@@ -160,7 +160,7 @@ until [ "$(find "$XDG_CACHE_HOME" -name '*.png' | wc -l)" -ge "$3" ]; do
 done
 "#;
 
-/// Returns the file that a thumbnail belongs to, according to the thumbnail itself.
+/// Returns the file to which a thumbnail belongs, according to the thumbnail itself.
 fn thumbnail_uri(path: &Path) -> Result<String, String> {
     let problem = |error: String| format!("{}: {error}", path.display());
     let file = File::open(path).map_err(|error| problem(error.to_string()))?;

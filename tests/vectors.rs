@@ -1,12 +1,12 @@
 //! Exact vectors: one JSON file per topic, computed elsewhere with rational or 50-digit arithmetic.
 //!
-//! The files and their format are in `tests/vectors/data`; `$VECTORS` names another folder. A file
-//! without a runner is a failure, so that none is skipped silently. Arguments that are not flags
-//! select files by part of their name.
+//! The files and a description of their format are in `tests/vectors/data`; `$VECTORS` selects
+//! another folder. A file without a runner is a failure, so that no file is skipped silently.
+//! Arguments that are not flags select files by part of their name.
 //!
-//! A runner tests one case: `fn(in, out) -> Result<(), String>`, where the error says what differs.
-//! Cases whose exact answer depends on a tie are marked `"fragile": true`: they run, because they
-//! must not panic, but are not compared.
+//! A runner tests one case: `fn(in, out) -> Result<(), String>`, where the error describes the
+//! difference. Cases whose exact answer depends on a tie are marked `"fragile": true`: they run,
+//! because they must not panic, but are not compared.
 
 mod chain;
 mod classical;
@@ -55,7 +55,7 @@ fn run_files(arguments: &Arguments) -> Result<Tally, String> {
     let folder = named.unwrap_or_else(|| project_root().join("tests/vectors/data"));
     let files = vector_files(&folder)?;
     if files.is_empty() {
-        return Err(format!("no vectors in {}", folder.display()));
+        return Err(format!("no vectors found in {}", folder.display()));
     }
     let mut tally = Tally::default();
     for path in &files {
@@ -66,7 +66,7 @@ fn run_files(arguments: &Arguments) -> Result<Tally, String> {
         let runner = RUNNERS.iter().copied().flatten().find(|(topic, _)| *topic == name);
         match (parse_cases(path), runner) {
             (Ok(cases), Some((_, runner))) => run_cases(&name, &cases, *runner, &mut tally),
-            (Ok(_), None) => tally.fail(&name, "this file has no runner"),
+            (Ok(_), None) => tally.fail(&name, "no runner exists for this file"),
             (Err(error), _) => tally.fail(&name, &error),
         }
     }
@@ -117,7 +117,7 @@ fn run_cases(name: &str, cases: &[Value], runner: Runner, tally: &mut Tally) {
     }
 }
 
-/// Returns the result of the runner. The outer error is a panic, which is a failure even of a
+/// Returns the result of the runner. The outer error is a panic, which is a failure even in a
 /// fragile case.
 fn run_case(case: &Value, runner: Runner) -> Result<Result<(), String>, String> {
     catch_unwind(AssertUnwindSafe(|| runner(&case["in"], &case["out"])))

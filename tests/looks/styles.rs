@@ -65,7 +65,7 @@ pub(super) fn judge_styles(model: &BareModel<'_>, name: &str) -> Vec<String> {
     let mut faults = Vec::new();
     for ((style_name, style), size) in cases {
         let fault = judge_picture(model, style.with_fitting_lines(size), size);
-        // Such a drawing is rejected with the flag that allows it, because copies add up to
+        // Such a drawing is rejected with a message that names the flag, because copies add up to
         // millions of triangles.
         let is_refused = |fault: &String| fault.contains("--no-line-limits");
         let (width, height) = size;

@@ -1,8 +1,9 @@
-//! References that this test computes itself: scenes of spheres and rectangles, ray traced with
-//! exact intersections and shaded by the formulas of the glTF specification.
+//! References computed by this test: scenes of spheres and rectangles, ray traced with exact
+//! intersections and shaded with the formulas of the glTF specification.
 //!
-//! They have the form of another renderer's pictures, so that both are scored alike: `NAME.json`
-//! with the model, camera and lights, `NAME.png`, and the model itself as triangles.
+//! They have the same form as pictures from another renderer, so that both are scored in the same
+//! way: `NAME.json` with the model, camera and lights, `NAME.png`, and the model itself as
+//! triangles.
 
 mod brdf;
 mod tracer;
@@ -15,12 +16,13 @@ use serde_json::{Value, json};
 use std::path::Path;
 use tracer::{Camera, Shape, Surface, World};
 
-/// Width and height of the pictures.
+/// The width and height of the pictures.
 const SIZE: (u32, u32) = (320, 240);
-/// Segments around the spheres: their outline is within a hundredth of a pixel of a circle.
+/// The number of segments around the spheres, whose outline is within a hundredth of a pixel of a
+/// circle.
 const SEGMENTS: u32 = 192;
 
-/// Computes all references and writes them to a folder, the models below `models`.
+/// Computes all references and writes them to a folder, with the models below `models`.
 pub fn write_references(folder: &Path) -> Result<(), String> {
     let models = folder.join("models");
     std::fs::create_dir_all(&models).map_err(|e| format!("{}: {e}", models.display()))?;
@@ -44,9 +46,9 @@ fn worlds() -> Vec<(&'static str, World)> {
         let x = f64::from(at) * 2.2 - 4.4;
         sphere(dvec3(x, 0.0, 0.0), Material::dielectric([0.1, 0.3, 0.7], 0.2 + 0.2 * f64::from(at)))
     });
-    // Large, because the renderer adds the variation of normals within a pixel to the roughness
-    // (geometric specular antialiasing). Not at roughness 1, where its albedo table ends at
-    // 15.5/16.
+    // The sphere is large, because the renderer adds the variation of normals within a pixel to the
+    // roughness (geometric specular antialiasing). The roughness is not 1, because the renderer's
+    // albedo table ends at 15.5/16.
     let metals = [(-1.05, 0.6), (1.05, 0.85)]
         .map(|(x, roughness)| sphere(dvec3(x, 0.0, 0.0), Material::metal(gold, roughness)));
     let floor = rectangle(

@@ -1,4 +1,4 @@
-//! The maximum allowed distance of each picture from its reference.
+//! The maximum allowed difference of each picture from its reference.
 
 use crate::references::score::Score;
 use std::path::Path;
@@ -10,9 +10,9 @@ pub struct Limits {
     pub silhouette: f64,
 }
 
-/// Core metallic-roughness and unlit materials.
+/// The limits for core metallic-roughness and unlit materials.
 const CORE: Limits = Limits { fraction_above: 0.010, silhouette: 0.002 };
-/// Materials with layers, which renderers combine differently.
+/// The limits for materials with layers, which renderers combine differently.
 const LAYERED_MATERIALS: Limits = Limits { fraction_above: 0.03, silhouette: 0.002 };
 /// The extensions that add layers.
 const LAYER_EXTENSIONS: [&[u8]; 3] =
@@ -24,13 +24,13 @@ const EXCEPTIONS: [(&str, Limits, &str); 2] = [
     (
         "alpha-blend-mode-test",
         Limits { fraction_above: 0.014, silhouette: 0.0022 },
-        "(alpha counts in linear light, §3.9.4, and the reference blends sRGB codes: the pane of BLEND; its upper edge is 0.0075 \
+        "(alpha applies to linear light, §3.9.4, but the reference blends sRGB codes: the BLEND pane; its upper edge is 0.0075 \
      pixels above the centers of a row, and the reference rasterises in sixteenths of a pixel)",
     ),
     (
         "rough-metals",
         Limits { fraction_above: 0.02, silhouette: 0.002 },
-        "(geometric specular antialiasing adds the variation of normals within a pixel to the roughness, most at the rim)",
+        "(geometric specular antialiasing adds the variation of normals within a pixel to the roughness, mostly at the rim)",
     ),
 ];
 

@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
 
-/// Eight-bit sRGB, rows from the top.
+/// An 8-bit sRGB picture, with rows from the top.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Picture {
     pub width: u32,
@@ -36,8 +36,8 @@ impl Picture {
         written.map_err(|error| with_path(error.to_string()))
     }
 
-    /// Ours, the reference and their difference side by side; differences are gray, multiplied by
-    /// eight.
+    /// Returns our picture, the reference and their difference side by side. Differences are gray
+    /// and multiplied by eight.
     pub fn side_by_side(&self, theirs: &Self) -> Self {
         let width = self.width as usize;
         let mut pixels = Vec::with_capacity(3 * self.pixels.len());

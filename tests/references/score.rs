@@ -1,20 +1,21 @@
-//! The distance between two pictures, as the reference pictures' script `score.py` computes it.
+//! The difference between two pictures, as computed by the script `score.py` of the reference
+//! pictures.
 //!
-//! Edges may differ by half a pixel, so each pixel is compared with the closest in color of its 3 ×
-//! 3 neighbors in the other picture, in both directions.
+//! Edges may differ by half a pixel, so each pixel is compared with the pixel of the closest color
+//! among its 3 × 3 neighbors in the other picture, in both directions.
 
 use crate::references::picture::Picture;
 
-/// The distance between two pictures with the same size.
+/// The difference between two pictures of the same size.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Score {
-    /// The mean difference of all channels, 0 to 255.
+    /// The mean difference over all channels, from 0 to 255.
     pub mean: f64,
-    /// The 95th percentile of the pixels' differences, each with its closest neighbor.
+    /// The 95th percentile of the pixel differences, each to the closest neighbor.
     pub p95: f64,
     /// The fraction of pixels whose difference is above 8.
     pub fraction_above: f64,
-    /// The fraction of pixels that only one of the pictures covers. The background has the color of
+    /// The fraction of pixels that only one of the pictures covers. The background is the color of
     /// the reference's upper left pixel.
     pub silhouette: f64,
 }
@@ -46,12 +47,13 @@ pub fn score_picture(ours: &Picture, reference: &Picture) -> Option<Score> {
 
 /// Returns the largest difference of a channel.
 pub fn largest_step(a: [u8; 3], b: [u8; 3]) -> u8 {
-    // Written out: the tests are not optimized, and this runs for every pixel and its neighbors.
+    // This is written out because the tests are not optimized, and it runs for every pixel and its
+    // neighbors.
     a[0].abs_diff(b[0]).max(a[1].abs_diff(b[1])).max(a[2].abs_diff(b[2]))
 }
 
-/// For each pixel of `a`, the smallest difference from a 3 × 3 neighbor at its position in `b`.
-/// Pixels at the border are repeated beyond it.
+/// Returns for each pixel of `a` the smallest difference from the 3 × 3 neighbors of the same
+/// position in `b`. Border pixels are repeated beyond the border.
 fn nearest_neighbor_steps(a: &Picture, b: &Picture) -> Vec<u8> {
     let (width, height) = (a.width as usize, a.height as usize);
     let mut least = vec![255; width * height];
@@ -70,7 +72,7 @@ fn nearest_neighbor_steps(a: &Picture, b: &Picture) -> Vec<u8> {
     least
 }
 
-/// Percentile of sorted numbers with linear interpolation, as in numpy.
+/// Returns a percentile of sorted numbers with linear interpolation, as in NumPy.
 fn percentile(sorted: &[u8], fraction: f64) -> f64 {
     let position = fraction * (sorted.len() - 1) as f64;
     let (below, rest) = (position as usize, position - position.floor());
@@ -78,7 +80,7 @@ fn percentile(sorted: &[u8], fraction: f64) -> f64 {
     f64::from(sorted[below]) + (f64::from(above) - f64::from(sorted[below])) * rest
 }
 
-/// Output of `score.py` for the pairs below.
+/// The output of `score.py` for the pairs below.
 const EXPECTED_SCORES: [&str; 3] = [
     "mean 0.0000 p95 0.0000 share 0.0000 silhouette 0.0000",
     "mean 31.5927 p95 0.0000 share 0.0104 silhouette 0.1250",

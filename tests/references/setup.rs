@@ -3,10 +3,10 @@
 use serde_json::Value;
 use std::path::Path;
 
-/// Camera, lights and model of a reference picture.
+/// The camera, lights and model of a reference picture.
 pub struct Setup {
     json: Value,
-    /// Path of the model, relative to the folder of the assets.
+    /// The path of the model, relative to the assets folder.
     pub model: String,
 }
 
@@ -16,12 +16,12 @@ impl Setup {
         let with_path = |error: String| format!("{}: {error}", path.display());
         let text = std::fs::read_to_string(path).map_err(|error| with_path(error.to_string()))?;
         let json: Value = serde_json::from_str(&text).map_err(|e| with_path(e.to_string()))?;
-        let model = json["model"].as_str().ok_or_else(|| with_path("no model".to_owned()))?;
+        let model = json["model"].as_str().ok_or_else(|| with_path("missing model".to_owned()))?;
         Ok(Self { model: model.to_owned(), json })
     }
 
-    /// Returns the scene file: one sample per pixel, and no lights except the reference's sun and
-    /// ambient light.
+    /// Returns the scene file, with one sample per pixel and only the reference's sun and ambient
+    /// light.
     pub fn scene_source(&self, model: &Path) -> Result<String, String> {
         let json = &self.json;
         let (camera, lights) = (&json["camera"], &json["lights"]);
@@ -37,7 +37,7 @@ impl Setup {
         };
         let background: Vec<String> = json["background_srgb"]
             .as_array()
-            .ok_or("no background")?
+            .ok_or("missing background")?
             .iter()
             .map(|code| format!("{:02x}", code.as_u64().unwrap_or(0)))
             .collect();

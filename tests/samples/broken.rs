@@ -1,11 +1,11 @@
-//! Broken documents: one member of a valid file changed or removed, with the Khronos validator's
-//! errors.
+//! Broken documents, in which one member of a valid file is changed or removed, with the errors
+//! from the Khronos validator.
 
 use super::{Sample, add_floats, add_times, quad, textured_quad, triangle};
 use crate::gltf::Document;
 use serde_json::{Value, json};
 
-/// Returns all broken documents, in binary files.
+/// Returns all broken documents as binary files.
 pub(super) fn broken_samples() -> Vec<Sample> {
     let mut samples = changed_members();
     samples.extend(wrong_values());
@@ -17,10 +17,10 @@ fn sample(name: &str, document: &Document, errors: &[&str]) -> Sample {
     Sample::broken(name, "model.glb", document.to_glb(), errors)
 }
 
-/// A name, the JSON pointer of a member, a JSON text for it, and the error that this causes.
+/// A name, the JSON pointer of a member, its JSON, and the error that it causes.
 type Change = (&'static str, &'static str, &'static str, &'static str);
 
-/// Changes of a triangle.
+/// Changes to a triangle.
 const TRIANGLE_CHANGES: &[Change] = &[
     ("asset-version-is-a-number", "/asset/version", "2", "TYPE_MISMATCH"),
     ("no-such-scene", "/scene", "3", "UNRESOLVED_REFERENCE"),
@@ -79,7 +79,7 @@ const TRIANGLE_CHANGES: &[Change] = &[
     ("buffer-shorter-than-stated", "/buffers/0/byteLength", "4000", "BUFFER_BYTE_LENGTH_MISMATCH"),
 ];
 
-/// Changes of a textured quad.
+/// Changes to a textured quad.
 const QUAD_CHANGES: &[Change] = &[
     ("alpha-cutoff-is-negative", "/materials/0/alphaCutoff", "-1", "VALUE_NOT_IN_RANGE"),
     (
@@ -106,7 +106,7 @@ const QUAD_CHANGES: &[Change] = &[
     ("image-of-another-type", "/images/0/mimeType", r#""image/jpeg""#, "IMAGE_MIME_TYPE_INVALID"),
 ];
 
-/// One member of a valid file changed.
+/// Returns files in which one member of a valid file is changed.
 fn changed_members() -> Vec<Sample> {
     let material =
         json!({"alphaMode": "MASK", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}});
@@ -119,7 +119,7 @@ fn changed_members() -> Vec<Sample> {
     triangles.chain(QUAD_CHANGES.iter().map(|case| change(&quad, *case))).collect()
 }
 
-/// Vertex data and extensions that contradict the document.
+/// Returns files whose vertex data or extensions contradict the document.
 fn wrong_values() -> Vec<Sample> {
     let mut far_index = triangle();
     let start = far_index.bytes.len() - 8;
@@ -175,7 +175,7 @@ fn wrong_values() -> Vec<Sample> {
     ]
 }
 
-/// Animations of a node's translation whose sampler or target is wrong.
+/// Returns animations of a node's translation whose sampler or target is wrong.
 fn broken_animations() -> Vec<Sample> {
     let animated = |times: &[f32], shape: &str, values: &[f32], target: Value| {
         let mut document = triangle();

@@ -1,5 +1,5 @@
-//! File containers: JSON with data URIs, JSON with files in the same folder, and the binary
-//! container, whole and broken.
+//! File containers: JSON with data URIs, JSON with files in the same folder, and intact and broken
+//! binary containers.
 
 use super::{Sample, textured_quad, triangle};
 use crate::gltf::{Document, encode_png};
@@ -7,7 +7,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::json;
 
-/// Returns all samples about containers and URIs.
+/// Returns all samples that concern containers and URIs.
 pub(super) fn container_samples() -> Vec<Sample> {
     let mut samples = json_files();
     samples.extend(broken_containers());
@@ -27,7 +27,7 @@ fn data_uri(mime_type: &str, bytes: &[u8]) -> String {
     format!("data:{mime_type};base64,{}", STANDARD.encode(bytes))
 }
 
-/// Valid `.gltf` files.
+/// Returns valid `.gltf` files.
 fn json_files() -> Vec<Sample> {
     let plain = triangle();
     let embedded = data_uri("application/octet-stream", &plain.bytes);
@@ -53,10 +53,10 @@ fn json_files() -> Vec<Sample> {
     ]
 }
 
-/// A change of a container's bytes.
+/// A change to a container's bytes.
 type Damage = fn(&mut Vec<u8>);
 
-/// Binary files with a wrong header or wrong chunks.
+/// Returns binary files with a wrong header or wrong chunks.
 fn broken_containers() -> Vec<Sample> {
     let damages: [(&str, Damage, &[&str]); 8] = [
         ("glb-of-version-1", |file| file[4] = 1, &["GLB_INVALID_VERSION"]),
@@ -90,7 +90,7 @@ fn broken_containers() -> Vec<Sample> {
     damages.into_iter().map(damaged).chain(texts.into_iter().map(text)).collect()
 }
 
-/// URIs that lead nowhere.
+/// Returns files whose URIs cannot be resolved.
 fn broken_uris() -> Vec<Sample> {
     let cases = [
         ("missing-buffer-file", "missing.bin", "IO_ERROR"),

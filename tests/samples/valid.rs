@@ -6,18 +6,18 @@ use super::{
 use crate::gltf::Document;
 use serde_json::{Value, json};
 
-/// Returns all valid samples in binary files.
+/// Returns all valid samples as binary files.
 pub(super) fn valid_samples() -> Vec<Sample> {
     let groups = [geometry(), materials(), nodes(), animations(), extensions(), odd_files()];
     groups.into_iter().flatten().collect()
 }
 
-/// Returns a drawn binary file.
+/// Returns a binary file that is drawn.
 fn sample(name: &str, document: &Document, triangles: usize) -> Sample {
     Sample::valid(name, "model.glb", document.to_glb(), triangles)
 }
 
-/// Returns the quad with other indices and another primitive mode.
+/// Returns the quad with these indices and this primitive mode.
 fn quad_of_mode(mode: u32, indices: &[u16]) -> Document {
     let mut document = quad();
     let indices = add_indices(&mut document, indices);
@@ -26,7 +26,7 @@ fn quad_of_mode(mode: u32, indices: &[u16]) -> Document {
         .with_value("/meshes/0/primitives/0/mode", json!(mode))
 }
 
-/// Index types, primitive modes, accessor layouts.
+/// Returns files for index types, primitive modes and accessor layouts.
 fn geometry() -> Vec<Sample> {
     let mut bytes_as_indices = quad();
     let accessor = json!({"componentType": 5121, "type": "SCALAR", "count": 6});
@@ -67,7 +67,7 @@ fn geometry() -> Vec<Sample> {
     ]
 }
 
-/// 300 × 300 vertices: more than 16-bit indices can address.
+/// Returns a grid of 300 × 300 vertices, which are more than 16-bit indices can address.
 fn large_grid() -> Document {
     const SIDE: u32 = 300;
     let mut document = triangle();
@@ -89,7 +89,7 @@ fn large_grid() -> Document {
     )
 }
 
-/// Positions and normals in one buffer view with a stride of 24 bytes.
+/// Returns positions and normals in one buffer view with a stride of 24 bytes.
 fn interleaved() -> Document {
     let mut document = triangle();
     let vertices: [f32; 18] =
@@ -105,7 +105,7 @@ fn interleaved() -> Document {
     document.with_value("/meshes/0/primitives/0/attributes/NORMAL", json!(2))
 }
 
-/// Positions in normalized 16-bit integers (KHR_mesh_quantization).
+/// Returns positions in normalized 16-bit integers (KHR_mesh_quantization).
 fn quantized() -> Document {
     let mut document = triangle();
     let positions: [i16; 12] = [0, 0, 0, 0, 32767, 0, 0, 0, 0, 32767, 0, 0];
@@ -120,7 +120,7 @@ fn quantized() -> Document {
     document.with_value("/nodes/0/scale", json!([2, 2, 2]))
 }
 
-/// Alpha modes, textures, core factors.
+/// Returns files for alpha modes, textures and core factors.
 fn materials() -> Vec<Sample> {
     let textured = |mode: &str| {
         textured_quad(&json!({"alphaMode": mode, "doubleSided": true,
@@ -151,7 +151,7 @@ fn materials() -> Vec<Sample> {
     ]
 }
 
-/// Hierarchies, transforms, cameras, scenes.
+/// Returns files for hierarchies, transforms, cameras and scenes.
 fn nodes() -> Vec<Sample> {
     let hierarchy = json!([
         {"children": [1, 2], "rotation": [0, 0, 0.6, 0.8]},
@@ -187,7 +187,7 @@ fn nodes() -> Vec<Sample> {
     ]
 }
 
-/// Skins, morph targets, interpolation modes.
+/// Returns files for skins, morph targets and interpolation modes.
 fn animations() -> Vec<Sample> {
     let mut morphed = triangle();
     let offsets = add_floats(&mut morphed, "VEC3", &[0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.5, 0.0]);
@@ -225,8 +225,8 @@ fn skinned() -> Document {
     document.with_value("/scenes/0/nodes", json!([0, 1]))
 }
 
-/// Extensions that are supported: each KHR_materials extension on a quad, lights, variants,
-/// instances.
+/// Returns files for the supported extensions: each KHR_materials extension on a quad, lights,
+/// variants and instances.
 fn extensions() -> Vec<Sample> {
     let materials = [
         ("unlit", json!({})),
@@ -287,7 +287,7 @@ fn extensions() -> Vec<Sample> {
     samples
 }
 
-/// Valid files with content that is rarely seen.
+/// Returns valid files with unusual content.
 fn odd_files() -> Vec<Sample> {
     let extras = triangle()
         .with_value("/extras", json!({"a": [1, {"b": null}]}))

@@ -1,4 +1,4 @@
-//! Calls of the program that write JSON, and the documents that they write.
+//! Program calls that write JSON, and the documents that they write.
 
 use alberti_tests::harness::data_folder;
 use alberti_tests::project_root;
@@ -16,9 +16,9 @@ pub struct Document {
     pub json: Value,
 }
 
-/// The location of a call's documents.
+/// The location of the documents of a call.
 enum Place {
-    /// Standard output, one document after the other.
+    /// Standard output, with one document after another.
     Output,
     /// A file.
     File(&'static str),
@@ -26,7 +26,7 @@ enum Place {
     Reports(&'static str),
 }
 
-/// A call of the program.
+/// A program call.
 pub struct Call {
     pub case: String,
     schema: &'static str,
@@ -50,7 +50,7 @@ impl Call {
         Self { case: arguments.join(" "), schema, arguments, place: Place::Output }
     }
 
-    /// Returns the documents, or the program's message if there are none.
+    /// Runs the call; returns the documents, or the program's message if there are none.
     pub fn run(&self, program: &Path, folder: &Path) -> Result<Vec<Document>, String> {
         let output = Command::new(program).args(&self.arguments).current_dir(folder).output();
         let output = output.map_err(|error| error.to_string())?;
@@ -89,7 +89,7 @@ const WRONG_SCENE: &str =
 const ODD_SCENE: &str = "Scene(models: [Model(path: \"crate.glb\")], image: Image(size: (64, 48)), \
     lights: [Directional(direction: (0, 0, -1), intensity: 0)])";
 
-/// Returns all calls; the files they need are written to the folder in which they run.
+/// Returns all calls, and writes the files they need to the folder in which they run.
 pub fn all_calls(folder: &Path) -> Result<Vec<Call>, String> {
     let models = project_root().join("scenes/models");
     let write = |name: &str, text: &[u8]| {
@@ -115,7 +115,8 @@ pub fn all_calls(folder: &Path) -> Result<Vec<Call>, String> {
         calls.push(Call::with_paths("explain", "explain @ --point 0.1,0.2,0.3 --json", &[&scene]));
     }
     for path in model_files(&models)? {
-        // A model that cannot be loaded has diagnostics, and one without surfaces has no picture.
+        // A model that cannot be loaded has diagnostics, and a model without surfaces has no
+        // picture.
         calls.push(Call::with_paths("check", "check @ --json", &[&path]));
         let Ok(model) = load(&path, &ImportOptions::default()) else { continue };
         calls.push(Call::with_paths("info", "info @ --json", &[&path]));
@@ -132,7 +133,7 @@ pub fn all_calls(folder: &Path) -> Result<Vec<Call>, String> {
     Ok(calls)
 }
 
-/// Calls that each show a special case.
+/// Calls that each cover a special case.
 fn other_calls() -> Vec<Call> {
     let mut calls: Vec<Call> = [
         ("render", "render crate.glb --json -o a.svg"),
@@ -169,7 +170,7 @@ fn other_calls() -> Vec<Call> {
     calls
 }
 
-/// Returns the scene models, and a few asset models for each format and each kind of content.
+/// Returns the scene models and, for each format and kind of content, a few asset models.
 fn model_files(models: &Path) -> Result<Vec<PathBuf>, String> {
     const ENDINGS: [&str; 6] = ["glb", "gltf", "stl", "obj", "ply", "3mf"];
     let mut files = files_with_endings(models, &ENDINGS);
@@ -205,7 +206,7 @@ fn files_with_endings(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     files
 }
 
-/// All files below a folder, sorted.
+/// Collects all files below a folder, sorted.
 fn collect_files(folder: &Path, files: &mut Vec<PathBuf>) {
     let entries = fs::read_dir(folder).into_iter().flatten();
     let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();

@@ -1,4 +1,4 @@
-//! Answers of the explorer, as its server sends them.
+//! The explorer's answers, as sent by its server.
 
 use crate::schemas::documents::Document;
 use serde_json::Value;
@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-/// A server that ends with this value.
+/// A server that is stopped on drop.
 struct Server {
     child: Child,
     port: u16,
@@ -32,7 +32,7 @@ impl Server {
         let port = parts.next().and_then(|port| port.parse().ok()).unwrap_or_default();
         let token = parts.next().unwrap_or_default().to_owned();
         let server = Self { child, port, token };
-        if server.port == 0 { Err(format!("no address: {line:?}")) } else { Ok(server) }
+        if server.port == 0 { Err(format!("missing address: {line:?}")) } else { Ok(server) }
     }
 
     /// Returns the JSON of the answer to a query.
@@ -56,13 +56,13 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // It may already have ended.
+        // The server may already have ended.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
 }
 
-/// Returns the lessons, each with its state and a pixel of its picture, and errors.
+/// Returns answers for the lessons, each with its state and a pixel of its picture, and for errors.
 pub fn explorer_documents(program: &Path) -> Result<Vec<Document>, String> {
     let server = Server::start(program)?;
     let document = |schema, query: &str| {

@@ -1,9 +1,9 @@
-"""Validates JSON documents against the published schemas: validate.py SCHEMAS DOCUMENTS.
+"""Validate JSON documents against the published schemas: validate.py SCHEMAS DOCUMENTS.
 
-DOCUMENTS has one line of JSON per case: {"schema": NAME, "case": …, "document": …}. A document must be valid and must have no
-member that its schema does not know: future versions may add members, but all current ones must be described. To make sure that a schema
-does not accept everything, each member of the first documents is replaced by an invalid value, which must be found. Prints a line `FAILED …` for
-each fault; the last line counts.
+DOCUMENTS has one line of JSON per case: {"schema": NAME, "case": …, "document": …}. A document must be valid and must not have
+members that its schema does not list: future versions may add members, but all current members must be described. To make sure that a
+schema does not accept everything, each member of the first documents is replaced by an invalid value, which must be rejected. Prints a
+line `FAILED …` for each error; the last line has the counts.
 """
 
 import copy
@@ -15,8 +15,8 @@ import sys
 try:
     from jsonschema import Draft202012Validator
 except ImportError:
-    # `cargo xtask test` reads it here.
-    skipped = "SKIPPED schemas: there is no Python with jsonschema"
+    # `cargo xtask test` reads this file.
+    skipped = "SKIPPED schemas: jsonschema is not installed for Python"
     print(skipped)
     if log := os.environ.get("SKIP_LOG"):
         with open(log, "a", encoding="utf-8") as file:
@@ -25,18 +25,18 @@ except ImportError:
 
 # A value that no member of any document can have.
 ABSURD = {"absurd": [{}]}
-# The number of documents of each schema that are varied, and the number of their members.
+# The number of documents per schema that are varied, and the number of members per document.
 VARIED_DOCUMENTS, VARIED_MEMBERS = 3, 400
 
 
 def closed(schema, is_root=True):
-    """The schema, closed to additional members."""
+    """Return the schema, closed to additional members."""
     if isinstance(schema, list):
         return [closed(part, False) for part in schema]
     if not isinstance(schema, dict):
         return schema
     result = {key: closed(part, False) for key, part in schema.items()}
-    # A schema within another is extended where it is used, and is closed separately in its own file.
+    # A schema within another schema is extended where it is used, and is closed separately in its own file.
     is_embedded = "$id" in schema and not is_root
     is_object = isinstance(schema.get("properties"), dict) and "type" in schema
     if is_object and not is_embedded and "additionalProperties" not in schema:
@@ -46,7 +46,7 @@ def closed(schema, is_root=True):
 
 
 def places(document, path=()):
-    """The paths of all members, including members of objects in lists."""
+    """Yield the paths of all members, including members of objects in lists."""
     if isinstance(document, dict):
         for key, value in document.items():
             yield path + (key,)
@@ -57,7 +57,7 @@ def places(document, path=()):
 
 
 def varied(document, path):
-    """The document with another value at a path."""
+    """Return the document with an invalid value at a path."""
     other = copy.deepcopy(document)
     parent = other
     for step in path[:-1]:
@@ -90,10 +90,10 @@ def main(schema_folder, document_file):
                 if usual.is_valid(varied(document, path)):
                     place = "/".join(map(str, path))
                     faults.append(f"{case['case']} ({name}): anything is valid at /{place}")
-    faults += [f"no document is of the schema {name}" for name, count in counts.items() if count == 0]
+    faults += [f"no document uses the schema {name}" for name, count in counts.items() if count == 0]
     for fault in faults:
         print("FAILED", fault)
-    print(f"{sum(counts.values())} documents of {len(counts)} schemas, {variations} variations, {len(faults)} faults")
+    print(f"{sum(counts.values())} documents of {len(counts)} schemas, {variations} variations, {len(faults)} errors")
     sys.exit(1 if faults else 0)
 
 

@@ -19,13 +19,13 @@ impl Bits {
         mixed(self.state)
     }
 
-    /// Bits that depend on the state and differ from all those to come.
+    /// Returns bits that depend on the state and differ from all that follow.
     pub fn peek(&self) -> u64 {
         mixed(self.state ^ 0x5bd1_e995)
     }
 }
 
-/// The output function of splitmix64.
+/// Computes the output function of splitmix64.
 fn mixed(state: u64) -> u64 {
     let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -1,4 +1,4 @@
-//! Looking, framing, stereo and screens.
+//! Cameras, framing, stereo and screens.
 
 use crate::finite::Finite;
 use crate::random::Random;
@@ -123,7 +123,7 @@ fn orbit(r: &mut Random) -> Orbit {
     Orbit { target: r.point(), azimuth, elevation, distance: r.size() }
 }
 
-/// Mostly with left before right and bottom before top.
+/// Returns four sides, mostly with left less than right and bottom less than top.
 fn sides(r: &mut Random) -> [f64; 4] {
     let mut pair = || {
         let [a, b] = r.numbers();
@@ -147,7 +147,7 @@ fn window(r: &mut Random) -> ViewWindow {
     ViewWindow { left, right, bottom, top, distance: r.size() }
 }
 
-/// Mostly below one half.
+/// Returns a padding, mostly below one half.
 fn padding(r: &mut Random) -> f64 {
     let padding = r.fraction() / 2.0;
     r.instead(padding)
@@ -162,7 +162,7 @@ fn rig(r: &mut Random) -> StereoRig {
     StereoRig { interocular: r.size(), zero_parallax: r.size() }
 }
 
-/// Mostly a parallelogram with a right angle.
+/// Returns the corners of a screen, mostly of a parallelogram with a right angle.
 fn screen(r: &mut Random) -> ScreenCorners {
     let lower_left = r.point();
     let across = r.vector::<World>();

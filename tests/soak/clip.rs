@@ -14,7 +14,7 @@ pub const SUBJECTS: &[Subject] = &[
         let (volume, point) = (volume(r), r.hpoint());
         let code = volume.outcode(point);
         let finite = point.is_finite();
-        // Plane by plane, where the sum of four products has a definite sign.
+        // Compares plane by plane where the sum of four products has a definite sign.
         let agrees = |i: PlaneIndex| {
             let distance = volume.plane(i).map_or(0.0, |plane| plane.evaluate(point));
             let certain = distance.is_finite() && i <= PlaneIndex::FAR;
@@ -137,7 +137,7 @@ fn volume(r: &mut Random) -> Volume {
     volume
 }
 
-/// Edges between a few points, so that some meet.
+/// Returns edges between a few points, so that some share an end.
 fn edges(r: &mut Random) -> Vec<[Point<World>; 2]> {
     let points = r.points::<World, 5>();
     (0..r.below(9)).map(|_| [points[r.below(5)], points[r.below(5)]]).collect()

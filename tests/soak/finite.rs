@@ -1,4 +1,4 @@
-//! Checks whether all numbers in an answer are finite.
+//! Checks whether all numbers in a result are finite.
 
 use glam::DMat4;
 use homog::{
@@ -6,7 +6,7 @@ use homog::{
     Projective, Space, Vector,
 };
 
-/// An answer made of numbers.
+/// A result made of numbers.
 pub trait Finite {
     fn finite(&self) -> bool;
 }

@@ -1,4 +1,4 @@
-//! Points, maps and remapping.
+//! Points, maps and remappings.
 
 use crate::finite::Finite;
 use crate::random::Random;
@@ -117,7 +117,8 @@ fn foreshortening(r: &mut Random) -> Option<Foreshortening> {
     Foreshortening::new(r.size(), r.size()).ok()
 }
 
-/// On the segment itself, from 0 to 1, there is always an answer, and it is on the image.
+/// Checks that a parameter from 0 to 1 on the segment always has an image, which is also from 0 to
+/// 1.
 fn on_the_segment(r: &mut Random) -> Option<bool> {
     let (f, t) = (foreshortening(r)?, r.fraction());
     if !(0.0..=1.0).contains(&t) {
@@ -127,7 +128,7 @@ fn on_the_segment(r: &mut Random) -> Option<bool> {
     Some(inside(f.image_parameter(t)) && inside(f.source_parameter(t)))
 }
 
-/// A matrix of any numbers can be shown.
+/// Checks that a matrix of arbitrary numbers can be displayed.
 fn display(r: &mut Random) -> Option<bool> {
     let map: Projective<View, Clip> = r.projective();
     let mut text = String::new();

@@ -1,13 +1,13 @@
-//! Millions of random calls of every function that may refuse: nothing panics, and finite input
-//! gives finite output.
+//! Makes millions of random calls of every fallible function: nothing may panic, and finite input
+//! must give finite output.
 //!
-//! `cargo xtask soak [--calls N] [--seed S] [NAME…]` runs it in release mode; names select
+//! `cargo xtask soak [--calls N] [--seed S] [NAME…]` runs it in release mode; arguments select
 //! functions by part of their name. `cargo xtask soak --scenes MINUTES [--seed S]` renders random
-//! scenes instead. A call draws its arguments from a generator whose whole state is one number. A
-//! call that went wrong is repeated from that number, to print its arguments.
+//! scenes instead. A call draws its arguments from a generator whose entire state is one number. A
+//! failed call is repeated from that number to print its arguments.
 
-#![allow(clippy::print_stdout, reason = "a program speaks on its standard output")]
-#![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
+#![allow(clippy::print_stdout, reason = "a program writes to standard output")]
+#![allow(unreachable_pub, reason = "modules of a program cannot be used elsewhere")]
 
 mod bits;
 mod camera;
@@ -27,7 +27,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use subject::{Report, Subject};
 
-/// All functions, by crate.
+/// All functions by crate.
 const SUBJECTS: [&[Subject]; 5] =
     [homog::SUBJECTS, camera::SUBJECTS, projection::SUBJECTS, clip::SUBJECTS, viewport::SUBJECTS];
 
@@ -35,7 +35,7 @@ const SUBJECTS: [&[Subject]; 5] =
 struct Order {
     calls: u64,
     seed: u64,
-    /// Minutes of random scenes, instead of calls.
+    /// The minutes of random scenes, if these are rendered instead.
     scenes: Option<u64>,
     names: Vec<String>,
 }
@@ -74,7 +74,7 @@ fn main() -> ExitCode {
         order.seed,
         reports.len() - failed,
     );
-    // A filter that selects nothing is a typo.
+    // A filter that selects nothing is probably a typo.
     if failed == 0 && !reports.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
@@ -99,7 +99,8 @@ fn order(mut arguments: impl Iterator<Item = String>) -> Result<Order, String> {
     Ok(order)
 }
 
-/// Runs the functions on all cores, each on one, and prints a line when it is done.
+/// Runs the functions on all cores, with one function per core, and prints a line for each when it
+/// is done.
 fn run(subjects: &[&Subject], order: &Order) -> Vec<Report> {
     let next = AtomicUsize::new(0);
     let work = || {

@@ -1,4 +1,4 @@
-//! Every builder of projections, in every convention.
+//! Every projection builder in every convention.
 
 use crate::finite::Finite;
 use crate::random::Random;
@@ -330,7 +330,7 @@ fn frustum_is_finite(frustum: Frustum, r: &mut Random) -> Option<bool> {
     Some((maps, frustum.window(), frustum.slopes()).finite())
 }
 
-/// All matrices of a classical projection, and those of a picture with it.
+/// Checks all matrices of a classical projection, and the matrices of a picture with it.
 fn classical(made: Made<impl Into<Classical>>, r: &mut Random) -> Option<bool> {
     let made = made.ok()?.into();
     let matrices = (made.onto_plane(), made.depth_preserving(), made.depth_preserving_inverse());
@@ -392,13 +392,13 @@ fn two(r: &mut Random, build: fn(f64, f64) -> Made<Projective<View, View>>) -> O
 
 type Six<T> = fn(f64, f64, f64, f64, f64, f64) -> T;
 
-/// With distances to the near and the far plane.
+/// Builds a matrix from distances to the near and far planes.
 fn six(r: &mut Random, build: Six<Matrix>) -> Option<bool> {
     let ([left, right, bottom, top], [near, far]) = (r.numbers(), r.near_far());
     Some(build(left, right, bottom, top, near, far).ok()?.finite())
 }
 
-/// With coordinates of the near and the far plane, which are negative.
+/// Builds a matrix from the coordinates of the near and far planes, which are negative.
 fn signed_six<T: Finite>(r: &mut Random, build: Six<Made<T>>) -> Option<bool> {
     let ([left, right, bottom, top], [near, far]) = (r.numbers(), r.near_far());
     Some(build(left, right, bottom, top, -near, -far).ok()?.finite())

@@ -1,4 +1,4 @@
-//! Random arguments: ordinary numbers most of the time, and sometimes every other kind.
+//! Random arguments, which are mostly ordinary numbers and sometimes numbers of every other kind.
 //!
 //! The fuzzer uses this file too, with its own source of bits.
 
@@ -7,19 +7,19 @@ use glam::{DMat3, DMat4, DVec3, DVec4};
 use homog::{Affine, HPoint, Normal, Plane, Point, Projective, Space, Vector};
 use std::f64::consts::PI;
 
-/// The kinds of numbers that a call draws. If each number could be of every kind, calls with six of
-/// them would hardly ever be accepted.
+/// The kinds of numbers that a call draws. If each number could be of every kind, calls with six
+/// numbers would hardly ever be accepted.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Mood {
-    /// Between −10 and 10, whole, zero of either sign, or the previous number again.
+    /// Numbers between −10 and 10, integers, zero with either sign, or the previous number again.
     Ordinary,
-    /// Those, and every size from subnormal to the largest.
+    /// The ordinary numbers, and every magnitude from subnormal to the largest.
     Extreme,
-    /// Those, NaN, infinities, and any 64 bits.
+    /// All of these, NaN, infinities, and any 64 bits.
     Anything,
 }
 
-/// The generator, and its notes about the current call.
+/// The generator, with records of the current call.
 pub struct Random {
     bits: Bits,
     mood: Mood,
@@ -44,7 +44,7 @@ const EXTREMES: [f64; 12] = [
 ];
 
 impl Random {
-    /// Creates the arguments for a call from the bits to come.
+    /// Creates the arguments for a call from the bits that follow.
     pub fn new(bits: Bits) -> Self {
         let (mood, drawn) = (Mood::Ordinary, None);
         let mut random = Self { bits, mood, last: 0.0, only_finite: true, drawn };
@@ -52,12 +52,12 @@ impl Random {
         random
     }
 
-    /// Like [`Self::new`], and notes the numbers it draws.
+    /// Works like [`Self::new`], but also records the numbers it draws.
     pub fn recording(bits: Bits) -> Self {
         Self { drawn: Some(Vec::new()), ..Self::new(bits) }
     }
 
-    /// Begins another call; returns the bits from which it will be made.
+    /// Begins another call; returns the bits from which its arguments are drawn.
     pub fn begin(&mut self) -> Bits {
         self.bits.next();
         self.settle();
@@ -75,7 +75,7 @@ impl Random {
         self.last = 0.0;
     }
 
-    /// True if no argument of this call was NaN or infinite.
+    /// Returns whether no argument of this call was NaN or infinite.
     pub fn drew_only_finite(&self) -> bool {
         self.only_finite
     }
@@ -84,7 +84,7 @@ impl Random {
         self.drawn.as_deref().unwrap_or_default()
     }
 
-    /// From 0 to `count` − 1.
+    /// Returns an integer from 0 to `count` − 1.
     pub fn below(&mut self, count: usize) -> usize {
         (self.bits.next() >> 32) as usize % count
     }
@@ -97,7 +97,7 @@ impl Random {
         self.bits.next() >> 63 == 1
     }
 
-    /// Any 32 bits; small numbers half of the time.
+    /// Returns any 32 bits, or half of the time a small number.
     pub fn count(&mut self) -> u32 {
         let bits = self.bits.next();
         let count = (bits >> 32) as u32;
@@ -118,37 +118,37 @@ impl Random {
         std::array::from_fn(|_| self.number())
     }
 
-    /// Returns a number, mostly without its sign.
+    /// Returns a number, mostly its absolute value.
     pub fn size(&mut self) -> f64 {
         let number = self.number();
         if self.below(32) == 0 { number } else { self.instead(number.abs()) }
     }
 
-    /// Two sizes, mostly the smaller one first.
+    /// Returns two sizes, mostly with the smaller first.
     pub fn near_far(&mut self) -> [f64; 2] {
         let [a, b] = [self.size(), self.size()];
         if a > b && self.below(32) > 0 { [b, a] } else { [a, b] }
     }
 
-    /// Like [`Self::near_far`], and sometimes infinite where that is allowed.
+    /// Works like [`Self::near_far`], but the far distance is sometimes infinite.
     pub fn near_and_any_far(&mut self) -> [f64; 2] {
         let [near, far] = self.near_far();
         [near, if self.below(8) == 0 { f64::INFINITY } else { far }]
     }
 
-    /// Mostly between 0 and π.
+    /// Returns a number mostly between 0 and π.
     pub fn opening(&mut self) -> f64 {
         let number = self.number();
         if self.below(8) == 0 { number } else { self.instead(number.abs() % PI) }
     }
 
-    /// Mostly between 0 and 1.
+    /// Returns a number mostly between 0 and 1.
     pub fn fraction(&mut self) -> f64 {
         let number = self.number();
         if self.below(8) == 0 { number } else { self.instead(number.abs().fract()) }
     }
 
-    /// Notes an argument that was made from others.
+    /// Records an argument that was computed from others.
     pub fn given(&mut self, argument: f64) -> f64 {
         self.only_finite &= argument.is_finite();
         if let Some(drawn) = &mut self.drawn {
@@ -157,7 +157,7 @@ impl Random {
         argument
     }
 
-    /// Notes an argument in place of the number from which it was made.
+    /// Records an argument in place of the number from which it was computed.
     pub fn instead(&mut self, argument: f64) -> f64 {
         if let Some(drawn) = &mut self.drawn {
             drawn.pop();

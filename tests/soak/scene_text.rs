@@ -1,10 +1,10 @@
-//! Random scene texts, written from the declarations of the scene language.
+//! Random scene files, generated from the declarations of the scene language.
 //!
 //! ```text
 //!  reference::all_types() ─► for each field: left out, or a value of its type ─► Scene(…)
-//! ```
-//! A field that the language gets tomorrow is in these scenes tomorrow. Most values are reasonable,
-//! so that most scenes are drawn; combinations that do not fit must be refused with a message.
+//! ``` A new field in the language appears in these scenes automatically. Most values are
+//! reasonable, so that most scenes are drawn; incompatible combinations must be rejected with a
+//! message.
 
 use super::bits::Bits;
 use scene_file::reference::{FieldEntry, Shape, TypeEntry, ValueType, VariantEntry, all_types};
@@ -21,12 +21,12 @@ pub struct SceneFiles {
     pub include: &'static str,
 }
 
-/// Returns the scene for a number.
+/// Returns the scene with this number.
 pub fn random_scene_text(number: u64, files: &SceneFiles) -> String {
     let mut writer = SceneWriter { bits: Bits::new(number), files };
     let scene = all_types()[0];
     let Shape::Fields(fields) = scene.shape else { return String::new() };
-    // A scene needs a model, and small pictures make more scenes per minute.
+    // A scene needs a model, and small pictures allow more scenes per minute.
     let required = ["models", "image"];
     let mut written = String::new();
     for field in fields {
@@ -88,11 +88,11 @@ impl SceneWriter<'_> {
         }
     }
 
-    /// Returns a struct in brackets; its name is part of the language, too.
+    /// Returns a struct in parentheses, preceded by its name.
     fn fields(&mut self, name: &str, fields: &[FieldEntry]) -> String {
         let mut written = Vec::new();
         for field in fields {
-            // Scene pictures are this small.
+            // The pictures must be small.
             if self.is_chosen(field) || (name, field.name) == ("Image", "size") {
                 written.push(format!("{}: {}", field.name, self.value(name, field)));
             }
@@ -102,7 +102,7 @@ impl SceneWriter<'_> {
 
     fn variant(&mut self, variant: &VariantEntry) -> String {
         match variant.value_type {
-            // The brackets of the variant also serve the struct.
+            // The parentheses of the variant also enclose the struct.
             Some(value_type) if fields_of(&value_type()).is_some() => {
                 let fields = fields_of(&value_type()).unwrap_or_default();
                 self.fields(variant.name, fields)
@@ -116,7 +116,7 @@ impl SceneWriter<'_> {
         }
     }
 
-    /// Returns a number in words of the reference, a string or a truth value.
+    /// Returns a value for a type described in words: a number, a string or a boolean.
     fn plain_value(&mut self, owner: &str, field: &str, words: &str) -> String {
         match words {
             "true or false" => (self.below(2) == 0).to_string(),
@@ -145,7 +145,7 @@ impl SceneWriter<'_> {
         }
     }
 
-    /// Returns a value of a declared type that has no parts.
+    /// Returns a value of a declared type without parts.
     fn number_or_color(&mut self, field: &str, name: &str) -> String {
         let [low, high] = match name {
             "Finite" if field.ends_with("_degrees") => [-180.0, 180.0],
@@ -177,7 +177,7 @@ impl SceneWriter<'_> {
         (self.bits.next() >> 32) as usize % count
     }
 
-    /// Returns a number with three decimals, which a person can read.
+    /// Returns a number with three decimals, so that it is readable.
     fn between(&mut self, low: f64, high: f64) -> f64 {
         let unit = (self.bits.next() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0);
         ((low + (high - low) * unit) * 1000.0).round() / 1000.0

@@ -1,4 +1,5 @@
-//! Random scenes, rendered with one thread and with two: no panic, no NaN, no difference.
+//! Renders random scenes with one thread and with two, and checks that there are no panics, NaNs or
+//! differences.
 
 use crate::scene_text::{SceneFiles, random_scene_text};
 use hidden_line::{DrawOptions, draw};
@@ -17,11 +18,11 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// The minimum percentage of scenes that must be drawn, not refused: one field that does not fit
-/// the others refuses a whole scene, and refusing is quick.
+/// The minimum percentage of scenes that must be drawn rather than rejected. One incompatible field
+/// is enough to reject a scene, and rejecting is quick.
 const MIN_DRAWN_PERCENT: u64 = 2;
 
-/// Scene counts, and the texts of the scenes that went wrong.
+/// The scene counts, and the texts of the scenes that failed.
 #[derive(Default)]
 struct Tally {
     drawn: AtomicU64,
@@ -29,7 +30,7 @@ struct Tally {
     faults: Mutex<Vec<String>>,
 }
 
-/// Renders scenes for this many minutes, starting at number `first`; returns whether all went well.
+/// Renders scenes for this many minutes, starting at number `first`; returns whether all succeeded.
 pub fn soak_scenes(minutes: u64, first: u64) -> Result<bool, String> {
     let (folder, files) = prepare_files()?;
     let end = Instant::now() + Duration::from_secs(minutes * 60);
@@ -65,19 +66,20 @@ impl Tally {
         let [drawn, refused] = [&self.drawn, &self.refused].map(|n| n.load(Ordering::Relaxed));
         let faults = self.faults.lock().map_or_else(|_| Vec::new(), |faults| faults.clone());
         println!(
-            "scenes from {first} on: {drawn} drawn, {refused} refused with a message, {} failed",
+            "scenes from {first}: {drawn} drawn, {refused} rejected with a message, {} failed",
             faults.len()
         );
         faults.iter().for_each(|fault| println!("  FAILED {fault}"));
         let is_worth_it = drawn * 100 >= MIN_DRAWN_PERCENT * (drawn + refused);
         if !is_worth_it {
-            println!("  FAILED: too few scenes are drawn to prove anything");
+            println!("  FAILED: too few scenes were drawn to prove anything");
         }
         faults.is_empty() && is_worth_it
     }
 }
 
-/// Whether a scene was drawn; false if it was refused, an error if something is wrong with it.
+/// Returns true if a scene was drawn and false if it was rejected, or an error if something is
+/// wrong.
 fn check_scene(folder: &Path, text: &str) -> Result<bool, String> {
     let resolved = Origin::from_text("random.ron", text, folder.to_owned())
         .parse_with_includes(&[])
@@ -92,7 +94,7 @@ fn check_scene(folder: &Path, text: &str) -> Result<bool, String> {
         [Err(alone), Err(together)] if alone.to_string() == together.to_string() => {
             return is_message(&alone.to_string());
         }
-        [Ok(_), Ok(_)] => return Err("two threads render another picture than one".to_owned()),
+        [Ok(_), Ok(_)] => return Err("two threads render a different picture than one".to_owned()),
         [Err(error), _] | [_, Err(error)] => return Err(format!("one of two runs: {error}")),
     }
     check_lines(&scene)?;
@@ -100,12 +102,16 @@ fn check_scene(folder: &Path, text: &str) -> Result<bool, String> {
     Ok(true)
 }
 
-/// A refusal must say why.
+/// Checks that a rejection has a reason.
 fn is_message(message: &str) -> Result<bool, String> {
-    if message.trim().len() < 10 { Err("a refusal without a reason".to_owned()) } else { Ok(false) }
+    if message.trim().len() < 10 {
+        Err("a rejection without a reason".to_owned())
+    } else {
+        Ok(false)
+    }
 }
 
-/// Line drawings with one thread and with two have the same text, without NaN.
+/// Checks that line drawings with one thread and with two have the same text, without NaN.
 fn check_lines(scene: &Scene) -> Result<(), String> {
     let drawings = [1, 2].map(|threads| match scene.style {
         Style::Lines(_) => draw_lines(scene, threads, &Timings::default())
@@ -117,13 +123,13 @@ fn check_lines(scene: &Scene) -> Result<(), String> {
     });
     let [alone, together] = &drawings;
     if alone != together {
-        return Err("two threads draw other lines than one".to_owned());
+        return Err("two threads draw different lines than one".to_owned());
     }
     let has_nan = |text: &String| text.contains("NaN") || text.contains("inf");
     if alone.as_ref().is_ok_and(has_nan) { Err("NaN in a drawing".to_owned()) } else { Ok(()) }
 }
 
-/// Passes with one thread and with two are equal, and no value is NaN.
+/// Checks that passes with one thread and with two are equal, and that no value is NaN.
 fn check_passes(scene: &Scene) -> Result<(), String> {
     let region = PixelRect::from_size(scene.image.width, scene.image.height);
     let passes = [1, 2].map(|threads| {
@@ -141,7 +147,7 @@ fn check_passes(scene: &Scene) -> Result<(), String> {
     if alone == together {
         Ok(())
     } else {
-        Err("two threads give other passes than one".to_owned())
+        Err("two threads give different passes than one".to_owned())
     }
 }
 

@@ -7,8 +7,8 @@ use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
-/// A name, and one call with random arguments: `None` if they were refused or there was nothing to
-/// return, otherwise whether all numbers in the answer are finite.
+/// A name, and one call with random arguments. The call returns `None` if they were rejected or
+/// there was no result, otherwise whether all numbers in the result are finite.
 pub type Subject = (&'static str, fn(&mut Random) -> Option<bool>);
 
 /// The results of the calls.
@@ -20,7 +20,7 @@ pub struct Report {
     pub fault: Option<String>,
 }
 
-/// Calls the function until it fails or has been called often enough.
+/// Calls the function until it fails or the number of calls is reached.
 pub fn run(&(name, call): &Subject, calls: u64, seed: u64) -> Report {
     let start = Instant::now();
     let mut random = Random::new(Bits::new(seed));
@@ -56,7 +56,7 @@ impl fmt::Display for Report {
         let Self { name, calls, made, time, fault } = self;
         let refused = calls - made;
         let seconds = time.as_secs_f64();
-        write!(f, "{name:44} {calls:9} calls {made:9} made {refused:9} refused {seconds:6.1} s")?;
+        write!(f, "{name:44} {calls:9} calls {made:9} made {refused:9} rejected {seconds:6.1} s")?;
         fault.iter().try_for_each(|fault| write!(f, "\n  FAILED {fault}"))
     }
 }
@@ -70,7 +70,7 @@ pub fn last_panic() -> String {
     format!("panicked {}", LAST_PANIC.take())
 }
 
-/// Keeps a panic's message for the report instead of printing it.
+/// Stores a panic message for the report instead of printing it.
 pub fn catch_panics_quietly() {
     std::panic::set_hook(Box::new(|panic| LAST_PANIC.set(format!("({panic})"))));
 }

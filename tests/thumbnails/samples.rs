@@ -1,15 +1,15 @@
-//! One file of each format, and a broken one.
+//! One file in each format, and a broken file.
 
 use alberti_tests::threemf::encode_3mf;
 use std::path::Path;
 
-/// Files that get thumbnails.
+/// The files that must have thumbnails.
 pub const SHOWN: [&str; 6] = ["a.glb", "b.gltf", "c.stl", "d.obj", "e.ply", "f.3mf"];
 
-/// A file that gets none.
+/// The file that must not have a thumbnail.
 pub const BROKEN: &str = "broken.stl";
 
-/// Returns the MIME type that a file manager finds for a file.
+/// Returns the MIME type that a file manager determines for a file.
 pub fn mime_type(name: &str) -> &'static str {
     match name.rsplit('.').next() {
         Some("glb") => "model/gltf-binary",
@@ -21,14 +21,14 @@ pub fn mime_type(name: &str) -> &'static str {
     }
 }
 
-/// The corners of a tetrahedron, and its faces.
+/// The vertices and faces of a tetrahedron.
 const CORNERS: [[i32; 3]; 4] = [[0, 0, 0], [2, 0, 0], [0, 2, 0], [0, 0, 2]];
 const FACES: [[usize; 3]; 4] = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
 
 /// Writes all files into a folder.
 ///
 /// # Errors
-/// If one cannot be written; the text names it.
+/// If a file cannot be written; the message names it.
 pub fn write_samples(folder: &Path) -> Result<(), String> {
     let read = |path: &str| {
         let path = alberti_tests::project_root().join(path);
@@ -49,7 +49,7 @@ pub fn write_samples(folder: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Numbers with blanks between them.
+/// Joins numbers with blanks.
 fn joined<T: ToString>(numbers: &[T]) -> String {
     numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
 }

@@ -1,4 +1,4 @@
-//! The chain from the world to the screen and back: CA-1, CA-2, PL-1, UN-1, UN-2.
+//! The chain from the world to the screen and back (CA-1, CA-2, PL-1, UN-1, UN-2).
 
 use crate::vectors::Runner;
 use crate::vectors::explained::check_explained;
@@ -15,7 +15,7 @@ use homog::{Clip, ClipRange, HPoint, Point, Projective, View, World};
 use serde_json::Value;
 use viewport::Viewport;
 
-/// One per file.
+/// The runners, one per file.
 pub const RUNNERS: &[(&str, Runner)] = &[
     ("lookat", check_lookat),
     ("pipeline_points", check_pipeline_points),
@@ -23,9 +23,9 @@ pub const RUNNERS: &[(&str, Runner)] = &[
     ("pick_rays", check_pick_rays),
 ];
 
-/// Screen positions may be off by this fraction of the image's size.
+/// The tolerance for screen positions, as a fraction of the image size.
 const SCREEN_TOLERANCE: f64 = 1e-11;
-/// The tolerance for unprojected points, which have been through an inverse.
+/// The tolerance for unprojected points, which depend on an inverse.
 const UNPROJECTED_TOLERANCE: f64 = 1e-9;
 
 pub fn parse_camera(case: &Value) -> Result<Result<Camera, CameraError>, String> {
@@ -44,7 +44,7 @@ pub fn check_lookat(case: &Value, out: &Value) -> Result<(), String> {
     })
 }
 
-/// Camera, projection and viewport of a case, with the inverses in closed form.
+/// The camera, projection and viewport of a case, with closed-form inverses.
 struct ViewChain {
     camera: Camera,
     view_to_clip: Projective<View, Clip>,
@@ -53,11 +53,11 @@ struct ViewChain {
     kind: ProjectionKind,
 }
 
-/// Properties of the projection that the rest of the chain needs.
+/// The properties of the projection that the rest of the chain needs.
 struct ProjectionKind {
     volume: Volume,
     range: ClipRange,
-    /// −1 for M_per, whose visible points have w < 0.
+    /// The sign of w at visible points, which is −1 for M_per.
     sign: f64,
 }
 

@@ -13,7 +13,7 @@ use projection::{
 };
 use serde_json::Value;
 
-/// One per file.
+/// The runners, one per file.
 pub const RUNNERS: &[(&str, Runner)] = &[
     ("multiview_axonometric", check_axonometric),
     ("oblique", check_oblique),
@@ -113,7 +113,7 @@ fn check_oblique(case: &Value, out: &Value) -> CheckResult {
     })
 }
 
-/// A direction and a plane give the same matrices.
+/// Checks that a direction and a plane give the same matrices.
 fn same_from_first_principles(ours: Oblique) -> CheckResult {
     let plane = Plane::through(Point::new(0.0, 0.0, ours.plane_z()), Normal::new(0.0, 0.0, 1.0));
     let principles = Projector::along(ours.direction(), plane).map_err(|e| e.to_string())?;
@@ -158,7 +158,7 @@ fn check_npoint(case: &Value, out: &Value) -> CheckResult {
     })
 }
 
-/// Returns the images, an error where a point has none.
+/// Returns the images, or an error if a point has none.
 fn project_points(map: Projective<View, View>, points: &Value) -> Result<Vec<[f64; 3]>, String> {
     parse_array(points)?
         .iter()
@@ -177,7 +177,7 @@ fn check_principal_points(ours: NPoint, out: &Value) -> CheckResult {
     let found = principal_vanishing_points(ours.depth_preserving()).map_err(|e| e.to_string())?;
     let count = out["count"].as_u64().and_then(|count| usize::try_from(count).ok());
     if Some(found.count()) != count || Some(ours.count()) != count {
-        return Err(format!("has {} vanishing points, not {count:?}", found.count()));
+        return Err(format!("has {} vanishing points, expected {count:?}", found.count()));
     }
     let theirs = parse_array(&out["principal_vanishing_points_depth_kept"])?;
     for (ours, theirs) in found.axes.iter().zip(theirs) {
@@ -191,7 +191,7 @@ fn check_principal_points(ours: NPoint, out: &Value) -> CheckResult {
                     TOLERANCE,
                 )?;
             }
-            (None, theirs) => return Err(format!("vanishes nowhere, not at {theirs}")),
+            (None, theirs) => return Err(format!("has no vanishing point, but expected {theirs}")),
         }
     }
     Ok(())

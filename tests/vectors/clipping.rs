@@ -9,7 +9,7 @@ use clip::{ClipVertex, PlaneIndex, Volume, clip_segment, clip_triangle};
 use homog::{Clip, HPoint};
 use serde_json::Value;
 
-/// One per file.
+/// The runners, one per file.
 pub const RUNNERS: &[(&str, Runner)] =
     &[("clip_segment", check_segment), ("clip_polygon", check_polygon)];
 
@@ -27,7 +27,7 @@ fn check_segment(case: &Value, out: &Value) -> Result<(), String> {
     let volume = parse_volume(case)?;
     let clipped = clip_segment(p, q, &volume);
     if out.get("error").is_some() {
-        return clipped.map_or(Ok(()), |left| Err(format!("must be refused, gives {left:?}")));
+        return clipped.map_or(Ok(()), |left| Err(format!("must be rejected, but gives {left:?}")));
     }
     for (name, end) in [("outcode_p", p), ("outcode_q", q)] {
         let (ours, theirs) = (volume.outcode(end).bits(), count_field(out, name)?);
@@ -40,7 +40,7 @@ fn check_segment(case: &Value, out: &Value) -> Result<(), String> {
         return if kind == "empty" { Ok(()) } else { Err(format!("is empty, not a {kind}")) };
     };
     if kind == "empty" {
-        return Err(format!("must be empty, gives {left:?}"));
+        return Err(format!("must be empty, but gives {left:?}"));
     }
     assert_close("t0", left.t0, number_field(out, "t0")?, TOLERANCE)?;
     assert_close("t1", left.t1, number_field(out, "t1")?, TOLERANCE)?;
@@ -72,7 +72,7 @@ fn compare_plane(name: &str, ours: Option<PlaneIndex>, theirs: &Value) -> Result
 }
 
 fn divide_point(point: HPoint<Clip>) -> Result<[f64; 3], String> {
-    point.divide().map(Into::into).ok_or_else(|| format!("{point:?} does not divide"))
+    point.divide().map(Into::into).ok_or_else(|| format!("{point:?} cannot be divided by w"))
 }
 
 fn check_polygon(case: &Value, out: &Value) -> Result<(), String> {
@@ -82,7 +82,7 @@ fn check_polygon(case: &Value, out: &Value) -> Result<(), String> {
     let polygon = clip_triangle(corners.map(HPoint::from), &parse_volume(case)?);
     let vertices = polygon.vertices();
     if out.get("error").is_some() {
-        return if polygon.is_empty() { Ok(()) } else { Err("must be refused".into()) };
+        return if polygon.is_empty() { Ok(()) } else { Err("must be rejected".into()) };
     }
     let count = parse_array(&out["vertices"])?.len();
     if vertices.len() != count {
@@ -91,7 +91,7 @@ fn check_polygon(case: &Value, out: &Value) -> Result<(), String> {
     if count == 0 {
         return Ok(());
     }
-    // Any rotation will do; the differences for the best one are reported.
+    // Any rotation is accepted; the differences for the best rotation are reported.
     let fits = (0..count).map(|shift| compare_rings(vertices, shift, out));
     fits.reduce(Result::or).unwrap_or(Ok(()))?;
     let fraction = area_fraction(vertices);
@@ -126,7 +126,7 @@ fn compare_rings(vertices: &[ClipVertex], shift: usize, out: &Value) -> Result<(
     Ok(())
 }
 
-/// Returns the area in weight space, where the whole triangle is 1.
+/// Returns the area in weight space, where the whole triangle has area 1.
 fn area_fraction(vertices: &[ClipVertex]) -> f64 {
     polygon_area(&vertices.iter().map(|v| [v.weights[1], v.weights[2]]).collect::<Vec<_>>()) * 2.0
 }

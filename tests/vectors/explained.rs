@@ -1,4 +1,5 @@
-//! `explain` reports the vectors' results for a point: clip space, the division, the screen.
+//! Checks that `explain` reports the vectors' results for a point: clip space, the division and the
+//! screen.
 
 use crate::vectors::numbers::{assert_all_close, assert_close, parse_point, parse_point4};
 use camera::ViewProjection;
@@ -9,7 +10,7 @@ use serde_json::Value;
 use viewport::{DepthRange, Viewport};
 
 /// Compares the explanation of a point with a vector. `forth` is the projection in the chapter's
-/// convention, with w < 0 in front of the eye if `sign` is −1; `viewport` is the vector's.
+/// convention, with w < 0 in front of the eye if `sign` is −1; `viewport` is from the vector.
 pub fn check_explained(
     (camera, forth, sign): (camera::Camera, DMat4, f64),
     viewport: &Viewport,
@@ -51,7 +52,7 @@ pub fn check_explained(
     assert_close("explained depth", viewport.depth().ndc_to_depth(z), theirs[2], 1e-11)
 }
 
-/// Returns the item with this name, in any step.
+/// Returns the item with this name from any step.
 fn json_item(told: &Value, id: &str) -> Value {
     let steps = told["steps"].as_array().into_iter().flatten();
     let mut items = steps.flat_map(|step| step["items"].as_array().into_iter().flatten());
@@ -60,5 +61,5 @@ fn json_item(told: &Value, id: &str) -> Value {
 
 fn json_number(of: &Value, name: &str) -> Result<f64, String> {
     let value = if of["steps"].is_null() { of[name].clone() } else { json_item(of, name) };
-    value.as_f64().ok_or_else(|| format!("there is no number {name}"))
+    value.as_f64().ok_or_else(|| format!("missing number {name}"))
 }

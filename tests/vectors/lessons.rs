@@ -1,5 +1,5 @@
-//! The exercises of the chapter, and the misprints of the sources: the correct form must be the
-//! result, the printed one must not.
+//! The exercises in the chapter and the misprints in the sources. The result must be the correct
+//! form and must differ from the printed form.
 
 use crate::vectors::Runner;
 use crate::vectors::chain::check_lookat;
@@ -17,7 +17,7 @@ use projection::{ApexMovedFrustum, Convention, Frustum, ProjectionError, api, ch
 use serde_json::{Value, json};
 use viewport::Viewport;
 
-/// One per file.
+/// The runners, one per file.
 pub const RUNNERS: &[(&str, Runner)] =
     &[("exercises", check_exercise), ("misprints", check_misprint)];
 
@@ -64,7 +64,7 @@ fn compare_matrix(ours: DMat4, out: &Value, name: &str) -> Result<(), String> {
 }
 
 fn divide_point(point: HPoint<View>) -> Result<[f64; 3], String> {
-    point.divide().map(Into::into).ok_or_else(|| format!("{point:?} does not divide"))
+    point.divide().map(Into::into).ok_or_else(|| format!("{point:?} cannot be divided by w"))
 }
 
 type PerspectiveResult = Result<Projective<View, View>, ProjectionError>;
@@ -90,7 +90,7 @@ fn check_depth_order(p: Projective<View, View>, case: &Value, out: &Value) -> Re
     }
 }
 
-/// An affine map gives the same point for (x, y, z, 1) and for (hx, hy, hz, h).
+/// Checks that an affine map gives the same point for (x, y, z, 1) and (hx, hy, hz, h).
 fn check_heights(case: &Value, out: &Value) -> Result<(), String> {
     let map =
         Affine::<World, World>::from_raw(parse_matrix(&case["matrix"])?).ok_or("is not affine")?;
@@ -117,7 +117,8 @@ fn corners_of_m_per(case: &Value, out: &Value) -> Result<(), String> {
     let [l, r, b, t, n, f] = parse_frustum_edges(case)?;
     compare_outcome(chapter::m_per(l, r, b, t, n, f), out, |m| {
         let image = |x, y, z| {
-            let image = m.transform_point(Point::new(x, y, z)).divide().ok_or("does not divide")?;
+            let image =
+                m.transform_point(Point::new(x, y, z)).divide().ok_or("cannot be divided by w")?;
             Ok::<_, String>(<[f64; 3]>::from(image))
         };
         for (name, ours) in
@@ -152,7 +153,7 @@ fn check_segment_order(case: &Value, out: &Value) -> Result<(), String> {
     })
 }
 
-/// `[l, r, b, t, n, f]` of a case.
+/// Parses `[l, r, b, t, n, f]` from a case.
 fn parse_frustum_edges(case: &Value) -> Result<[f64; 6], String> {
     let mut edges = [0.0; 6];
     for (edge, name) in edges.iter_mut().zip(["l", "r", "b", "t", "n", "f"]) {
@@ -161,7 +162,7 @@ fn parse_frustum_edges(case: &Value) -> Result<[f64; 6], String> {
     Ok(edges)
 }
 
-/// Ours is the correct form and is not the printed one.
+/// Checks that our matrix is the correct form and not the printed form.
 fn check_correct_and_printed(
     ours: DMat4,
     out: &Value,
@@ -190,7 +191,8 @@ fn check_misprint(case: &Value, out: &Value) -> Result<(), String> {
         }
         "003-eq4-5-7-w" => {
             let (n, f) = (number_field(case, "n")?, number_field(case, "f")?);
-            // With the window [−n, n]² the frustum's x and y rows equal the identity's.
+            // With the window [−n, n]², the x and y rows of the frustum matrix are those of the
+            // identity.
             let ours = api::frustum_gl(-n, n, -n, n, n, f).map_err(refused)?;
             check_correct_and_printed(ours.raw(), out, "correct", "printed")
         }
@@ -215,7 +217,8 @@ fn check_misprint(case: &Value, out: &Value) -> Result<(), String> {
             let [l, r, b, t, n, f] = parse_frustum_edges(case)?;
             let ours = chapter::m_per(l, r, b, t, n, f).map_err(refused)?;
             check_correct_and_printed(ours.raw(), out, "correct", "printed")?;
-            // The printed matrix belongs to the box: w stays 1, without foreshortening.
+            // The printed matrix is the matrix of the box, in which w stays 1 and nothing is
+            // foreshortened.
             let orth = chapter::m_orth(l, r, b, t, n, f).map_err(refused)?;
             compare_matrix(orth.raw(), out, "printed")
         }

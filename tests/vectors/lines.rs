@@ -10,10 +10,10 @@ use projection::{Convention, Frustum, Orthographic};
 use serde_json::Value;
 use viewport::Viewport;
 
-/// One per file.
+/// The runners, one per file.
 pub const RUNNERS: &[(&str, Runner)] = &[("hidden_lines", check_hidden_lines)];
 
-/// The README's tolerance, in t.
+/// The tolerance in the README, in t.
 const TOLERANCE: f64 = 1e-9;
 
 fn check_hidden_lines(input: &Value, out: &Value) -> Result<(), String> {
@@ -46,11 +46,11 @@ fn check_hidden_lines(input: &Value, out: &Value) -> Result<(), String> {
     Ok(())
 }
 
-/// The side of the picture in pixels, the unit of tolerances.
+/// The side length of the picture in pixels, which are the unit of tolerances.
 const IMAGE_SIDE: u32 = 1 << 20;
 
-/// Half the window, at distance 1: edges beyond the picture's sides would be cut, but in the
-/// vectors they are not.
+/// Half the window at distance 1, large because edges would be clipped at the sides of the picture,
+/// but are not clipped in the vectors.
 const HALF_WINDOW: f64 = 4096.0;
 
 fn parse_view_projection(input: &Value) -> Result<ViewProjection, String> {

@@ -1,14 +1,14 @@
-//! Reads numbers, points and matrices from vector files, and compares ours with theirs.
+//! Reads numbers, points and matrices from vector files, and compares our results with theirs.
 
 use glam::{DMat4, DVec4};
 use serde_json::Value;
 use std::fmt::Display;
 
-/// The tolerance in the vectors' README for f64 code.
+/// The tolerance for f64 code, from the README of the vectors.
 pub const TOLERANCE: f64 = 1e-12;
 
-/// Returns a number; `"NaN"`, `"inf"` and `"-inf"` are strings in the files, for JSON has no such
-/// numbers.
+/// Parses a number. `"NaN"`, `"inf"` and `"-inf"` are strings in the files, because JSON has no
+/// such numbers.
 pub fn parse_number(value: &Value) -> Result<f64, String> {
     match value {
         Value::String(name) if ["NaN", "inf", "-inf"].contains(&name.as_str()) => {
@@ -29,9 +29,9 @@ pub fn count_field(object: &Value, name: &str) -> Result<u32, String> {
     count.ok_or_else(|| format!("{name}: {} is not a count", object[name]))
 }
 
-/// Returns the text in the field `name`.
+/// Returns the string in the field `name`.
 pub fn text_field<'a>(object: &'a Value, name: &str) -> Result<&'a str, String> {
-    object[name].as_str().ok_or_else(|| format!("{name}: {} is not text", object[name]))
+    object[name].as_str().ok_or_else(|| format!("{name}: {} is not a string", object[name]))
 }
 
 /// Returns the items of a list.
@@ -51,23 +51,23 @@ pub fn zip_arrays<'a>(
     Ok(ours.iter().zip(theirs))
 }
 
-/// Returns a list of exactly `N` numbers.
+/// Parses a list of exactly `N` numbers.
 pub fn parse_numbers<const N: usize>(value: &Value) -> Result<[f64; N], String> {
     let numbers = parse_array(value)?.iter().map(parse_number).collect::<Result<Vec<_>, _>>()?;
     numbers.try_into().map_err(|_| format!("{value} is not a list of {N} numbers"))
 }
 
-/// Returns a point or vector (x, y, z).
+/// Parses a point or vector (x, y, z).
 pub fn parse_point(value: &Value) -> Result<[f64; 3], String> {
     parse_numbers(value)
 }
 
-/// Returns a homogeneous point (x, y, z, w).
+/// Parses a homogeneous point (x, y, z, w).
 pub fn parse_point4(value: &Value) -> Result<[f64; 4], String> {
     parse_numbers(value)
 }
 
-/// Returns a 4×4 matrix, a list of rows.
+/// Parses a 4×4 matrix from a list of rows.
 pub fn parse_matrix(value: &Value) -> Result<DMat4, String> {
     let rows: Vec<[f64; 4]> =
         parse_array(value)?.iter().map(parse_numbers).collect::<Result<_, _>>()?;
@@ -76,7 +76,7 @@ pub fn parse_matrix(value: &Value) -> Result<DMat4, String> {
     Ok(DMat4::from_cols_array_2d(&rows).transpose())
 }
 
-/// Ours against theirs: |ours − theirs| ≤ tolerance · max(1, |theirs|).
+/// Checks that |ours − theirs| ≤ tolerance · max(1, |theirs|).
 pub fn assert_close(name: &str, ours: f64, theirs: f64, tolerance: f64) -> Result<(), String> {
     let allowed = tolerance * theirs.abs().max(1.0);
     if (ours - theirs).abs() <= allowed {
@@ -85,7 +85,7 @@ pub fn assert_close(name: &str, ours: f64, theirs: f64, tolerance: f64) -> Resul
     Err(format!("{name} is {ours:?}, not {theirs:?}: off by {:e}", (ours - theirs).abs()))
 }
 
-/// Ours against theirs, number by number.
+/// Compares ours with theirs, number by number.
 pub fn assert_all_close(
     name: &str,
     ours: &[f64],
@@ -99,7 +99,7 @@ pub fn assert_all_close(
     pairs.try_for_each(|(i, (&a, &b))| assert_close(&format!("{name}[{i}]"), a, b, tolerance))
 }
 
-/// Ours against theirs, entry by entry.
+/// Compares ours with theirs, entry by entry.
 pub fn assert_matrix_close(
     name: &str,
     ours: DMat4,
@@ -113,8 +113,8 @@ pub fn assert_matrix_close(
     Ok(())
 }
 
-/// Compares a result with an expectation that may be a refusal (`{"error": …}`, with any code):
-/// `check` gets the result if there had to be one.
+/// Compares a result with an expectation that may be a rejection (`{"error": …}`, with any code).
+/// `check` receives the result if one is expected.
 pub fn compare_outcome<T, E: Display>(
     ours: Result<T, E>,
     out: &Value,
@@ -122,8 +122,8 @@ pub fn compare_outcome<T, E: Display>(
 ) -> Result<(), String> {
     match (ours, out.get("error")) {
         (Err(_), Some(_)) => Ok(()),
-        (Ok(_), Some(code)) => Err(format!("must be refused: {code}")),
-        (Err(error), None) => Err(format!("is refused: {error}")),
+        (Ok(_), Some(code)) => Err(format!("must be rejected: {code}")),
+        (Err(error), None) => Err(format!("is rejected: {error}")),
         (Ok(ours), None) => check(ours),
     }
 }

@@ -9,11 +9,11 @@ use glam::DMat3;
 use homog::{Clip, Foreshortening, HPoint, HPoint2, Homography, Point, Projective, Vector, World};
 use serde_json::Value;
 
-/// One per file.
+/// The runners, one per file.
 pub const RUNNERS: &[(&str, Runner)] =
     &[("homogenize", check_homogenize), ("interp_ft", check_interp_ft)];
 
-/// Computed coordinates may be off by a few units in the last place.
+/// The tolerance for computed coordinates: a few units in the last place.
 const EQUIVALENCE_TOLERANCE: f64 = 1e-12;
 
 fn check_homogenize(case: &Value, out: &Value) -> Result<(), String> {
@@ -33,7 +33,7 @@ fn check_homogenize(case: &Value, out: &Value) -> Result<(), String> {
         "equivalent" => {
             let ours = parse_hpoint(&case["a"])?
                 .equivalent(parse_hpoint(&case["b"])?, EQUIVALENCE_TOLERANCE);
-            compare_outcome(ours.ok_or("a point is not valid"), out, |ours| {
+            compare_outcome(ours.ok_or("invalid point"), out, |ours| {
                 compare_kind(&ours.to_string(), &out["equivalent"].to_string())
             })
         }
@@ -70,7 +70,7 @@ fn parse_map(value: &Value) -> Result<Projective<World, World>, String> {
 }
 
 fn divide_point(point: HPoint<World>) -> Result<Point<World>, String> {
-    point.divide().ok_or_else(|| format!("{point:?} does not divide"))
+    point.divide().ok_or_else(|| format!("{point:?} cannot be divided by w"))
 }
 
 fn compare_point(ours: Point<World>, out: &Value) -> Result<(), String> {

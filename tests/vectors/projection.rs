@@ -13,7 +13,7 @@ use projection::{
 };
 use serde_json::Value;
 
-/// One per file.
+/// The runners, one per file.
 pub const RUNNERS: &[(&str, Runner)] = &[
     ("proj_orth", check_matrix_and_maps),
     ("proj_p", check_perspective_matrix),
@@ -30,11 +30,11 @@ pub const RUNNERS: &[(&str, Runner)] = &[
     ("depth_precision", check_depth_precision),
 ];
 
-/// The difference from the answer, if there is one.
+/// The difference from the expected result, if any.
 pub type CheckResult = Result<(), String>;
 pub type BuiltMatrices = Result<(DMat4, DMat4), ProjectionError>;
 
-/// Returns the convention and the kind of the interfaces' builders.
+/// Returns the convention of an interface's builder.
 fn builder_convention(builder: &str) -> Convention {
     match builder {
         name if name.ends_with("_rh_zo_rev") || name.ends_with("_rh_zo_rev_inf") => {
@@ -46,7 +46,7 @@ fn builder_convention(builder: &str) -> Convention {
     }
 }
 
-/// Returns the matrix as the named builder makes it, and the closed-form inverse.
+/// Returns the matrix that the named builder makes, and the closed-form inverse.
 pub fn build_projection(case: &Value) -> Result<BuiltMatrices, String> {
     let builder = text_field(case, "builder")?;
     if builder.starts_with("perspective") {
@@ -127,7 +127,7 @@ pub fn check_mapped_points<B: Space>(
 }
 
 pub fn divide_point<S: Space>(image: HPoint<S>) -> Result<[f64; 3], String> {
-    image.divide().map(Into::into).ok_or_else(|| format!("{image:?} does not divide"))
+    image.divide().map(Into::into).ok_or_else(|| format!("{image:?} cannot be divided by w"))
 }
 
 fn check_inverse(case: &Value, out: &Value) -> CheckResult {
@@ -142,7 +142,7 @@ fn check_perspective_matrix(case: &Value, out: &Value) -> CheckResult {
     let (n, f) = (number_field(case, "n")?, number_field(case, "f")?);
     let refused = [chapter::p_inverse(n, f).is_err(), chapter::p_inverse_scaled(n, f).is_err()];
     if refused != [out.get("error").is_some(); 2] {
-        return Err(format!("the inverses are refused: {refused:?}"));
+        return Err(format!("the inverses are rejected: {refused:?}"));
     }
     compare_outcome(chapter::p(n, f), out, |p| {
         assert_matrix_close("matrix", p.raw(), parse_matrix(&out["matrix"])?, TOLERANCE)?;
@@ -275,7 +275,7 @@ fn check_depth_precision(case: &Value, out: &Value) -> CheckResult {
     })
 }
 
-/// Steps are small, so their ratio is compared.
+/// Checks a depth step. Steps are small, so their ratio is compared.
 fn check_depth_step(
     curve: DepthCurve,
     distance: f64,

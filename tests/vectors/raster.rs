@@ -1,7 +1,7 @@
 //! Coverage and interpolated values (RA-1, RA-2, IN-2).
 //!
-//! Coverage must agree sample by sample. Depth and weights are kept in f32 on purpose, so they are
-//! judged at f32 precision.
+//! Coverage must agree sample by sample. Depth and weights are intentionally stored as f32, so they
+//! are compared at f32 precision.
 
 use crate::vectors::numbers::{assert_close, parse_number};
 use homog::{PixelConvention, Point, Screen};
@@ -11,7 +11,7 @@ use serde_json::Value;
 pub const RUNNERS: &[(&str, crate::vectors::Runner)] =
     &[("raster_coverage", check_coverage), ("raster_attributes", check_attributes)];
 
-/// A few units in the last place of f32, for values of about 1.
+/// The tolerance: a few units in the last place of f32, for values near 1.
 const SINGLE_PRECISION_TOLERANCE: f64 = 4e-6;
 
 fn check_coverage(input: &Value, out: &Value) -> Result<(), String> {
@@ -43,7 +43,10 @@ fn check_coverage(input: &Value, out: &Value) -> Result<(), String> {
     }
     let covered = hits.iter().filter(|&&hits| hits > 0).count() as u64;
     if out["union_count"].as_u64().is_some_and(|union| union != covered) {
-        return Err(format!("together they cover {covered} pixels, not {}", out["union_count"]));
+        return Err(format!(
+            "together they cover {covered} pixels, expected {}",
+            out["union_count"]
+        ));
     }
     if out["disjoint"] == true && hits.iter().any(|&hits| hits > 1) {
         return Err("a pixel is covered twice".to_owned());
@@ -67,7 +70,7 @@ fn check_attributes(input: &Value, out: &Value) -> Result<(), String> {
     });
     let pixels = parse_array(&out["pixels"])?;
     if pixels.len() != fragments.len() {
-        return Err(format!("{} pixels are covered, not {}", fragments.len(), pixels.len()));
+        return Err(format!("{} pixels are covered, expected {}", fragments.len(), pixels.len()));
     }
     for pixel in pixels {
         let place = [pixel["x"].as_i64(), pixel["y"].as_i64()];
@@ -106,14 +109,14 @@ fn check_attributes(input: &Value, out: &Value) -> Result<(), String> {
     Ok(())
 }
 
-/// A fragment as the test surface records it.
+/// A fragment as recorded by the test surface.
 struct CoveredFragment {
     x: u32,
     y: u32,
     weights: [f32; 3],
 }
 
-/// The size of a picture, and the convention that names its pixels.
+/// The size of a picture, and the convention for its pixel coordinates.
 struct TestImage {
     width: u32,
     height: u32,
@@ -158,8 +161,8 @@ impl TestImage {
         ScreenVertex::snap(place, w).ok_or_else(|| format!("({x}, {y}) cannot be drawn"))
     }
 
-    /// Returns the pixel's name in the file's convention: its column and its row, from the top or
-    /// from the bottom.
+    /// Returns the pixel's coordinates in the file's convention: its column, and its row from the
+    /// top or from the bottom.
     fn pixel_at(&self, at: usize) -> [i64; 2] {
         let (width, height) = (i64::from(self.width), i64::from(self.height));
         let (x, y) = (at as i64 % width, at as i64 / width);

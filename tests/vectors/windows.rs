@@ -17,7 +17,7 @@ use viewport::{
     DepthRange, Limits, PointGrid, Rectangle, Viewport, ViewportError, WindowToViewport,
 };
 
-/// One per file.
+/// The runners, one per file.
 pub const RUNNERS: &[(&str, Runner)] = &[
     ("interpolate", check_interpolation),
     ("window_viewport", check_window_viewport),
@@ -58,7 +58,7 @@ fn check_interpolation(case: &Value, out: &Value) -> Result<(), String> {
     }
 }
 
-/// A 3×3 matrix, a list of rows.
+/// Compares a 3×3 matrix with a list of rows.
 pub fn assert_matrix3_close(name: &str, ours: DMat3, theirs: &Value) -> Result<(), String> {
     for (i, row) in parse_array(theirs)?.iter().enumerate() {
         let row_name = format!("{name}[{i}]");
@@ -88,7 +88,7 @@ fn check_window_viewport(case: &Value, out: &Value) -> Result<(), String> {
             compare_outcome(PointGrid::new(size("rows")?, size("cols")?), out, |grid| {
                 for (index, theirs) in zip_arrays(&case["index"], &out["xz"])? {
                     let [row, column] = parse_numbers::<2>(index)?.map(|index| index as usize);
-                    let xz = grid.xz(row, column).ok_or("the index is beyond the last")?;
+                    let xz = grid.xz(row, column).ok_or("the index is out of range")?;
                     assert_all_close("xz", &xz, &parse_numbers::<2>(theirs)?, TOLERANCE)?;
                 }
                 Ok(())
@@ -132,8 +132,8 @@ fn check_window_to_viewport(case: &Value, out: &Value) -> Result<(), String> {
     })
 }
 
-/// Returns the viewport on a whole image of `nx` by `ny` pixels; depth is kept unless the case says
-/// otherwise.
+/// Returns the viewport on a whole image of `nx` by `ny` pixels. Depth is unchanged unless the case
+/// specifies otherwise.
 pub fn full_image_viewport(case: &Value) -> Result<Result<Viewport, ViewportError>, String> {
     let y = match text_field(case, "y")? {
         "up" => YAxis::Up,
@@ -202,7 +202,8 @@ fn check_viewport_maps(view: Viewport, out: &Value) -> Result<(), String> {
     Ok(())
 }
 
-/// As glViewport and glDepthRange have it: half-integer centers, y up.
+/// Parses a viewport with the conventions of glViewport and glDepthRange: half-integer centers, y
+/// up.
 fn parse_rectangle(case: &Value) -> Result<Result<Viewport, ViewportError>, String> {
     let number = |name| number_field(case, name);
     let area = Rectangle::new(number("x0")?, number("y0")?, number("width")?, number("height")?);
@@ -212,7 +213,7 @@ fn parse_rectangle(case: &Value) -> Result<Result<Viewport, ViewportError>, Stri
     }))
 }
 
-/// Exercise 2: the product of viewport and box, and the same map as one windowing.
+/// Checks exercise 2: the product of viewport and box, and the same map as a single windowing.
 pub fn check_viewport_after_box(case: &Value, out: &Value) -> Result<(), String> {
     let number = |name| number_field(case, name);
     let (l, r, b, t) = (number("l")?, number("r")?, number("b")?, number("t")?);

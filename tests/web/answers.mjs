@@ -1,13 +1,13 @@
-// Asks the explorer's engine in Node: `node answers.mjs SITE OUT [--file=NAME=PATH…] [NAME?QUERY…]`.
+// Queries the explorer's engine in Node: `node answers.mjs SITE OUT [--file=NAME=PATH…] [NAME?QUERY…]`.
 //
-// SITE is a folder that `cargo xtask web` has written. The files are added first; each answer is written to OUT/NAME, and
-// an error of the engine ends the program.
+// SITE is a folder written by `cargo xtask web`. The files are added first; each answer is written to OUT/NAME. An engine
+// error ends the program.
 
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 const [site, out, ...words] = process.argv.slice(2);
-// Node takes a file of this name for a module only from a data URL.
+// Node treats a file with this name as a module only if it comes from a data URL.
 const source = readFileSync(join(site, 'web.js')).toString('base64');
 const { initSync, Explorer } = await import(`data:text/javascript;base64,${source}`);
 initSync({ module: readFileSync(join(site, 'web_bg.wasm')) });

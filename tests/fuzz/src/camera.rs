@@ -5,8 +5,8 @@ use crate::scene::resolve_and_draw;
 use camera::{CameraAxes, Extrinsics};
 use homog::{PixelCenters, Point};
 use pipeline::Origin;
-use scene_file::parse_scene;
 use projection::{Convention, Intrinsics};
+use scene_file::parse_scene;
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/models");
 

@@ -12,7 +12,10 @@ const MODELS: [(&str, &[u8]); 6] = [
     ("models/crate.glb", include_bytes!("../../../scenes/models/crate.glb")),
     ("models/floor.glb", include_bytes!("../../../scenes/models/floor.glb")),
     ("models/mexican_hat.glb", include_bytes!("../../../scenes/models/mexican_hat.glb")),
-    ("models/mexican_hat_lines.glb", include_bytes!("../../../scenes/models/mexican_hat_lines.glb")),
+    (
+        "models/mexican_hat_lines.glb",
+        include_bytes!("../../../scenes/models/mexican_hat_lines.glb"),
+    ),
     ("model.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
 ];
 

@@ -4,11 +4,11 @@
 use crate::{glb, promises};
 use homog::Affine;
 
-use model::{Model, ModelInstance};
-use import::{ImageLoading, ImportError, ImportOptions, Limits, NameOrIndex, load_bytes};
 use gltf_check::check_bytes;
-use scene_file::file::{CameraChoice, DEFAULT_PADDING, FromFile, SceneFile, StyleFile, ViewFile};
+use import::{ImageLoading, ImportError, ImportOptions, Limits, NameOrIndex, load_bytes};
+use model::{Model, ModelInstance};
 use pipeline::{Origin, Scene, render};
+use scene_file::file::{CameraChoice, DEFAULT_PADDING, FromFile, SceneFile, StyleFile, ViewFile};
 use std::path::PathBuf;
 use std::sync::Arc;
 

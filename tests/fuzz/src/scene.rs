@@ -1,8 +1,8 @@
 //! Scene files, which are parsed, resolved with an existing model, and drawn with one thread and
 //! with two.
 
-use scene_file::parse_scene;
 use pipeline::{Origin, Scene, SceneFile, render};
+use scene_file::parse_scene;
 use std::path::Path;
 
 /// A small model with several materials.

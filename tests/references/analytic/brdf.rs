@@ -1,24 +1,24 @@
 //! The glTF metallic-roughness BRDF in double precision, written from the specification (glTF 2.0,
 //! Appendix B).
 //!
-//! It shares no code with the renderer. Energy that microfacets reflect onto each other is returned
-//! by the factor `1 + F0 (1 − E)/E` (Turquin, *Practical multiple scattering compensation for
-//! microfacet models*, 2019), with the directional albedo `E` integrated numerically.
+//! It shares no code with the renderer. The energy that microfacets reflect onto each other is
+//! restored by the factor `1 + F0 (1 − E)/E` (Turquin, *Practical multiple scattering compensation
+//! for microfacet models*, 2019), with the directional albedo `E` integrated numerically.
 
 use glam::DVec3;
 use std::f64::consts::{FRAC_1_PI, PI};
 
-/// The color and the finish of a surface.
+/// The color and finish of a surface.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Material {
-    /// Linear light, 0 to 1.
+    /// The base color in linear light, from 0 to 1.
     pub base_color: [f64; 3],
-    /// Coverage, 0 to 1.
+    /// The coverage, from 0 to 1.
     pub alpha: f64,
     pub metallic: f64,
-    /// Perceptual roughness, the square root of GGX's α.
+    /// The perceptual roughness, which is the square root of GGX's α.
     pub roughness: f64,
-    /// Shown as its base color in any light (KHR_materials_unlit).
+    /// Whether the base color is shown in any light (KHR_materials_unlit).
     pub unlit: bool,
 }
 
@@ -33,13 +33,13 @@ impl Material {
         Self { metallic: 1.0, ..Self::dielectric(base_color, roughness) }
     }
 
-    /// Creates an unlit color, blended over the surfaces behind it.
+    /// Creates an unlit color that is blended over the surfaces behind it.
     pub fn unlit(base_color: [f64; 3], alpha: f64) -> Self {
         Self { unlit: true, alpha, ..Self::dielectric(base_color, 1.0) }
     }
 
-    /// Linear light that leaves towards the viewer, from a point with the unit normal `n`; `v` is
-    /// the unit direction to the viewer.
+    /// Returns the linear light toward the viewer from a point with the unit normal `n`, where `v`
+    /// is the unit direction to the viewer.
     pub fn shade(&self, n: DVec3, v: DVec3, lights: &Lights) -> [f64; 3] {
         if self.unlit {
             return self.base_color;
@@ -68,31 +68,31 @@ impl Material {
 /// One directional light and constant ambient light, in lux.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Lights {
-    /// The direction in which the light of the sun travels.
+    /// The direction in which the sunlight travels.
     pub sun_direction: DVec3,
     pub sun: f64,
     pub ambient: f64,
 }
 
-/// D: the GGX distribution of half-vectors (Walter and others 2007).
+/// Computes D, the GGX distribution of half-vectors (Walter et al. 2007).
 fn distribution(nh: f64, alpha: f64) -> f64 {
     let square = alpha * alpha;
     let width = nh * nh * (square - 1.0) + 1.0;
     square * FRAC_1_PI / (width * width)
 }
 
-/// V: Smith's masking and shadowing with correlated heights, over 4 n·l n·v (Heitz 2014).
+/// Computes V, Smith's height-correlated masking and shadowing, divided by 4 n·l n·v (Heitz 2014).
 fn visibility(nl: f64, nv: f64, alpha: f64) -> f64 {
     let square = alpha * alpha;
     let root = |c: f64| (square + (1.0 - square) * c * c).sqrt();
     0.5 / (nl * root(nv) + nv * root(nl)).max(1e-12)
 }
 
-/// E: the fraction of white light from all sides that the lobe reflects to a viewer at n·v, without
-/// Fresnel. It uses the midpoint rule over half-vectors distributed as D n·h.
+/// Computes E, the fraction of white light from all sides that the lobe reflects to a viewer at
+/// n·v, without Fresnel. It uses the midpoint rule over half-vectors distributed as D n·h.
 pub fn directional_albedo(nv: f64, alpha: f64) -> f64 {
     const STEPS: u32 = 48;
-    // Of half a turn: the other half has the same values.
+    // Only half a turn is needed, because the other half has the same values.
     const AZIMUTHS: u32 = 12;
     let turns: [(f64, f64); AZIMUTHS as usize] =
         std::array::from_fn(|index| libm::sincos(PI * (index as f64 + 0.5) / f64::from(AZIMUTHS)));

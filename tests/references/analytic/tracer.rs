@@ -1,5 +1,5 @@
-//! A ray tracer of spheres and rectangles: one ray through the center of every pixel, exact
-//! intersections.
+//! A ray tracer for spheres and rectangles, with one ray through the center of every pixel and
+//! exact intersections.
 
 use super::brdf::{Lights, Material};
 use crate::references::picture::Picture;
@@ -8,9 +8,9 @@ use glam::DVec3;
 /// A surface in the world.
 #[derive(Clone, Copy, Debug)]
 pub enum Shape {
-    /// A ball.
+    /// A sphere.
     Sphere { center: DVec3, radius: f64 },
-    /// A rectangle from a vertex along two perpendicular edges; its front is `right × up`.
+    /// A rectangle from a vertex along two perpendicular edges, facing `right × up`.
     Rectangle { origin: DVec3, right: DVec3, up: DVec3 },
 }
 
@@ -21,7 +21,7 @@ pub struct Surface {
     pub material: Material,
 }
 
-/// A camera: eye, target, view-up, vertical field of view in degrees.
+/// A camera: eye, target, view-up vector, and vertical field of view in degrees.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
     pub eye: DVec3,
@@ -36,12 +36,12 @@ pub struct World {
     pub surfaces: Vec<Surface>,
     pub camera: Camera,
     pub lights: Lights,
-    /// sRGB codes.
+    /// The background in sRGB codes.
     pub background: [u8; 3],
 }
 
 impl Shape {
-    /// Distance and unit normal where a ray first meets the front of the shape.
+    /// Returns the distance and unit normal where a ray first hits the front of the shape.
     fn intersect(&self, origin: DVec3, direction: DVec3) -> Option<(f64, DVec3)> {
         match *self {
             Self::Sphere { center, radius } => {
@@ -70,7 +70,7 @@ impl Shape {
 }
 
 impl World {
-    /// Returns the picture, one sample per pixel.
+    /// Renders the picture with one sample per pixel.
     pub fn render(&self, width: u32, height: u32) -> Picture {
         let Camera { eye, target, up, fov_y_degrees } = self.camera;
         let backward = (eye - target).normalize();
@@ -87,8 +87,8 @@ impl World {
         Picture { width, height, pixels: pixels.collect() }
     }
 
-    /// Returns the color along a ray: all surfaces from back to front, each blended over those
-    /// behind it, in linear light.
+    /// Returns the color along a ray, for which all surfaces are blended from back to front in
+    /// linear light.
     fn trace(&self, eye: DVec3, direction: DVec3) -> [u8; 3] {
         let hit = |surface: &Surface| {
             let (distance, normal) = surface.shape.intersect(eye, direction)?;
@@ -110,13 +110,13 @@ impl World {
     }
 }
 
-/// Linear light of an sRGB code (IEC 61966-2-1).
+/// Converts an sRGB code to linear light (IEC 61966-2-1).
 fn decode_srgb(code: u8) -> f64 {
     let encoded = f64::from(code) / 255.0;
     if encoded <= 0.04045 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) }
 }
 
-/// Returns the sRGB code nearest to linear light, which is clamped to 0 to 1.
+/// Returns the sRGB code nearest to linear light, which is clamped to the range from 0 to 1.
 fn encode_srgb(light: f64) -> u8 {
     let light = light.clamp(0.0, 1.0);
     let encoded = if light <= 0.0031308 {

@@ -1,5 +1,4 @@
-//! A polygon with colors in a room's space, clipped to the room and to the cone of a light, without
-//! any projection.
+//! Clips a polygon with colors to a room and to the cone of a light, without any projection.
 
 use clip::{
     ConvexVolume,
@@ -44,7 +43,7 @@ fn main() -> Result<(), clip::VolumeError> {
             .all(|(place, vertex)| (vertex.uv[0] - (place.x() as f32 + 2.0) / 8.0).abs() < 1e-6)
     );
 
-    // The cone of a lamp as sixty planes: far more than a graphics card has.
+    // The cone of a lamp as sixty planes, far more than a graphics card supports.
     let mut cone = ConvexVolume::<Lamp>::new();
     for step in 0..60 {
         let (s, c) = (f64::from(step) * std::f64::consts::TAU / 60.0).sin_cos();

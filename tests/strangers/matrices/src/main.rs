@@ -1,5 +1,5 @@
-//! One lens as the matrix of four interfaces, in the types of two other libraries and of an older
-//! glam.
+//! Converts one lens to the matrices of four interfaces, with the types of two other libraries and
+//! an older glam.
 
 use homog::{Affine, Clip, Point, Projective, View, World};
 use projection::{Convention, Decomposed, Fov, Intrinsics, Perspective, decompose};
@@ -7,7 +7,7 @@ use projection::{Convention, Decomposed, Fov, Intrinsics, Perspective, decompose
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let lens = Perspective::new(Fov::vertical_degrees(60.0), 1.5, 0.1, 100.0)?;
 
-    // To glam 0.30 through mint, and to nalgebra: both also have OpenGL's perspective.
+    // Convert to glam 0.30 through mint, and to nalgebra. Both also provide OpenGL's perspective.
     let ours = lens.view_to_clip(Convention::OPENGL);
     let in_glam: glam::DMat4 = mint_of(ours).into();
     let theirs = glam::DMat4::perspective_rh_gl(60_f64.to_radians(), 1.5, 0.1, 100.0);
@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let theirs = nalgebra::Perspective3::new(1.5, 60_f64.to_radians(), 0.1, 100.0);
     assert!((in_nalgebra - theirs.to_homogeneous()).norm() < 1e-12);
 
-    // Theirs to ours, and to another interface.
+    // Convert their matrix to ours, and to another interface.
     let ours = Projective::<View, Clip>::from(theirs);
     let vulkan = Convention::OPENGL.convert(Convention::VULKAN, ours);
     for (a, b) in vulkan
@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("near {:.6}, far {:.6}", found.near(), found.far());
     assert!((found.near() - 0.1).abs() < 1e-9 && (found.far() - 100.0).abs() < 1e-6);
 
-    // Single precision, as shaders take it; Direct3D; OpenCV's intrinsics.
+    // Single precision for Direct3D shaders, and OpenCV's intrinsics.
     let columns: [f32; 16] = lens.view_to_clip(Convention::DIRECT3D).to_column_major_f32();
     assert_eq!(columns[11], 1.0, "w is the distance ahead");
     let k = Intrinsics::from_frustum(lens.to_frustum(), [1920, 1280])?;
@@ -60,7 +60,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Column by column, through the mint version that both know.
+/// Converts column by column, through the mint version that both support.
 fn mint_of(map: Projective<View, Clip>) -> glam_mint::ColumnMatrix4<f64> {
     map.into()
 }

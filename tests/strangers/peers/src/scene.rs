@@ -1,5 +1,5 @@
 //! A textured mesh of 100,352 triangles: a bumpy sheet in front of the eye, or hills below it that
-//! run to the horizon.
+//! extend to the horizon.
 
 pub const SIZE: (u32, u32) = (640, 480);
 const SIDE: u32 = 224;

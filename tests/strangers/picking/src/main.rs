@@ -1,4 +1,5 @@
-//! Picking under the mouse in the conventions of four interfaces: the same hit in all of them.
+//! Picks the point under the mouse in the conventions of four interfaces, and checks that the hit
+//! is the same in all of them.
 
 use camera::{
     Camera,
@@ -33,9 +34,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             "{name:>17}: at {:.3}, {:.6} away, the floor {:.6}",
             ray.at(hit.t),
             hit.t,
-            ray.hit_plane(floor).ok_or("no floor")?
+            ray.hit_plane(floor).ok_or("missed the floor")?
         );
-        // And back: the point is under the mouse.
+        // Project the point back: it is under the mouse.
         let to_clip = lens.view_to_clip(convention) * camera.world_to_view();
         let ndc = (to_clip * ray.at(hit.t)).divide().ok_or("behind the eye")?;
         let pixel = image.ndc_to_screen() * ndc;

@@ -1,4 +1,4 @@
-//! A mesh as pen moves with hidden lines removed: HP-GL, with a progress report.
+//! Plots a mesh in HP-GL with hidden lines removed, and reports progress.
 
 use camera::{
     Camera, ViewProjection,
@@ -22,7 +22,7 @@ impl Monitor for Progress {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // A cube with three visible faces: nine edges, and three behind.
+    // A cube with three visible faces has nine visible and three hidden edges.
     let positions: Vec<[f32; 3]> =
         (0..8).map(|bits| [0, 1, 2].map(|axis| (bits >> axis & 1) as f32)).collect();
     let indices = [

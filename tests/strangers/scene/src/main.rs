@@ -1,5 +1,5 @@
-//! A scene in memory: a mesh from arrays, rendered to a PNG, with its depth, and as a text that can
-//! be read again.
+//! Builds a scene in memory from arrays, renders it to a PNG with depth, and writes it as text that
+//! can be read again.
 
 use pipeline::render::passes::{Pass, render_passes};
 use pipeline::scene::file::{CameraFile, LightFile, ModelFile};

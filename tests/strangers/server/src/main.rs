@@ -1,5 +1,5 @@
-//! A picture server: a client that hangs up ends its rendering, and a second client is answered
-//! meanwhile.
+//! A picture server: a client that disconnects cancels its rendering, while a second client is
+//! answered.
 
 use pipeline::scene::file::{CameraFile, LightFile};
 use pipeline::{
@@ -21,7 +21,7 @@ fn answer(mut client: TcpStream) -> Result<String, Box<dyn std::error::Error>> {
         .size(side, side)
         .build()?;
     let cancel = CancelToken::default();
-    // A thread waits for the end of the connection.
+    // A thread waits until the connection is closed.
     let (mut watched, canceling) = (client.try_clone()?, cancel.clone());
     std::thread::spawn(move || {
         if watched.read(&mut [0; 1]).unwrap_or(0) == 0 {
@@ -52,7 +52,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             });
         }
     });
-    // One client asks for a huge picture and leaves; another asks for a small one and waits for it.
+    // One client requests a huge picture and disconnects; another requests a small picture and
+    // waits for it.
     let mut impatient = TcpStream::connect(address)?;
     impatient.write_all(b"12000\n")?;
     let mut patient = TcpStream::connect(address)?;

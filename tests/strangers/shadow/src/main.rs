@@ -1,4 +1,5 @@
-//! A shadow map with only the rasterizer: depth seen from a light, then a picture that looks it up.
+//! Draws a shadow map with only the rasterizer: first the depth seen from a light, then a picture
+//! that looks it up.
 
 use camera::{
     Camera,
@@ -46,7 +47,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let place = VertexAttribute::new(&TRIANGLES, &places);
     let is_lit = |p: Point<World>| {
         let [x, y, z, _] = <[f64; 4]>::from(to_map * p);
-        // Pixels and depth of the map; slightly nearer, to allow for rounding.
+        // Pixels and depth in the map; the depth is slightly nearer, to allow for rounding.
         map.depth(((x + 1.0) * 256.0) as u32, ((1.0 - y) * 256.0) as u32)
             <= ((z + 1.0) / 2.0 + 0.004) as f32
     };
@@ -61,8 +62,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         [0.15, 0.9].map(|gray| pixels.iter().filter(|pixel| pixel[..3] == [gray; 3]).count());
     println!("{dark} pixels of the floor in shadow, {bright} in light");
     assert!((200..4000).contains(&dark) && bright > 5 * dark);
-    // Under the middle of the triangle, away from the light, it is dark; beside the triangle it is
-    // not.
+    // The floor is dark under the middle of the triangle, away from the light, but not beside the
+    // triangle.
     let below = [4, 5, 6].map(|corner| places[corner as usize]);
     let middle = Point::weighted_sum(below, [1.0 / 3.0; 3]);
     let ray = middle - light.eye();

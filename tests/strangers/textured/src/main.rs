@@ -1,4 +1,4 @@
-//! A textured floor under the eye, with a sign on it: a software renderer.
+//! A software renderer that draws a textured floor under the eye, with a sign standing on it.
 
 use projection::{Convention, Fov, Perspective};
 use raster::{Frame, Samples, ScreenProjection, SourceMesh, VertexAttribute, surface_fn};
@@ -6,7 +6,7 @@ use raster::{Frame, Samples, ScreenProjection, SourceMesh, VertexAttribute, surf
 const SIZE: (u32, u32) = (320, 240);
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // The floor begins behind the eye; the sign is on it.
+    // The floor begins behind the eye; the sign stands on it.
     let positions = [
         [-40.0, -1.0, 4.0_f32],
         [40.0, -1.0, 4.0],

@@ -1,5 +1,5 @@
-//! The edges of a cube, from the model to a picture: camera, projection, clipping, division,
-//! viewport, and tiny-skia's pen.
+//! Draws the edges of a cube, from the model to a picture: camera, projection, clipping, division,
+//! viewport, and strokes by tiny-skia.
 
 use camera::{
     Camera,
@@ -12,7 +12,7 @@ use viewport::Viewport;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let convention = Convention::OPENGL;
-    // The eye is inside: edges behind it are cut, not turned over.
+    // The eye is inside, so edges behind it are clipped, not mirrored.
     let camera =
         Camera::look_at(Point::new(0.5, 0.8, 0.4), Point::new(-1.0, -0.2, -1.0), Vector::Y)?;
     let lens = Perspective::new(Fov::vertical_degrees(75.0), 4.0 / 3.0, 0.01, 10.0)?;
