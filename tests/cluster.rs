@@ -1,15 +1,17 @@
 //! `alberti batch` on a Slurm cluster loses nothing when a node dies and another is cut off.
 //!
 //! ```text
-//!  one process ─► the pictures as they should be
-//!  array job   ─► how long it takes when nothing happens
+//!  one process ─► the expected pictures
+//!  array job   ─► the time of an undisturbed run
 //!  array job   ─► a third is done: a node dies; half is done: another is cut off for 20 s
-//!                 every picture is there and right, every bad model is one record
-//! ``` A controller and three nodes run in namespaces of this machine, with `deploy/slurm/batch.sh`
-//! as the job script. Everything stops when the test stops, however it ends. If Slurm is not
-//! installed or the test may not create namespaces, the step is reported as skipped; `.ci/run`
-//! installs Slurm if it can. `CLUSTER_RUNS=3` repeats the disturbed run. The time is compared with
-//! an undisturbed run, unless other programs use the processors meanwhile.
+//!                 every picture exists and is correct, every bad model has one record
+//! ```
+//!
+//! A controller and three nodes run in namespaces of this machine, with `deploy/slurm/batch.sh` as
+//! the job script. Everything stops when the test stops, however it ends. If Slurm is not installed
+//! or the test may not create namespaces, the step is reported as skipped; `.ci/run` installs Slurm
+//! if it can. `CLUSTER_RUNS=3` repeats the disturbed run. The time is compared with an undisturbed
+//! run, unless other programs use the processors meanwhile.
 
 mod batch_run;
 mod checks;

@@ -3,8 +3,10 @@
 //!
 //! ```text
 //!   (cost(4n) − cost(2n)) / (cost(2n) − cost(n))     2 if linear, 2.2 for n log n, 4 if quadratic
-//! ``` Taking differences cancels the cost of starting the program. Valgrind's counts are the same
-//! on every machine, so the test does not depend on timing.
+//! ```
+//!
+//! Taking differences cancels the cost of starting the program. Valgrind's counts are the same on
+//! every machine, so the test does not depend on timing.
 
 use alberti_tests::harness::{Tally, TemporaryFolder, map_parallel, run_program};
 use alberti_tests::program_path;

@@ -6,8 +6,8 @@ use homog::{Affine, Clip, Model, Point, Projective, Vector, World};
 /// The number of points or triangles that a way processes in one turn.
 pub const POINT_COUNT: usize = 100_000;
 
-/// The points of a turn, as blocks to process: one small block again and again, which stays in the
-/// nearest cache, or one large block, a different one each turn, which has long left all caches.
+/// The points of a turn, as blocks to process: one small block that is processed repeatedly and
+/// stays in the L1 cache, or a different large block in each turn, which is no longer in any cache.
 #[derive(Clone, Copy)]
 pub enum Blocks {
     Cached,

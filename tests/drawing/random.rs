@@ -2,9 +2,11 @@
 //! with a reason.
 //!
 //! ```text
-//!  number ─► splitmix64 ─► text of a scene ─► parse, resolve ─► lines ─► verify
-//!                                                └► refused: the message is the reason
-//! ``` A scene is text, so a failing scene can be written to a file and drawn by the program. It
+//!  number ─► splitmix64 ─► scene text ──────► parse, resolve ─► lines ─► verify
+//!                                                └► rejected with a reason
+//! ```
+//!
+//! A scene is text, so a failing scene can be written to a file and drawn by the program. It
 //! depends only on the scene's number. The projections take turns; their parameters include
 //! unreasonable values, because the program has to reject those.
 

@@ -1,10 +1,11 @@
 //! Random scene files, generated from the declarations of the scene language.
 //!
 //! ```text
-//!  reference::all_types() ─► for each field: left out, or a value of its type ─► Scene(…)
-//! ``` A new field in the language appears in these scenes automatically. Most values are
-//! reasonable, so that most scenes are drawn; incompatible combinations must be rejected with a
-//! message.
+//!  reference::all_types() ─► for each field: omitted, or a value of its type ─► Scene(…)
+//! ```
+//!
+//! A new field in the language appears in these scenes automatically. Most values are reasonable,
+//! so that most scenes are drawn; incompatible combinations must be rejected with a message.
 
 use super::bits::Bits;
 use scene_file::reference::{FieldEntry, Shape, TypeEntry, ValueType, VariantEntry, all_types};

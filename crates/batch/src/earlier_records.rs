@@ -148,8 +148,8 @@ impl EarlierRecords {
 
     /// Sorts the records and removes those that no longer count.
     ///
-    /// For each output, these stay: the last file, all pictures in tar files, and one failure for
-    /// each key without a picture.
+    /// For each output, it keeps the last file, all pictures in tar files, and one failure for each
+    /// key without a picture.
     fn remove_superseded(&mut self) {
         self.entries.sort_unstable();
         let (mut kept, mut begin, mut group) = (0, 0, Vec::new());

@@ -26,7 +26,7 @@ pub(super) struct BatchJob {
 /// The pictures of one input, which are rendered in the same shard by the same worker.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct JobGroup {
-    /// The pictures; at least one.
+    /// The pictures, of which there is at least one.
     pub(super) jobs: Vec<BatchJob>,
     /// The size of the input in bytes, if the list specifies it.
     pub(super) bytes: Option<u64>,

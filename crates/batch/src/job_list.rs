@@ -3,8 +3,10 @@
 //! ```text
 //! {"input": "fox.glb", "output": "a.png", "size": "64x64", "lenient": true}
 //! {"input": "fox.glb", "pictures": [{"view": "front", "output": "f.png"}, {"view": "top"}]}
-//! ``` Members that do not belong to the list itself are picture flags. An invalid line becomes a
-//! job that fails; the others run.
+//! ```
+//!
+//! Members that do not belong to the list itself are picture flags. An invalid line becomes a job
+//! that fails; the others run.
 
 use super::csv::CsvRecord;
 use super::job::{BatchJob, JobGroup, ListLine};

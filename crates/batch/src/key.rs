@@ -128,7 +128,7 @@ impl HashCache {
 /// Hashes a model with the buffers, material libraries and images it refers to.
 ///
 /// The file is read as bytes, not imported, so a key costs reading the files but not parsing the
-/// meshes. Files in folders above the model are hashed as well, since only their bytes matter here;
+/// meshes. Files in folders above the model are also hashed, since only their bytes matter here;
 /// the importer decides whether they may be read.
 fn hash_model(hash: &mut Sha256, path: &Path) {
     let folder = path.parent().unwrap_or(Path::new(""));

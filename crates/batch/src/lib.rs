@@ -4,10 +4,12 @@
 //!  folders, lists ─► stream of jobs ─► this shard ─► not done yet ─► workers ─► pictures, tars
 //!                                                         ▲             │
 //!                                     records of earlier runs ◄── report ◄── counts, metrics
-//! ``` A job is done if a report lists it with the same content and settings and its picture has
-//! the recorded size. A run that was stopped or killed can therefore resume. A model that is
-//! broken, hangs, crashes its worker or exhausts memory becomes one line in the report and does not
-//! stop the others.
+//! ```
+//!
+//! A job is done if a report lists it with the same content and settings and its picture has the
+//! recorded size. A run that was stopped or killed can therefore resume. A model that is broken,
+//! hangs, crashes its worker or exhausts memory becomes one line in the report and does not stop
+//! the others.
 //!
 //! Apart from the pictures, the output folder holds:
 //!

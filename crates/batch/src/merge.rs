@@ -4,9 +4,11 @@
 //! ```text
 //!  reports/1-of-2.….jsonl ─┐
 //!  reports/2-of-2.….jsonl ─┼─► sorted chunks ─► one record per output ─► report.jsonl
-//!  report.jsonl ───────────┘   (in a temporary file, if they are many)
-//! ``` It needs memory for only one chunk, no matter how many records there are. No report is
-//! removed: an unfinished run may still append to it.
+//!  report.jsonl ───────────┘   (in a temporary file, if there are many)
+//! ```
+//!
+//! It needs memory for only one chunk, no matter how many records there are. No report is removed:
+//! an unfinished run may still append to it.
 
 mod sorted_chunks;
 

@@ -28,7 +28,7 @@ impl From<BatchError> for RunStop {
 /// The maximum number of failures printed at the end of a run; the report lists them all.
 const MAX_TOLD: usize = 20;
 
-/// The failures that are printed at the end of a run: the first ones by picture name.
+/// The failures that are printed at the end of a run: the first few by picture name.
 #[derive(Debug, Default)]
 pub(super) struct FailureList {
     /// The picture name and the message; sorted.

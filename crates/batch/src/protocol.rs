@@ -14,7 +14,7 @@ pub struct WorkRequest {
     /// The model or scene.
     #[serde(with = "any_path")]
     pub input: PathBuf,
-    /// The pictures, at least one.
+    /// The pictures, of which there is at least one.
     pub pictures: Vec<PictureRequest>,
 }
 

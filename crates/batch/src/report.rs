@@ -8,8 +8,10 @@
 //! ```text
 //! {"input":"models/fox.glb","output":"fox.png","status":"done","key":"90a1…","seconds":0.41,
 //!  "warnings":0,"message":"","bytes":20117,"sha256":"5d02…"}
-//! ``` `RUN` is one more than the highest number in the folder. It determines which records are
-//! newer, because the clocks of different machines may disagree.
+//! ```
+//!
+//! `RUN` is one more than the highest number in the folder. It determines which records are newer,
+//! because the clocks of different machines may disagree.
 
 use super::Shard;
 use super::left_over::remove_left_over;

@@ -179,7 +179,7 @@ mod tests {
             let text = format!("{whole}{}", &whole.replace("first", "second")[..cut]);
             folder.add_text("reports/1-of-1.a.1.1.jsonl", text.as_bytes());
             let read = outputs(&folder);
-            // A line without its line break is complete as well; `second` is one character longer.
+            // A line without its line break is also complete; `second` is one character longer.
             assert_eq!(read.len(), 1, "{cut}: {read:?}");
         }
         let torn = format!("{}{whole}\0\0\0\n{{}}\nno JSON\n[1]\n{whole}", &whole[..40]);

@@ -7,7 +7,7 @@
 //! ```text
 //! alberti batch models --out-dir out --shard 2/8
 //! alberti batch models --out-dir out --shard auto     (in an array job of Slurm, AWS, …)
-//! alberti batch models --out-dir out --shard auto/8   (where the index alone is known: Kubernetes, PBS)
+//! alberti batch models --out-dir out --shard auto/8   (only the index is known: Kubernetes, PBS)
 //! ```
 
 use std::cmp::Reverse;

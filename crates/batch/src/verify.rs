@@ -21,8 +21,8 @@ const BUFFER_BYTES: usize = 1 << 16;
 /// if there are none.
 ///
 /// ```text
-/// more/fox.png: missing: the picture is not there
-/// 117 whole, 1 missing, 0 wrong, 0 failed
+/// more/fox.png: missing: the picture does not exist
+/// 117 intact, 1 missing, 0 wrong, 0 failed
 /// ```
 /// The models are hashed as for a run, and the pictures are read completely.
 ///
@@ -53,7 +53,7 @@ pub(super) fn verify_jobs<E: From<BatchError>>(
 enum Verdict {
     /// It exists and has the recorded bytes.
     Whole,
-    /// There is no record with its key, or no picture, for this reason.
+    /// Its record or the picture itself is missing, for this reason.
     Missing(&'static str),
     /// The picture does not match its record, for this reason.
     Wrong(String),

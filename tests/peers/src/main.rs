@@ -3,9 +3,9 @@
 //!
 //! ```text
 //!  scenes ──► raster, render (ours) ┐
-//!             llvmpipe, euc         ├─► rounds, all by turns ──► medians of ratios ──► text, JSON, SVG
+//!             llvmpipe, euc         ├─► rounds, taking turns ──► medians of ratios ──► text, JSON, SVG
 //!  limits ──► clear, kernel         ┘
-//!  features ► render, with one thing more or less each
+//!  features ► render, with one feature added or removed
 //!  files  ──► alberti, f3d as processes
 //! ```
 //!
