@@ -194,7 +194,7 @@ fn text_hash(text: &str) -> u64 {
     bytes_hash(text.bytes())
 }
 
-/// FNV-1a, mixed once more so that all its bits are well distributed.
+/// Computes FNV-1a with a final mix, so that all bits are well distributed.
 fn bytes_hash(bytes: impl Iterator<Item = u8>) -> u64 {
     let hash = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)

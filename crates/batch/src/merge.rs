@@ -198,7 +198,7 @@ mod tests {
     use crate::report::JobRecord;
     use crate::test_records::{ReportFolder, done_record, failed_record};
 
-    /// Output, key and status of each merged record.
+    /// Returns the output, key and status of each merged record.
     fn merged(folder: &ReportFolder) -> Vec<(String, String, String)> {
         let text = folder.read_text(MERGED_REPORT);
         let parse = |line: &str| {
@@ -212,8 +212,8 @@ mod tests {
         (output.to_owned(), key.to_owned(), status.to_owned())
     }
 
-    /// Three runs: a model that changed, one that failed and then succeeded, one that did the
-    /// opposite, and one that failed again after it changed.
+    /// Returns three runs: a model that changed, one that failed and then succeeded, one that did
+    /// the opposite, and one that failed again after it changed.
     fn three_runs(name: &str) -> ReportFolder {
         let folder = ReportFolder::new(name);
         let first = [

@@ -136,8 +136,8 @@ impl BatchRun<'_> {
                 },
             }
         }
-        // The number of jobs left when a worker ended for a reason that may not be the first of
-        // them.
+        // The number of jobs left when a worker ended for a reason that may not concern the first
+        // of them.
         let mut doubted = None;
         while !open.is_empty() {
             let running = match worker {
@@ -237,7 +237,7 @@ impl BatchRun<'_> {
 /// Creates the record for an answer.
 ///
 /// # Errors
-/// If the output folder cannot be written, which is not an error of the job.
+/// If the output folder cannot be written, which is not a job error.
 fn answered_record(job: &BatchJob, key: String, answer: WorkAnswer) -> Result<JobRecord, RunStop> {
     match answer {
         WorkAnswer::Done { seconds, warnings, message, bytes, sha256 } => Ok(JobRecord {
