@@ -1,4 +1,4 @@
-//! An isometric line drawing of a model, with dashed hidden lines, as an SVG.
+//! Draws a model as an isometric line drawing with dashed hidden lines, and writes it as SVG.
 //!
 //! Run it with `cargo run -p alberti-pipeline --example isometric -- model.glb drawing.svg`.
 
@@ -7,7 +7,7 @@ use pipeline::{Origin, Scene, Timings, draw_lines, write_file};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut names = std::env::args().skip(1);
-    let (model, output) = names.next().zip(names.next()).ok_or("name a model and a drawing")?;
+    let (model, output) = names.next().zip(names.next()).ok_or("usage: isometric MODEL DRAWING")?;
     let (origin, mut file) = Origin::from_model_path(model.as_ref());
     file.camera.projection = Some(ProjectionFile::Isometric);
     file.style = StyleFile::lines_hidden_dashed();

@@ -2,7 +2,7 @@
 //! writes them as RON.
 //!
 //! Run it with `cargo run --release -p alberti-pipeline --example thousand_scenes -- model.glb folder`.
-#![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
+# ![allow(clippy::print_stdout, reason = "an example prints its results")]
 
 use pipeline::scene::file::{CameraFile, LightFile, ModelFile};
 use pipeline::{Origin, Scene, SceneFile, render};
@@ -10,13 +10,13 @@ use std::path::PathBuf;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut names = std::env::args().skip(1);
-    let (model, folder) = names.next().zip(names.next()).ok_or("name a model and a folder")?;
+    let (model, folder) = names.next().zip(names.next()).ok_or("usage: thousand_scenes MODEL FOLDER")?;
     let (model, folder) = (PathBuf::from(model), PathBuf::from(folder));
     std::fs::create_dir_all(&folder)?;
-    let name = model.file_name().ok_or("name a file")?.to_string_lossy().into_owned();
+    let name = model.file_name().ok_or("MODEL must be a file")?.to_string_lossy().into_owned();
     let models = model.parent().unwrap_or("".as_ref()).to_owned();
     for number in 0..1000_u32 {
-        // Around the model, and up and down.
+        // Circle the model while moving up and down.
         let turn = f64::from(number) * 0.1;
         let eye = [4.0 * libm::cos(turn), 2.0 + libm::sin(0.3 * turn), 4.0 * libm::sin(turn)];
         let mut file = SceneFile::new([ModelFile::new(&name)]);
@@ -29,6 +29,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let scene = Scene::resolve(&origin, &file, &Default::default())?;
         render(&scene, 1)?.write_png(&folder.join(format!("{number:04}.png")))?;
     }
-    println!("1000 scenes and their pictures are in {}", folder.display());
+    println!("wrote 1000 scenes and their pictures to {}", folder.display());
     Ok(())
 }

@@ -1,4 +1,5 @@
-//! A turntable of a model: twelve pictures of a full turn, loaded once and drawn two at a time.
+//! Renders a turntable of a model: twelve pictures of a full turn, two at a time. The model is
+//! loaded once.
 //!
 //! Run it with `cargo run -p alberti-pipeline --example turntable -- model.glb frames`.
 
@@ -7,7 +8,7 @@ use pipeline::{Origin, Scene};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut names = std::env::args().skip(1);
-    let (model, folder) = names.next().zip(names.next()).ok_or("name a model and a folder")?;
+    let (model, folder) = names.next().zip(names.next()).ok_or("usage: turntable MODEL FOLDER")?;
     let (origin, mut file) = Origin::from_model_path(model.as_ref());
     file.image.size = (320, 240);
     let scene = Scene::resolve(&origin, &file, &Default::default())?;

@@ -1,15 +1,15 @@
-//! Cancellation and progress: monitors of a rendering.
+//! Cancellation and progress: the monitors of a rendering.
 //!
-//! The rasterizer asks its monitor once per row of tiles, so that canceling takes at most a few
-//! milliseconds; hidden-line removal asks every few hundred edges. Shadow maps are always
-//! completed.
+//! The rasterizer polls its monitor once per row of tiles, so canceling takes at most a few
+//! milliseconds. Hidden-line removal polls it every few hundred edges. Shadow maps always run to
+//! completion.
 
 use raster::Monitor;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A flag that ends a rendering early. Clones share it: one is passed to a
-/// [`RenderContext`](crate::RenderContext) as its monitor, another stays with the thread that may
+/// A flag that stops a rendering early. Clones share the flag: pass one to a
+/// [`RenderContext`](crate::RenderContext) as its monitor, and keep another in the thread that may
 /// cancel.
 ///
 /// ```no_run
@@ -35,10 +35,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub struct CancelToken(Arc<AtomicBool>);
 
 impl CancelToken {
-    /// Requests cancellation. Rendering stops within the time for a few rows of tiles; the request
-    /// is permanent.
+    /// Requests cancellation. Rendering stops within a few rows of tiles. A request cannot be
+    /// withdrawn.
     pub fn cancel(&self) {
-        // Relaxed: the flag orders nothing else, and one row of tiles more or less does not matter.
+        // Relaxed: the flag does not order other memory accesses, and an extra row of tiles does
+        // not matter.
         self.0.store(true, Ordering::Relaxed);
     }
 
@@ -55,7 +56,7 @@ impl Monitor for CancelToken {
     }
 }
 
-/// A monitor that can end part of the work, but does not receive its progress.
+/// A monitor that can cancel part of the work but does not receive its progress.
 #[derive(Debug)]
 pub(crate) struct CancelOnly(pub(crate) Arc<dyn Monitor>);
 
@@ -65,16 +66,16 @@ impl Monitor for CancelOnly {
     }
 }
 
-/// The monitor of one frame: its progress counts as pixels of the whole work.
+/// The monitor of one frame, which reports its progress as a share of the whole job.
 #[derive(Debug)]
 pub(crate) struct PartMonitor {
-    /// The monitor of the whole work.
+    /// The monitor of the whole job.
     pub(crate) outer: Arc<dyn Monitor>,
-    /// The number of pixels done before.
+    /// The number of pixels completed before this frame.
     pub(crate) done: u64,
     /// The number of pixels in this frame.
     pub(crate) pixels: u64,
-    /// The number of pixels in the whole work.
+    /// The number of pixels in the whole job.
     pub(crate) total: u64,
 }
 

@@ -1,7 +1,8 @@
 //! The viewing pipeline from a glTF model to a picture.
 //!
-//! A picture takes three steps: a description ([`SceneFile`], read from a file or built from
-//! defaults), a scene ([`Scene`], with models loaded and all defaults resolved), and the rendering.
+//! Making a picture takes three steps: describe it ([`SceneFile`], read from a file or built from
+//! defaults), resolve the description to a [`Scene`] (with models loaded and all defaults filled
+//! in), and render the scene.
 //!
 //! ```no_run
 //! use pipeline::{Origin, Scene, render};
@@ -15,26 +16,27 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! | purpose | begin with | an example |
+//! | purpose | start with | example |
 //! | --- | --- | --- |
 //! | a picture in memory, or a PNG | [`render()`] | `examples/thumbnail.rs` |
 //! | lines as SVG, PDF, DXF, PNG | [`draw_lines`], [`drawing::Page`] | `examples/isometric.rs` |
-//! | a drawing sheet with views to scale | [`scene::resolve_sheet`] | its documentation |
+//! | a drawing sheet with scaled views | [`scene::resolve_sheet`] | its documentation |
 //! | a frame sequence of one scene | [`sequence::Sequence`] | `examples/turntable.rs` |
-//! | depth, normal, id of each pixel | [`mod@render::passes`] | `examples/depth_map.rs` |
+//! | depth, normal and id of each pixel | [`mod@render::passes`] | `examples/depth_map.rs` |
 //! | many pictures without allocation | [`Renderer`] | its documentation |
 //! | pictures larger than memory | [`PreparedScene::write_png`] | its documentation |
-//! | every step of a point, a triangle, a pixel | the crate `explain` | |
+//! | every step of a point, a triangle or a pixel | the crate `explain` | |
 //! | lessons: projections, sweeps, depth curves | the crate `explorer` | |
 //! | models from memory | [`Origin::from_text_in_memory`], [`import::load_bytes`], [`Scene::from_models`] | |
 //! | the syntax of scene files | [`scene::reference`] | |
 //! | a tour of the stages, with the file of each | [`mod@render`] | |
 //!
 //! A [`Monitor`] observes a rendering and a [`CancelToken`] stops it; a sequence stops if the
-//! function that takes its pictures returns an error.
+//! function that receives its pictures returns an error.
 //!
-//! Nothing here prints, and nothing is global: scenes, renderers and pictures can be sent to any
-//! thread and coexist. Errors are typed, and give the problem, its location and a remedy.
+//! The crate prints nothing and has no global state: any number of scenes, renderers and pictures
+//! can coexist, and each can be sent to another thread. Errors are typed and state the problem, its
+//! location and a remedy.
 
 mod cancel;
 pub mod render;
@@ -68,7 +70,7 @@ struct Readme;
 
 #[cfg(test)]
 mod tests {
-    /// A compile-time check: the body only has to type-check.
+    /// A compile-time check: the body only needs to type-check.
     #[test]
     fn everything_can_go_to_another_thread() {
         fn assert_send_sync<T: Send + Sync + 'static>() {}

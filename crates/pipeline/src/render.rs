@@ -1,18 +1,19 @@
-//! Rendering: from a resolved scene to a picture.
+//! Rendering of a resolved scene to a picture.
 //!
 //! # Tour: one triangle of one model, from file to pixel
 //!
 //! The stages follow the textbooks (PL-1). Paths are below `crates/`; `render/` is this folder.
 //!
 //! 1. **Preparation.** [`Renderer::render`] (`render/renderer.rs`) makes a [`PreparedScene`]
-//!    (`render/prepared_scene.rs`): lines, overlays, insets. [`Textures`] (`render/mip_chains.rs`)
-//!    holds the mip chains; `render/shadow_maps.rs` renders a depth map for each light.
-//! 2. **Image tiles.** A picture beyond 16,384 pixels is rendered in tiles, each with the view
-//!    volume narrowed to it: `tile_regions` (`render/image_tiles.rs`).
+//!    (`render/prepared_scene.rs`) with lines, overlays and insets. [`Textures`]
+//!    (`render/mip_chains.rs`) holds the mip chains; `render/shadow_maps.rs` renders a depth map
+//!    for each light.
+//! 2. **Image tiles.** A picture with a side over 16,384 pixels is rendered in tiles. The view
+//!    volume is narrowed to each tile: `tile_regions` (`render/image_tiles.rs`).
 //! 3. **Draw calls.** `PrimitiveAssembler::draw_primitive` (`render/primitive_assembly.rs`) visits
-//!    each primitive of each mesh instance and allocates its primitive ids.
+//!    each primitive of each mesh instance and assigns its primitive ids.
 //! 4. **Skinning, morphing, model matrix.** `Model::skin_primitive` (`model/src/skinning.rs`) poses
-//!    the vertices; node and instance transforms make up `model_to_world`.
+//!    the vertices; `model_to_world` combines the node and instance transforms.
 //! 5. **Frustum culling and back-face culling of clusters.** `ProjectedMesh::cull_clusters`
 //!    (`render/projected_mesh.rs`) tests boxes with `ScreenTransform::classify_bounds`
 //!    (`render/screen_transform.rs`) and normal cones with `Cluster::is_back_facing`
@@ -21,38 +22,38 @@
 //!    `ProjectedMesh::project_vertices` multiplies by the model-view-projection matrix, divides by
 //!    w, maps to pixels and snaps to 1/256 pixel (`raster/src/vertex_projection.rs`,
 //!    `raster/src/screen_vertex.rs`).
-//! 7. **Clipping against near, far and guard band.** `DrawCall::submit_triangle`
+//! 7. **Clipping against the near and far planes and the guard band.** `DrawCall::submit_triangle`
 //!    (`render/draw_call.rs`) culls back faces that cross the guard band and clips in homogeneous
 //!    space (`clip/src/triangle.rs`). Other back faces are culled by the sign of their area as they
 //!    enter the frame: `Frame::add_mesh_runs` (`raster/src/frame.rs`).
 //! 8. **Vertex processing for shading.** `VertexArrays::write_vertices`
-//!    (`render/vertex_processing.rs`): positions, normals and tangents in the world.
+//!    (`render/vertex_processing.rs`): computes positions, normals and tangents in world space.
 //! 9. **Binning into tiles.** `bin_triangles` (`raster/src/tile_bins.rs`) sorts triangles into
-//!    tiles of 64 × 64 pixels, which threads take in turn (`raster/src/tile_loop.rs`).
+//!    tiles of 64 × 64 pixels, which the threads process (`raster/src/tile_loop.rs`).
 //! 10. **Coverage and depth test.** `rasterize_triangle` (`raster/src/rasterize.rs`) evaluates edge
-//!     functions with the top-left rule and keeps the nearest depth of each sample; at equal depth
+//!     functions with the top-left rule and keeps the nearest depth of each sample. At equal depths
 //!     (depth ties) the first primitive wins.
 //! 11. **Visibility buffer.** A tile stores only the nearest triangle of each sample
-//!     (`raster/src/tile_visibility.rs`); masked materials are alpha-tested, translucent layers
-//!     collected and sorted.
+//!     (`raster/src/tile_visibility.rs`); masked materials are alpha-tested, and translucent layers
+//!     are collected and sorted.
 //! 12. **Attribute interpolation.** Each visible triangle is shaded once per pixel, eight fragments
 //!     at a time (`raster/src/tile_resolve.rs`), with perspective-correct barycentric weights
 //!     (`shade/src/attributes.rs`).
 //! 13. **BRDF and lights.** `Shading` (`shade/src/shading.rs`, set up in
 //!     `render/fragment_shading.rs`) samples textures and evaluates the layered BRDF
-//!     (`shade/src/brdf/layered.rs`, `shade/src/brdf/base.rs`) for lights, shadow maps and
-//!     prefiltered environment.
-//! 14. **Tone mapping.** `ToneMapper` (`shade/src/tone_mapping.rs`), for each fragment.
+//!     (`shade/src/brdf/layered.rs`, `shade/src/brdf/base.rs`) for the lights, the shadow maps and
+//!     the prefiltered environment.
+//! 14. **Tone mapping.** `ToneMapper` (`shade/src/tone_mapping.rs`) runs for each fragment.
 //! 15. **Resolve and sRGB encoding.** Translucent layers are blended back to front
-//!     (`raster/src/layer_blending.rs`), samples averaged in linear light, and the result encoded
-//!     as sRGB (`shade/src/color.rs`).
+//!     (`raster/src/layer_blending.rs`), samples are averaged in linear light, and the result is
+//!     encoded as sRGB (`shade/src/color.rs`).
 //! 16. **Overlays, insets, caption.** `PreparedScene::render_region` draws lines over the surfaces,
-//!     composites the insets (`render/insets.rs`) and writes the caption (`render/captions.rs`).
+//!     composites the insets (`render/insets.rs`) and draws the caption (`render/captions.rs`).
 //!
 //! | subject | file |
 //! | --- | --- |
 //! | fragments of one pixel | `render/pixel_inspection.rs` |
-//! | passes: depth, normal, id | `render/passes.rs` |
+//! | passes: depth, normal, ids | `render/passes.rs` |
 //! | pictures larger than memory | `render/write_png.rs` |
 //! | ground, environment and backdrop | `render/ground.rs`, `render/background.rs` |
 //! | screen-space ambient occlusion | `render/ambient_occlusion.rs` |
@@ -114,13 +115,13 @@ pub enum RenderError {
     /// The lines of the scene cannot be drawn.
     #[error(transparent)]
     Draw(hidden_line::DrawError),
-    /// The [monitor](raster::Monitor) requested the end.
+    /// The [monitor](raster::Monitor) requested cancellation.
     #[error("the picture was canceled")]
     Canceled,
     /// Ambient occlusion needs the whole depth buffer, and the picture is larger than one tile.
     #[error("ambient occlusion supports pictures up to {0} x {0} pixels", raster::MAX_SIDE)]
     OcclusionTooLarge,
-    /// There are more points, lines and triangles than primitive ids.
+    /// The scene has more points, lines and triangles than there are primitive ids.
     #[error("the scene has more than {} points, lines and triangles", u32::MAX)]
     TooManyPrimitives,
 }
@@ -152,8 +153,8 @@ impl From<hidden_line::DrawError> for RenderError {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// A shortcut for one picture. A [`Renderer`] renders several faster, measures times, and can be
-/// observed and canceled.
+/// This is a shortcut for one picture. A [`Renderer`] is faster for several pictures, measures
+/// times, and can be observed and canceled.
 ///
 /// # Errors
 /// The picture's size is out of range, or the scene has too many primitives.

@@ -1,11 +1,11 @@
-//! Frame sequences: turntables and animations, rendered several frames at a time and delivered in
-//! order.
+//! Frame sequences: turntables and animations. Several frames are rendered at a time and delivered
+//! in order.
 //!
 //! ```text
 //!  motion ─► frame 0, 1, 2 … ─► one worker per thread ─► reorder queue ─► files, APNG, GIF, a pipe
 //! ```
-//! Models are loaded and mip chains built once. Each worker poses a separate copy of the models and
-//! reuses the buffers of its last frame; frames, not tiles, run in parallel.
+//! Models are loaded, and mip chains are built, only once. Each worker poses a separate copy of the
+//! models and reuses the buffers of its last frame; frames, not tiles, run in parallel.
 
 use crate::Picture;
 use crate::render::{RenderContext, RenderError, Renderer, Textures};
@@ -21,12 +21,12 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
 /// The motion of a sequence.
 ///
-/// Both are sampled at the fractions i / n for the frames i = 0 … n − 1: the end belongs to the
-/// frame after the last, so a full turn or a looping animation repeats without a duplicate frame.
+/// Frame i of n shows the motion at the fraction i / n. The end of the motion would be frame n,
+/// which is not rendered, so a full turn or a looping animation repeats without a duplicate frame.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Motion {
     /// The models rotate about the vertical axis through the center of their bounding box:
-    /// counterclockwise seen from above, evenly from the first frame to the one after the last.
+    /// counterclockwise seen from above, at constant speed.
     Turntable {
         /// The total angle in radians; 2π for a full turn.
         angle: f64,
@@ -47,7 +47,7 @@ pub enum Motion {
 /// Immutable while it renders: workers share it by reference.
 #[derive(Debug)]
 pub struct Sequence {
-    /// The source of the scene, for its errors.
+    /// The source of the scene, for error messages.
     origin: Origin,
     /// The description, used to resolve the camera, lights and ground of each frame.
     file: SceneFile,
@@ -64,7 +64,7 @@ pub struct Sequence {
     view_projections: Vec<ViewProjection>,
 }
 
-/// A sequence that could not be rendered to its end.
+/// The reason why a sequence could not be completed.
 ///
 /// `E` is the error of the function that receives the frames, such as an I/O error of an encoder.
 #[derive(Debug, thiserror::Error)]
@@ -76,32 +76,32 @@ pub enum SequenceError<E> {
     /// The scene is invalid at the time of a frame.
     #[error(transparent)]
     Scene(#[from] ResolveError),
-    /// The function that takes the frames failed.
+    /// The function that receives the frames failed.
     #[error("{0}")]
     Output(E),
 }
 
-/// Number of moments of the motion to which an automatic camera is fitted.
+/// Number of moments in the motion that an automatic camera is fitted to.
 ///
 /// A turntable with 16 samples misses the maximum extent of a corner by at most 1 − cos(π/16), 2 %
 /// of its radius.
 const FRAMING_SAMPLES: usize = 16;
-/// Number of frames per worker that may be started before the oldest one is delivered. It limits
+/// Number of frames per worker that may be started before the oldest frame is delivered. It limits
 /// the memory for frames that finish out of order.
 ///
-/// With w workers at most 2 w pictures exist at a time, for any length of the sequence.
+/// With w workers, at most 2 w pictures exist at a time, however long the sequence is.
 const FRAMES_AHEAD: usize = 2;
 
 impl Sequence {
-    /// A sequence of `frames` pictures of a scene described by `file`. An automatic camera is
-    /// fitted to the whole motion.
+    /// Prepares a sequence of `frames` pictures of the scene that `file` describes. An automatic
+    /// camera is fitted to the whole motion.
     ///
     /// # Errors
     /// The scene cannot be framed.
     ///
-    /// Each frame is resolved like a picture at its time, so that the models' lights, cameras and
-    /// grounds move with them. Only an automatic view is shared by the whole motion: the scene is
-    /// resolved with the models at 16 moments together, as if they existed at once.
+    /// Each frame is resolved like a single picture at that time, so the lights, cameras and
+    /// grounds of the models move with them. Only an automatic view is shared by the whole motion:
+    /// it is resolved as if the models at all 16 moments existed at once.
     pub fn new(
         origin: &Origin,
         file: &SceneFile,
@@ -135,9 +135,9 @@ impl Sequence {
         Ok(sequence)
     }
 
-    /// Whether the view of the picture, 0, or of an inset, counted from 1, is the same in all
-    /// frames: an automatic view or, in a turntable, a camera of the model, which would turn with
-    /// it.
+    /// Returns whether a view is the same in all frames. View 0 is the picture, and the insets
+    /// follow from 1. This holds for an automatic view and, in a turntable, for a camera of the
+    /// model, which would otherwise turn with it.
     fn keeps_view(&self, index: usize) -> bool {
         let own = index.checked_sub(1).and_then(|inset| self.file.viewports.get(inset));
         let camera: &CameraFile =
@@ -152,10 +152,11 @@ impl Sequence {
     /// Moves the camera along a path between two times in seconds. Insets keep their cameras.
     ///
     /// # Errors
-    /// There is no view at some time, for example because the eye coincides with its target.
+    /// The view is undefined at some time, for example because the eye coincides with its target.
     ///
-    /// The view for each frame is computed before rendering starts, so that errors come early.
-    /// Automatic views use the models at 16 moments of the motion, or once if they do not move.
+    /// The view for each frame is computed before rendering starts, so errors are reported early.
+    /// Automatic views use the models at 16 moments of the motion, or at one moment if they do not
+    /// move.
     pub fn with_camera_path(
         mut self,
         origin: &Origin,
@@ -195,7 +196,7 @@ impl Sequence {
         (self.scene.image.width, self.scene.image.height)
     }
 
-    /// Whether the background is opaque, and with it every frame.
+    /// Returns whether the background, and therefore every frame, is opaque.
     #[must_use]
     pub fn is_opaque(&self) -> bool {
         self.scene.has_opaque_background()
@@ -208,13 +209,13 @@ impl Sequence {
     ///  workers:  start frame ─► render ─► finished[frame]     at most FRAMES_AHEAD · w ahead
     ///  caller:   wait for finished[next] ─► delivered += 1 ─► sink
     /// ```
-    /// Each frame is rendered on one thread; parallel frames scale better than parallel tiles,
-    /// because there is no serial part between stages. The sink runs without holding the lock and
-    /// may block, for example on a pipe: workers then stop at the limit. A poisoned lock is entered
-    /// anyway, because the queue is consistent after every statement.
+    /// Each frame is rendered on one thread. Parallel frames scale better than parallel tiles,
+    /// because no stage is serial. The sink runs without holding the lock and may block, for
+    /// example on a pipe; the workers then stop at the limit. A poisoned lock is acquired anyway,
+    /// because the queue is consistent after every statement.
     ///
     /// # Errors
-    /// A frame cannot be rendered, or the sink fails; no more frames are started then.
+    /// A frame cannot be rendered, or the sink fails. In either case no more frames are started.
     pub fn render_frames<E>(
         &self,
         threads: usize,
@@ -240,7 +241,7 @@ impl Sequence {
             }
             let result = self.deliver_frames(&lock, &progress, &mut sink);
             if result.is_err() {
-                // Workers stop as if all frames had been started.
+                // Workers stop as if all frames were started.
                 lock().started = self.frame_count;
                 progress.notify_all();
             }
@@ -248,7 +249,7 @@ impl Sequence {
         })
     }
 
-    /// Waits for each frame in order, and delivers it.
+    /// Waits for each frame in order and delivers it.
     ///
     /// `delivered` is advanced before the sink runs, so that a slow sink does not stall workers. On
     /// an error the caller marks all frames as started, which ends the workers after their current
@@ -279,7 +280,7 @@ impl Sequence {
         Ok(())
     }
 
-    /// The models at a fraction of the motion, from 0 to 1.
+    /// Returns the models at a fraction of the motion, from 0 to 1.
     fn models_at_fraction(&self, fraction: f64) -> Vec<ModelInstance> {
         let mut models = self.scene.models.clone();
         self.motion.pose_models(&mut models, &self.scene.models, self.pivot, fraction);
@@ -287,7 +288,7 @@ impl Sequence {
     }
 }
 
-/// The reason why a frame cannot be made.
+/// The reason why a frame cannot be rendered.
 #[derive(Debug, thiserror::Error)]
 enum FrameError {
     #[error(transparent)]
@@ -299,20 +300,20 @@ enum FrameError {
 /// The frames between start and delivery.
 #[derive(Default)]
 struct Queue {
-    /// The next frame to start; equal to the frame count if none is left or the sequence is
+    /// The next frame to start; equal to the frame count if all are started or the sequence is
     /// aborted.
     started: usize,
     /// The next frame to deliver.
     delivered: usize,
-    /// Rendered frames that wait for earlier ones, by index.
+    /// Rendered frames that wait for earlier frames, by index.
     finished: BTreeMap<usize, Result<Picture, FrameError>>,
 }
 
-/// Waits until the next frame is at most `ahead` frames beyond the last delivered one, and starts
-/// it; `None` if all are started.
+/// Waits until the next frame is at most `ahead` frames beyond the last delivered frame, and starts
+/// it. Returns `None` if all frames are started.
 ///
-/// The condition variable is notified on every delivery and on abortion; the loop tolerates
-/// spurious wakeups.
+/// The condition variable is notified on every delivery and when the sequence is aborted. The loop
+/// tolerates spurious wakeups.
 fn next_frame(
     mut queue: MutexGuard<'_, Queue>,
     progress: &Condvar,
@@ -333,8 +334,8 @@ fn next_frame(
 
 /// The state of one thread: a scene with separate models, and the buffers of its last frame.
 ///
-/// Copies of the scene are cheap: models, images and environment are behind `Arc`s until they are
-/// posed.
+/// Copies of the scene are cheap: models, images and the environment are shared through `Arc`s
+/// until models are posed.
 struct FrameWorker<'a> {
     /// The sequence, whose scene stays unposed.
     sequence: &'a Sequence,
@@ -344,8 +345,8 @@ struct FrameWorker<'a> {
 }
 
 impl<'a> FrameWorker<'a> {
-    /// Copies the models that animations pose. Instances of one model share one copy, and all
-    /// copies share the images.
+    /// Copies the models that animations pose. Instances of a model share one copy, and all copies
+    /// share the images.
     ///
     /// A turntable changes only `model_to_world` and needs no copies.
     fn new(sequence: &'a Sequence) -> Self {
@@ -373,7 +374,8 @@ impl<'a> FrameWorker<'a> {
         let Sequence { origin, file, scene, motion, frame_count, pivot, view_projections } =
             self.sequence;
         let fraction = frame as f64 / (*frame_count).max(1) as f64;
-        // Insets release the shared models first: posing a model in use elsewhere would copy it.
+        // Insets release the shared models first, because posing a model that is in use elsewhere
+        // copies it.
         self.scene.insets.iter_mut().for_each(|inset| inset.scene.models.clear());
         motion.pose_models(&mut self.scene.models, &scene.models, *pivot, fraction);
         let models = std::mem::take(&mut self.scene.models);
@@ -395,7 +397,7 @@ impl<'a> FrameWorker<'a> {
 }
 
 /// Updates the pose-dependent parts of a scene, and sets the view of the frame if it differs from
-/// the pose's.
+/// the view of the pose.
 fn take_posed(scene: &mut Scene, posed: Scene, view: Option<ViewProjection>) {
     scene.models = posed.models;
     scene.view_projection = view.unwrap_or(posed.view_projection);
@@ -408,17 +410,17 @@ fn take_posed(scene: &mut Scene, posed: Scene, view: Option<ViewProjection>) {
 }
 
 impl Motion {
-    /// Whether no model moves.
+    /// Returns whether all models are static.
     fn is_still(&self) -> bool {
         matches!(self, Self::Turntable { angle } if *angle == 0.0)
     }
 
     /// Poses models at a fraction of the motion; `start` holds the unposed models.
     ///
-    /// A turntable computes model_to_world · T(−p) · R_y(αf) · T(p) in the order of application,
-    /// from the unposed transform each time, so rotations do not drift over thousands of frames. An
-    /// animation is evaluated at t = from + (to − from) f seconds; instances of one model are posed
-    /// once and share the result.
+    /// A turntable computes model_to_world · T(−p) · R_y(αf) · T(p), written in the order of
+    /// application. It starts from the unposed transform each time, so rotations do not drift over
+    /// thousands of frames. An animation is evaluated at t = from + (to − from) f seconds.
+    /// Instances of a model are posed once and share the result.
     fn pose_models(
         &self,
         models: &mut [ModelInstance],
@@ -441,8 +443,8 @@ impl Motion {
             Self::Animations { animations, from, to } => {
                 let time = from + (to - from) * fraction;
                 let shared = shared_models(start);
-                // Instances release the shared model first: `make_mut` would copy one that is in
-                // use.
+                // Instances release the shared model first, because `make_mut` copies a model that
+                // is in use.
                 let empty_model = Arc::new(Model::default());
                 for &(index, _) in &shared {
                     models[index].model = Arc::clone(&empty_model);
@@ -460,8 +462,8 @@ impl Motion {
     }
 }
 
-/// Instances that share their model with their predecessor: pairs of index and the first index of
-/// the run.
+/// Finds instances that share the model of their predecessor, as pairs of an index and the first
+/// index of the run.
 ///
 /// Instances of one file are consecutive, so comparing neighbors by pointer is enough and O(n).
 fn shared_models(models: &[ModelInstance]) -> Vec<(usize, usize)> {
@@ -477,9 +479,9 @@ fn shared_models(models: &[ModelInstance]) -> Vec<(usize, usize)> {
     shared
 }
 
-/// The center of the bounding box of points; the origin without points.
+/// Returns the center of the points' bounding box, or the origin if there are no points.
 ///
-/// The box is computed for the start pose; a center of mass would depend on the tessellation.
+/// The box is computed for the start pose. A center of mass would depend on the tessellation.
 fn bounds_center(points: &[Point<World>]) -> Point<World> {
     let mut points = points.iter().map(|point| point.raw());
     let Some(first) = points.next() else { return Point::ORIGIN };

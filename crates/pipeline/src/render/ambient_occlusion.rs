@@ -1,7 +1,7 @@
-//! Inputs of screen-space ambient occlusion: the nearest surface of each pixel of the picture.
+//! Inputs for screen-space ambient occlusion: the nearest surface at each pixel of the picture.
 //!
-//! The occlusion itself is `shade::AmbientOcclusion`; it reads depths of neighboring pixels, and so
-//! needs the depth buffer of the whole picture even if only a region is rendered.
+//! `shade::AmbientOcclusion` computes the occlusion. It reads the depths of neighboring pixels, so
+//! it needs the depth buffer of the whole picture even if only a region is rendered.
 
 use super::RenderError;
 use super::context::RenderContext;
@@ -15,7 +15,7 @@ use raster::SurfaceDepth;
 use scene::Ground;
 use shade::{AmbientOcclusion, ScreenSpace};
 
-/// The memory for occlusion that one picture passes on to the next.
+/// Occlusion buffers that are reused from picture to picture.
 #[derive(Debug, Default)]
 pub(super) struct OcclusionBuffers {
     /// The depth buffer.
@@ -24,9 +24,10 @@ pub(super) struct OcclusionBuffers {
     pub(super) last: Option<AmbientOcclusion>,
 }
 
-/// The ambient occlusion of a frame that holds the whole picture; `None` if the scene has none.
+/// Computes the ambient occlusion of a frame that holds the whole picture, or returns `None` if the
+/// scene has no ambient occlusion.
 ///
-/// `buffers` provides memory for reuse: a depth buffer, and the last picture's occlusion.
+/// `buffers` provides memory to reuse: a depth buffer and the last picture's occlusion.
 ///
 /// # Errors
 /// The picture is larger than the rasterizer's grid.
@@ -60,8 +61,8 @@ pub(super) fn compute_occlusion(
     Ok(Some(AmbientOcclusion::compute(nearest, space, simd_level, context.threads, last.take())))
 }
 
-/// Adds the ground to a depth buffer, which omits it as a translucent surface: it occludes and is
-/// occluded.
+/// Adds the ground to a depth buffer that lacks it because it is translucent. The ground occludes
+/// and is occluded.
 fn add_ground(
     ground: Ground,
     world_to_screen: DMat4,
@@ -84,8 +85,8 @@ fn add_ground(
     }
 }
 
-/// The ambient occlusion of the whole picture, computed in a separate frame when only a region is
-/// rendered.
+/// Computes the ambient occlusion of the whole picture in a separate frame, for use when only a
+/// region is rendered.
 ///
 /// # Errors
 /// The picture is larger than one image tile, or the scene has too many primitives.

@@ -1,13 +1,13 @@
-//! The background of a frame: environment or backdrop as two triangles that fill the picture behind
-//! everything.
+//! The background of a frame: an environment or a backdrop, drawn as two triangles that fill the
+//! picture behind everything else.
 //!
-//! Both are ordinary draw calls: their depth puts them behind everything else, so that translucent
-//! surfaces blend over them, and only visible fragments are shaded. The far plane is not far
-//! enough, because the ground is not clipped against it.
+//! Both are ordinary draw calls at the minimum depth, so translucent surfaces blend over them and
+//! only visible fragments are shaded. The depth of the far plane would not do, because the ground
+//! is not clipped against the far plane.
 //!
 //! | kind | vertices carry | shading |
 //! | --- | --- | --- |
-//! | environment | positions on the far plane, pixels | radiance along the direction from the eye, or blurred |
+//! | environment | positions on the far plane, pixel coordinates | radiance along the direction from the eye, or blurred |
 //! | backdrop | fractions of the picture | color, gradient or image |
 
 use super::RenderError;
@@ -23,7 +23,7 @@ const NDC_CORNERS: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1
 
 impl PrimitiveAssembler<'_> {
     /// Adds the environment behind everything, blurred by `blur` from 0 to 1. The vertices carry
-    /// their positions in the world, from which the shading derives directions.
+    /// world positions, from which shading derives directions.
     pub(super) fn add_environment(&mut self, blur: f32) -> Result<(), RenderError> {
         let clip_to_world = self.transform.world_to_clip().raw().inverse();
         let unproject = |(x, y): (f64, f64)| {
@@ -38,7 +38,7 @@ impl PrimitiveAssembler<'_> {
     }
 
     /// Adds a backdrop. The vertices carry fractions of the whole picture's width and height, so
-    /// that its image tiles match at their borders.
+    /// adjacent image tiles match.
     pub(super) fn add_backdrop(
         &mut self,
         backdrop: &Backdrop,

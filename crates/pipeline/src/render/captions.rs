@@ -1,4 +1,4 @@
-//! Captions: the strip at the lower border of a picture, with a line of text.
+//! Captions: a strip with a line of text at the bottom of a picture.
 
 use crate::Picture;
 use drawing::{Warning, label_warnings, missing_glyph_warning};
@@ -15,7 +15,7 @@ use shade::color::SrgbEncoder;
 const LETTER_HEIGHT: f64 = 12.0 / 28.0;
 const TEXT_MARGIN: f64 = 0.25;
 
-/// The caption of a scene as a layer of its page; `None` without one.
+/// Returns the caption of a scene as a layer of its page, or `None` if there is no caption.
 pub(super) fn caption_layer(scene: &Scene) -> Option<Layer> {
     let text = scene.caption.as_deref().filter(|_| scene.image.caption_height > 0)?;
     let [width, height, strip] =
@@ -33,7 +33,7 @@ pub(super) fn caption_layer(scene: &Scene) -> Option<Layer> {
 }
 
 /// Draws the caption of a scene over a region of its picture: the strip in the background color,
-/// and the text.
+/// with the text on it.
 pub(super) fn draw_caption_over<C: Channel>(
     scene: &Scene,
     region: PixelRect,
@@ -50,25 +50,26 @@ pub(super) fn draw_caption_over<C: Channel>(
     draw_layers_over(picture, [image.width, image.height], region, &[layer]);
 }
 
-/// The pixels above the strip.
+/// Returns the rectangle above the strip.
 pub(super) const fn view_rect(image: ImageSpec) -> PixelRect {
     PixelRect::from_size(image.width, image.height - image.caption_height)
 }
 
-/// The pixels of the strip.
+/// Returns the rectangle of the strip.
 pub(super) const fn strip_rect(image: ImageSpec) -> PixelRect {
     let ImageSpec { width, height, caption_height, .. } = image;
     PixelRect { x: 0, y: height - caption_height, width, height: caption_height }
 }
 
-/// The warnings about the texts of a scene: labels outside the picture, characters without a glyph.
+/// Returns the warnings about labels and captions: labels outside the picture and characters
+/// without a glyph.
 pub(super) fn text_warnings(scene: &Scene) -> Vec<Warning> {
     let mut warnings = label_warnings(&scene.drawing_subject(), &scene.overlays);
     warnings.extend(scene.caption.as_deref().and_then(missing_glyph_warning));
     warnings
 }
 
-/// The background as the paper color; `None` unless it is opaque.
+/// Returns the background as the paper color, or `None` if it is not opaque.
 pub(super) fn paper_color(background: [f32; 4]) -> Option<Ink> {
     let [r, g, b, alpha] = SrgbEncoder::shared().encode_pixel(background);
     (alpha == 255).then_some([r, g, b])

@@ -1,4 +1,4 @@
-//! The inputs of a rendering: scene, textures, threads, stopwatch and monitor in one value.
+//! The inputs of a rendering: scene, textures, threads, stopwatch and monitor.
 
 use super::mip_chains::Textures;
 use crate::Timings;
@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 /// The inputs of a rendering, apart from the pixels it fills.
 ///
-/// It only borrows and is cheap to copy: one per picture, or one per frame of a sequence.
+/// It only borrows and is cheap to copy. Create one per picture, or per frame of a sequence.
 ///
 /// ```no_run
 /// # use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures};
@@ -24,20 +24,20 @@ use std::sync::Arc;
 pub struct RenderContext<'a> {
     /// Models, camera, lights and style.
     pub scene: &'a Scene,
-    /// The mip chains of the scene's models. A scene whose models are clones of others, posed
-    /// differently, uses the original models' chains.
+    /// The mip chains of the scene's models. If the models are clones that are posed differently,
+    /// use the chains of the original models.
     pub textures: &'a Textures<'a>,
-    /// The maximum number of threads for rendering, at least 1. It does not change any bit of the
-    /// result.
+    /// The maximum number of threads for rendering, at least 1. It does not change a single bit of
+    /// the result.
     pub threads: usize,
     /// The stopwatch of the stages.
     timings: Option<&'a Timings>,
-    /// The receiver of progress, which may end the rendering.
+    /// The monitor, which receives progress and may cancel the rendering.
     pub(super) monitor: Option<&'a Arc<dyn Monitor>>,
 }
 
 impl<'a> RenderContext<'a> {
-    /// A context that measures nothing and has no monitor.
+    /// Creates a context that measures nothing and has no monitor.
     #[must_use]
     pub const fn new(scene: &'a Scene, textures: &'a Textures<'a>, threads: usize) -> Self {
         Self { scene, textures, threads, timings: None, monitor: None }
@@ -49,15 +49,15 @@ impl<'a> RenderContext<'a> {
         Self { timings: Some(timings), ..self }
     }
 
-    /// Reports rendered pixels and drawn edges to `monitor`, and ends the rendering with
-    /// [`RenderError::Canceled`](crate::RenderError::Canceled) when it requests so. The picture is
-    /// then incomplete. A [`CancelToken`](crate::CancelToken) is a monitor.
+    /// Reports rendered pixels and drawn edges to `monitor`, and stops with
+    /// [`RenderError::Canceled`](crate::RenderError::Canceled) when the monitor requests it. The
+    /// picture is then incomplete. A [`CancelToken`](crate::CancelToken) is a monitor.
     #[must_use]
     pub const fn with_monitor(self, monitor: &'a Arc<dyn Monitor>) -> Self {
         Self { monitor: Some(monitor), ..self }
     }
 
-    /// The context of another scene of the same models, such as an inset.
+    /// Returns the context for another scene of the same models, such as an inset.
     pub(super) fn with_scene<'b>(&self, scene: &'b Scene) -> RenderContext<'b>
     where
         'a: 'b,
@@ -65,7 +65,7 @@ impl<'a> RenderContext<'a> {
         RenderContext { scene, ..*self }
     }
 
-    /// Width and height of the whole picture in pixels.
+    /// Returns the width and height of the whole picture in pixels.
     pub(super) const fn image_size(&self) -> [u32; 2] {
         [self.scene.image.width, self.scene.image.height]
     }
@@ -78,12 +78,12 @@ impl<'a> RenderContext<'a> {
         }
     }
 
-    /// The stopwatch; one that measures nothing if none was set.
+    /// Returns the stopwatch, or one that measures nothing if none was set.
     pub(super) fn timings(&self) -> Timings {
         self.timings.cloned().unwrap_or_default()
     }
 
-    /// The threads and the monitor of the rendering.
+    /// Returns the number of threads and the monitor.
     pub(super) fn workers(&self) -> Workers<'a> {
         Workers { threads: self.threads, monitor: self.monitor.map(|monitor| &**monitor as _) }
     }

@@ -1,12 +1,13 @@
-//! Submission of one draw call: back-face culling, clipping, snapping, and transfer to the frame.
+//! Submission of one draw call: back-face culling, clipping, snapping and adding the result to the
+//! frame.
 //!
 //! ```text
 //!  clusters inside the guard band ───────────────────────────────────────────► frame
 //!  clusters that cross it ─► back-face culling ─► clip_triangle ─► ÷ w, snap ─► frame
 //! ```
 //!
-//! Clipping happens in homogeneous space, before the divide (CL-3): after it, a triangle that
-//! extends behind the eye has no meaningful picture.
+//! Clipping happens in homogeneous space, before the divide (CL-3). After the divide, the image of
+//! a triangle that extends behind the eye would be meaningless.
 
 use super::projected_mesh::ProjectedMesh;
 use super::screen_transform::ScreenTransform;
@@ -21,7 +22,7 @@ const LINE_WIDTH_PIXELS: f64 = 1.5;
 /// The state of one draw call: its projected vertices, and the settings for adding its triangles to
 /// the frame.
 pub(super) struct DrawCall<'a> {
-    /// The raster's transform and guard band.
+    /// The view transform and guard band of the raster.
     pub(super) transform: &'a ScreenTransform,
     /// The culled and projected vertices.
     pub(super) mesh: &'a ProjectedMesh,
@@ -37,8 +38,7 @@ pub(super) struct DrawCall<'a> {
 
 impl DrawCall<'_> {
     /// Submits the selected points, lines and triangles of a primitive in order, with consecutive
-    /// ids from `first_id`: runs of unclipped triangles, and between them those that may need
-    /// clipping.
+    /// ids from `first_id`. Runs of unclipped triangles alternate with runs that may need clipping.
     pub(super) fn submit(&mut self, primitive: &Primitive, first_id: u32) {
         let mesh = self.mesh;
         let triangles = primitive.indices.as_chunks::<3>().0;
@@ -69,14 +69,14 @@ impl DrawCall<'_> {
         }
     }
 
-    /// A point is a square of constant size, drawn if its center is inside the guard band.
+    /// Submits a point as a square of constant size if its center is inside the guard band.
     fn submit_point(&mut self, vertex: u32, id: u32) {
         if let Some(center) = self.mesh.screen_vertices[vertex as usize] {
             self.frame.add_point(center, self.point_size, id, self.opacity);
         }
     }
 
-    /// A line is clipped like a triangle, and drawn as a rectangle of constant width.
+    /// Clips a line like a triangle, and submits it as a rectangle of constant width.
     fn submit_line(&mut self, ends: [u32; 2], id: u32) {
         let ends = ends.map(|vertex| self.mesh.clip_positions[vertex as usize]);
         self.frame.clip_line(&self.transform.screen, ends, LINE_WIDTH_PIXELS, id, self.opacity);

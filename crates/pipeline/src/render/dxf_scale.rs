@@ -1,12 +1,12 @@
-//! The scale of a scene's drawing in DXF: 1:1 in the units of the models if such a scale exists.
+//! The scale of a drawing in DXF: 1:1 in the units of the models, if such a scale exists.
 //!
 //! ```text
 //!   one parallel view     units of the models; (0, 0) is the image of the world's origin
 //!   perspective, insets   millimeters of the page, from its lower left corner
 //! ```
-//! In a parallel view, lengths parallel to the picture plane are true, so that the front view of a
-//! plate is the plate. Others are shortened according to the projection; the file is not enlarged
-//! to compensate.
+//! In a parallel view, lengths parallel to the picture plane are true, so the front view of a plate
+//! has the size of the plate. Other lengths are foreshortened by the projection, and the file is
+//! not enlarged to compensate.
 
 use drawing::Page;
 use glam::DVec2;
@@ -15,7 +15,7 @@ use model::LengthUnit;
 use page::{DxfOptions, DxfUnit, MILLIMETERS_PER_PIXEL};
 use scene::Scene;
 
-/// The coordinates of a page of [`draw_lines`](super::draw_lines()) in a DXF file.
+/// Returns the DXF coordinates for a page from [`draw_lines`](super::draw_lines()).
 #[must_use]
 pub fn dxf_options(scene: &Scene, page: &Page) -> DxfOptions {
     let on_paper = DxfOptions::on_paper(page);
@@ -31,8 +31,8 @@ pub fn dxf_options(scene: &Scene, page: &Page) -> DxfOptions {
     }
 }
 
-/// The image of the world's origin in millimeters on the page; `None` if it is too far away for
-/// coordinates to keep any digits.
+/// Returns the image of the world origin in millimeters on the page, or `None` if it is so far away
+/// that coordinates would lose all precision.
 fn origin_on_page(scene: &Scene, page: &Page) -> Option<DVec2> {
     /// The maximum distance, as a multiple of the page's side.
     const MAX_DISTANCE: f64 = 1e6;
@@ -42,7 +42,7 @@ fn origin_on_page(scene: &Scene, page: &Page) -> Option<DVec2> {
     (origin.abs().max_element() <= MAX_DISTANCE * page.size.max_element()).then_some(origin)
 }
 
-/// The common unit of all model files; `None` if they differ.
+/// Returns the common unit of all model files, or `None` if their units differ.
 fn common_unit(scene: &Scene) -> Option<LengthUnit> {
     let mut units = scene.models.iter().map(|placed| placed.model.length_unit);
     let first = units.next().unwrap_or_default();

@@ -1,9 +1,9 @@
 //! Fragment shading: the scene's lights, environment and style as a [`Surface`](raster::Surface)
 //! that the rasterizer calls for each visible fragment.
 //!
-//! The rasterizer calls the surface for each visible triangle of a pixel, not for every triangle
-//! that covers it: shading is deferred until the visibility buffer of a tile is complete. Styles
-//! wrap the physically based shading and use only its alpha test and geometry.
+//! The rasterizer calls the surface for each triangle that is visible in a pixel, not for each
+//! triangle that covers it, because shading is deferred until the visibility buffer of a tile is
+//! complete. Styles wrap the physically based shading and use only its alpha test and geometry.
 
 use super::renderer::FrameMemory;
 use super::shadow_maps::ShadowMapRenderer;
@@ -11,7 +11,7 @@ use model::Colormap;
 use scene::{Scene, Style};
 use shade::{AmbientOcclusion, Shading, ShadingStyle, StyledShading, TransmissionFramebuffer};
 
-/// Physically based shading of the fragments of an assembled frame.
+/// Sets up physically based shading for the fragments of an assembled frame.
 pub(super) fn fragment_shading<'a>(
     scene: &'a Scene,
     memory: &'a FrameMemory<'a>,
@@ -35,8 +35,9 @@ pub(super) fn fragment_shading<'a>(
     }
 }
 
-/// The shading of a style that overrides the materials: clay, matcap, toon (cel), X-ray … of
-/// `shade/src/shading_style.rs`; `None` for styles that show the materials, and for line drawings.
+/// Returns the shading of a style that overrides the materials, such as clay, matcap, toon (cel) or
+/// X-ray (`shade/src/shading_style.rs`). Returns `None` for styles that show the materials and for
+/// line drawings.
 pub(super) fn style_shading<'a>(
     scene: &Scene,
     shading: &'a Shading<'a>,
@@ -60,7 +61,7 @@ pub(super) fn style_shading<'a>(
     Some(StyledShading { shading, style, world_to_view, eye_position })
 }
 
-/// The depth style, with its colors from the nearest to the farthest vertex of the scene.
+/// Returns the depth style, whose colors run from the nearest to the farthest vertex of the scene.
 fn depth_style(scene: &Scene, colormap: Option<Colormap>) -> ShadingStyle {
     let world_to_view = scene.view_projection.camera.world_to_view();
     let (mut near, mut far) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -68,6 +69,6 @@ fn depth_style(scene: &Scene, colormap: Option<Colormap>) -> ShadingStyle {
         let depth = -world_to_view.transform_point(point).z();
         (near, far) = (near.min(depth), far.max(depth));
     }
-    // Nothing behind the eye is visible, so the ramp starts no earlier than the eye.
+    // Nothing behind the eye is visible, so the ramp never starts behind the eye.
     ShadingStyle::Depth { near: near.max(0.0) as f32, far: far as f32, colormap }
 }

@@ -1,8 +1,8 @@
 //! The ground as a shadow catcher: a translucent rectangle that shows only shadows.
 //!
 //! Its fragments are black, and their alpha is the fraction of light that shadows remove; fully lit
-//! fragments are transparent. Blending then darkens the background as real ground would, without a
-//! visible edge of the rectangle.
+//! fragments are transparent. Blending then darkens the background as real ground would, and the
+//! edge of the rectangle stays invisible.
 
 use super::RenderError;
 use super::draw_call::DrawCall;
@@ -16,8 +16,8 @@ use shade::{Draw, DrawKind, MaterialTextures, POSITION, Tangents};
 impl PrimitiveAssembler<'_> {
     /// Adds the draw call of the ground.
     ///
-    /// It is not clipped against the near and far planes: these enclose the models tightly, and
-    /// shadows extend beyond them.
+    /// The ground is not clipped against the near and far planes, because they enclose the models
+    /// tightly and shadows extend beyond them.
     pub(super) fn add_ground(&mut self, ground: Ground) -> Result<(), RenderError> {
         let first_id = self.next_id;
         self.next_id = first_id.checked_add(2).ok_or(RenderError::TooManyPrimitives)?;

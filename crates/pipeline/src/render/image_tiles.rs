@@ -1,4 +1,5 @@
-//! Image tiles: division of pictures larger than the rasterizer's grid, and regions of pictures.
+//! Image tiles: pictures larger than the rasterizer's grid are divided into tiles. Also regions of
+//! pictures.
 //!
 //! ```text
 //!   ┌───────────────┬──────┐   The rasterizer's grid ends at 16,384 pixels. A larger picture is
@@ -8,8 +9,8 @@
 //!   ├───────────────┼──────┤
 //!   └───────────────┴──────┘
 //! ```
-//! The pixels depend on the scene, on the size of the whole picture and on the tile, never on the
-//! region, so regions match bit for bit.
+//! Pixels depend on the scene, the size of the whole picture and the tile, but never on the region,
+//! so regions match bit for bit.
 
 use super::RenderError;
 use homog::{Clip, ClipRange, PixelRect, Projective, World};
@@ -43,12 +44,13 @@ pub(crate) fn validate_region(image: ImageSpec, region: PixelRect) -> Result<(),
 pub(super) struct ImageTile {
     /// Its pixels in the picture.
     pub(super) rect: PixelRect,
-    /// Width and height of the picture, unless this tile covers all of it.
+    /// The width and height of the picture, or `None` if this tile covers all of it.
     image_size: Option<[u32; 2]>,
 }
 
 impl ImageTile {
-    /// World to clip space, narrowed so that the tile fills the view volume (`gluPickMatrix`).
+    /// Returns the transform from world to clip space, narrowed so that the tile fills the view
+    /// volume (`gluPickMatrix`).
     pub(super) fn world_to_clip(
         &self,
         scene: &Scene,
@@ -71,23 +73,23 @@ pub(super) struct TileRegion {
 }
 
 impl TileRegion {
-    /// The region of a single pixel.
+    /// Returns the region of a single pixel.
     pub(super) fn for_pixel(image: ImageSpec, [x, y]: [u32; 2]) -> Self {
         let rect = PixelRect { x, y, width: 1, height: 1 };
         Self { tile: tile_at(image, [x / TILE_SIDE, y / TILE_SIDE]), rect }
     }
 
-    /// The whole of a picture that is not larger than a tile.
+    /// Returns the region that covers a picture no larger than one tile.
     pub(super) fn for_whole(image: ImageSpec) -> Self {
         Self { tile: tile_at(image, [0, 0]), rect: image.pixel_rect() }
     }
 
-    /// The first column and row, counted in the tile.
+    /// Returns the first column and row relative to the tile.
     pub(super) const fn offset_in_tile(&self) -> [u32; 2] {
         [self.rect.x - self.tile.rect.x, self.rect.y - self.tile.rect.y]
     }
 
-    /// Width and height.
+    /// Returns the width and height.
     pub(super) const fn size(&self) -> [u32; 2] {
         [self.rect.width, self.rect.height]
     }
@@ -109,7 +111,7 @@ impl TileRegion {
     }
 }
 
-/// The parts of a region, tile by tile, in rows from the upper left; one part for most pictures.
+/// Divides a region by tiles, in rows from the upper left. Most pictures have one part.
 pub(super) fn tile_regions(image: ImageSpec, region: PixelRect) -> Vec<TileRegion> {
     let (columns, rows) = (image.width.div_ceil(TILE_SIDE), image.height.div_ceil(TILE_SIDE));
     let tile_indices = (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));
@@ -134,7 +136,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_region_is_cut_where_tiles_meet() {
+    fn regions_are_split_at_tile_borders() {
         let image = ImageSpec::new(20_000, 40_000);
         let region = PixelRect { x: 16_000, y: 16_300, width: 1000, height: 100 };
         let regions = tile_regions(image, region);
@@ -157,12 +159,12 @@ mod tests {
             Err(RenderError::Raster(raster::RasterError::Size { x, y, width, height })) => {
                 Some(PixelRect { x, y, width, height })
             }
-            Err(error) => panic!("another error: {error}"),
+            Err(error) => panic!("unexpected error: {error}"),
         }
     }
 
     #[test]
-    fn a_region_outside_the_picture_or_beyond_memory_is_refused() {
+    fn regions_outside_the_picture_or_too_large_are_rejected() {
         let small = ImageSpec::new(100, 100);
         let outside = PixelRect { x: 90, y: 0, width: 20, height: 10 };
         assert_eq!(refused(small, outside), Some(outside));

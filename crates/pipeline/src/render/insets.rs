@@ -14,18 +14,18 @@ use homog::PixelRect;
 use picture::Channel;
 use scene::Inset;
 
-/// The part of the inset in a region of the picture: as pixels of the picture, and as pixels of
-/// the inset. `None` if they are disjoint.
+/// Returns the intersection of an inset with a region of the picture, in pixels of the picture and
+/// in pixels of the inset, or `None` if they are disjoint.
 pub(super) fn visible_rects(inset: &Inset, region: PixelRect) -> Option<[PixelRect; 2]> {
     let in_picture = inset.rect.intersection(region)?;
     let (x, y) = (in_picture.x - inset.rect.x, in_picture.y - inset.rect.y);
     Some([in_picture, PixelRect { x, y, ..in_picture }])
 }
 
-/// Whether insets hide a region completely, so that the picture below need not be rendered.
+/// Whether insets hide a region completely, so that the picture below does not have to be rendered.
 ///
-/// The test is conservative: one inset covers the region, or disjoint ones cover it together.
-/// An inset drawn in cyan for anaglyphs leaves the red channel of the picture below visible.
+/// The test is conservative: either a single inset covers the region, or disjoint insets cover it
+/// together. A cyan inset of an anaglyph leaves the red channel of the picture below visible.
 pub(super) fn covers_region(insets: &[Inset], region: PixelRect) -> bool {
     let opaque = || {
         let opaque = insets.iter().filter(|inset| !inset.cyan_only);
@@ -44,8 +44,8 @@ pub(super) fn covers_region(insets: &[Inset], region: PixelRect) -> bool {
 /// Composites the pixels of an inset into a region of the picture. `rect` is the covered part of
 /// the picture.
 ///
-/// The border replaces pixels at the inset's edge. A cyan inset replaces green and blue and
-/// keeps red (anaglyph); alpha comes from the more opaque of both pixels.
+/// The border replaces pixels at the inset's edge. A cyan inset replaces green and blue and keeps
+/// red (anaglyph). Alpha is the larger alpha of the two pixels.
 pub(super) fn composite_into<C: Channel>(
     inset: &Inset,
     pixels: &Picture<C>,
@@ -72,7 +72,8 @@ pub(super) fn composite_into<C: Channel>(
     }
 }
 
-/// The color of the border at a pixel of the picture; `None` off the border.
+/// Returns the color of the border at a pixel of the picture, or `None` if the pixel is not on the
+/// border.
 fn border_color_at(inset: &Inset, x: u32, y: u32) -> Option<[u8; 3]> {
     let (color, border) = inset.border?;
     let is_on_border = |at: u32, start: u32, side: u32| {

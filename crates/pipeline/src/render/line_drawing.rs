@@ -1,11 +1,11 @@
-//! Line drawings of a scene: hidden-line removal to a vector page, and lines drawn over surfaces.
+//! Line drawings: hidden-line removal to a vector page, and lines drawn over surfaces.
 //!
 //! ```text
 //!  models ─► welded edges ─► exact visibility ─► chains ─► Page: layers of strokes, warnings
 //! ```
-//! The engines are the crates `hidden_line` and `drawing`. This module gives them the scene, and
-//! adds the other parts of the picture: paper, backdrop, overlays, insets, caption. Shaded styles
-//! with outlines (toon) and the edge overlay put the layers of such a drawing over the surfaces.
+//! The crates `hidden_line` and `drawing` do the work. This module passes them the scene and adds
+//! the other parts of the picture: paper, backdrop, overlays, insets and caption. Shaded styles
+//! with outlines (toon) and the edge overlay draw the layers of such a drawing over the surfaces.
 
 use super::RenderError;
 use super::captions::{caption_layer, paper_color, strip_rect, text_warnings};
@@ -30,9 +30,9 @@ const OVERLAY_INK: Ink = [20, 24, 30];
 
 /// Draws the lines of a scene on a page of the picture's size, at 96 pixels per inch.
 ///
-/// Styles that show surfaces are drawn with hidden lines removed, in viewports too. An anaglyph is
-/// skipped, with a warning. Blank paper is skipped as well, so that the page can be placed over
-/// others. `workers` is the number of threads, which does not change the page, optionally with a
+/// Styles that show surfaces are drawn with hidden lines removed, including in viewports. An
+/// anaglyph is skipped with a warning. Blank paper is omitted, so that the page can be placed over
+/// others. `workers` sets the number of threads, which does not change the page, and optionally a
 /// [monitor](raster::Monitor) that receives the edge count of each drawing.
 ///
 /// ```
@@ -108,7 +108,8 @@ pub(super) fn draw_view(
     Ok(timings.measure("chains", page))
 }
 
-/// Puts the drawing of an inset over the contents of its rectangle, with its background and border.
+/// Places the drawing of an inset, with its background and border, over the contents of its
+/// rectangle.
 fn paste_inset(page: &mut Page, mut view: Page, inset: &Inset, number: usize) {
     let PixelRect { x, y, width, height } = inset.rect;
     let [low, size] =
@@ -125,7 +126,7 @@ fn paste_inset(page: &mut Page, mut view: Page, inset: &Inset, number: usize) {
     }
 }
 
-/// Clears the strip at the lower border of a page, and writes the caption there.
+/// Clears the strip at the bottom of a page and draws the caption there.
 fn write_caption(page: &mut Page, scene: &Scene) {
     let Some(layer) = caption_layer(scene) else { return };
     let PixelRect { y, width, height, .. } = strip_rect(scene.image);
@@ -138,7 +139,8 @@ fn write_caption(page: &mut Page, scene: &Scene) {
     page.layers.push(layer);
 }
 
-/// A rectangle in the paper color, as a one-pixel image: above earlier images and below all lines.
+/// Returns a rectangle in the paper color as a one-pixel image, above earlier images and below all
+/// lines.
 fn paper_image(id: String, low: DVec2, high: DVec2, [r, g, b]: Ink) -> PlacedImage {
     let [corner, end] = [low, high].map(to_micrometers);
     let mut picture = Picture::default();
@@ -147,7 +149,7 @@ fn paper_image(id: String, low: DVec2, high: DVec2, [r, g, b]: Ink) -> PlacedIma
     PlacedImage { id, corner, size: [end[0] - corner[0], end[1] - corner[1]], picture }
 }
 
-/// A border with a width in pixels, inside a rectangle in millimeters.
+/// Returns a border with a width in pixels, inside a rectangle in millimeters.
 fn border_layer(id: String, low: DVec2, size: DVec2, color: Ink, width: u32) -> Layer {
     let width = to_page_millimeters(width);
     let half = DVec2::splat(0.5 * width);
@@ -165,8 +167,9 @@ fn to_page_millimeters(pixels: u32) -> f64 {
     f64::from(pixels) * MILLIMETERS_PER_PIXEL
 }
 
-/// The lines drawn over shaded surfaces: silhouettes of the toon style, and the overlay of feature
-/// edges, with a warning if they are skipped. None for styles that draw only lines.
+/// Returns the lines drawn over shaded surfaces, with a warning if they are skipped: the
+/// silhouettes of the toon style and the feature-edge overlay. Styles that draw only lines have
+/// none.
 pub(super) fn surface_line_layers(
     scene: &Scene,
     workers: Workers<'_>,
@@ -183,14 +186,15 @@ pub(super) fn surface_line_layers(
         _ => return Ok(Default::default()),
     };
     let options = DrawOptions {
-        // The picture shows leaves, and lines would show the rectangles they are cut from.
+        // The picture shows leaves, but lines would show the rectangles that the leaves are cut
+        // from.
         leaves_out_cut_outs: true,
         is_unlimited: scene.unlimited_lines,
         ..style.to_draw_options()
     };
     match drawing::draw(&scene.drawing_subject(), &options, &style.to_fill_options(), workers) {
         Ok(drawing) => Ok((drawing.to_page(&style, "", None).layers, None)),
-        // The surfaces are drawn without them.
+        // The surfaces are drawn without lines.
         Err(DrawError::TooManyCopies { .. }) => Ok((Vec::new(), Some(Warning::OutlinesLeftOut))),
         Err(error) => Err(error.into()),
     }

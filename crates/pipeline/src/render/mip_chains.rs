@@ -1,5 +1,5 @@
-//! Mip chains: the textures of a scene's models, prefiltered at all levels, built once and shared
-//! by all renderings.
+//! Mip chains: the textures of a scene's models, prefiltered at all levels. They are built once and
+//! shared by all renderings.
 //!
 //! ```text
 //!  level 0  64 × 64   the image, decoded
@@ -7,8 +7,8 @@
 //!  …
 //!  level 6   1 × 1
 //! ```
-//! A chain costs a third of the image's memory. One image may need two: as a color texture its
-//! texels are decoded from sRGB before they are averaged; as data they are averaged directly.
+//! A chain costs a third of the image's memory. An image may need two chains: texels of a color
+//! texture are decoded from sRGB before they are averaged, while data is averaged directly.
 
 use model::{Image, Material, Model, ModelInstance, Texture, TextureSlot};
 use scene::Scene;
@@ -16,13 +16,13 @@ use shade::{MipChain, TexelEncoding};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Two chains of a texture: decoded from sRGB for colors, and linear for data such as normals and
-/// roughness. `None` if no material needs it.
+/// The two chains of a texture: decoded from sRGB for colors, and linear for data such as normals
+/// and roughness. Each is `None` if no material needs it.
 type ColorAndData<'a> = [Option<MipChain<'a>>; 2];
 
 /// The mip chains of all textures of a scene's models.
 ///
-/// They belong to the models and not to a picture: several renderings of the same models share
+/// They belong to the models, not to a picture, so several renderings of the same models share
 /// them. Building them takes about as long as rendering a small picture.
 #[derive(Debug)]
 pub struct Textures<'a> {
@@ -33,8 +33,8 @@ pub struct Textures<'a> {
 }
 
 impl<'a> Textures<'a> {
-    /// Builds the chains needed to render a scene: none if the scene and its insets are line
-    /// drawings.
+    /// Builds the chains needed to render a scene. Line drawings need none, unless an inset shows
+    /// surfaces.
     #[must_use]
     pub fn for_scene(scene: &'a Scene) -> Self {
         let insets = scene.insets.iter().map(|inset| &inset.scene);
@@ -58,8 +58,8 @@ impl<'a> Textures<'a> {
         Self { mip_chains, chain_indices }
     }
 
-    /// The chains with copies of the full images, so that a program can keep them together with
-    /// their models.
+    /// Copies the full images into the chains, so that a program can store them together with their
+    /// models.
     #[must_use]
     pub fn into_owned(self) -> Textures<'static> {
         let own = |chains: ColorAndData<'_>| chains.map(|chain| chain.map(MipChain::into_owned));
@@ -68,7 +68,8 @@ impl<'a> Textures<'a> {
         Textures { mip_chains, chain_indices: self.chain_indices }
     }
 
-    /// The chain of a texture of the model with this index in the scene, for a material slot.
+    /// Returns the chain of a model's texture for a material slot. The model is given by its index
+    /// in the scene.
     pub(super) fn mip_chain(
         &self,
         model: usize,
@@ -80,8 +81,8 @@ impl<'a> Textures<'a> {
     }
 }
 
-/// Builds the chains of one model's textures, as colors or data depending on the slots that refer
-/// to them.
+/// Builds the chains of one model's textures, as colors or data depending on the material slots
+/// that use them.
 fn build_mip_chains(model: &Model) -> Vec<ColorAndData<'_>> {
     let mut used = vec![[false; 2]; model.textures.len()];
     for (slot, texture) in model.materials.iter().flat_map(Material::visible_textures) {

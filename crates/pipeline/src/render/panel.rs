@@ -1,4 +1,4 @@
-//! Panels: a scene drawn as one of several pictures on a page.
+//! Panels: scenes drawn as one of several pictures on a page.
 //!
 //! Lessons put panels side by side: the same models in several projections, or the steps of a
 //! sweep. Lines stay vectors; surfaces become an image with twice the panel's resolution.
@@ -13,8 +13,9 @@ use scene::Scene;
 /// Number of raster pixels per panel pixel along a side, for sharp prints.
 const PICTURE_SCALE: u32 = 2;
 
-/// Draws a scene as a panel of its picture's size at 96 pixels per inch: as lines, or as a raster
-/// picture in styles that show surfaces. The number of threads does not change it.
+/// Draws a scene as a panel of its picture's size at 96 pixels per inch. Line styles become
+/// vectors, and styles that show surfaces become a raster picture. The number of threads does not
+/// change the result.
 ///
 /// # Errors
 /// As [`render`](crate::render()).
@@ -32,7 +33,7 @@ pub fn render_panel(
     Ok(Panel { id: id.into(), title: title.into(), notes: Vec::new(), page })
 }
 
-/// A page filled with a raster picture of the scene.
+/// Returns a page filled with a raster picture of the scene.
 fn picture_page(scene: &Scene, threads: usize) -> Result<Page, RenderError> {
     let mut enlarged = scene.clone();
     let [width, height] = [scene.image.width, scene.image.height];

@@ -1,14 +1,14 @@
-//! Render passes (AOVs): depth, position, normal, ids and more for each pixel, as numbers.
+//! Render passes (AOVs): numeric values for each pixel, such as depth, position, normal and ids.
 //!
 //! ```text
 //!   primitives of the frame ─► nearest at each pixel's center ─► triangle id, barycentric weights
 //!                                                             ─► depth, position, normal, uv, …
 //! ```
-//! One sample at the pixel's center decides by the rasterizer's rules: the nearest surface, opaque
-//! or translucent, without the holes of masked materials. The weights are then recomputed at the
-//! exact center, in f64, on the triangle before snapping to 1/256 pixel (IN-2; Olano and Greer,
-//! 1997, homogeneous barycentric coordinates). If snapping puts a center outside the exact
-//! triangle, its weights refer to a point on the border.
+//! One sample at the pixel's center determines the nearest surface, opaque or translucent, by the
+//! rasterizer's rules; holes in masked materials are skipped. The weights are then recomputed at
+//! the exact center, in f64, on the triangle before it is snapped to 1/256 pixel (IN-2; Olano and
+//! Greer, 1997, homogeneous barycentric coordinates). If the center is inside the snapped triangle
+//! but outside the exact triangle, its weights are clamped to the border.
 
 mod buffer;
 mod exr;
@@ -35,10 +35,10 @@ use scene::{Scene, Style};
 use shade::FrameChannel;
 
 /// Renders passes of a region of a scene's picture, in the order of `wanted`, with up to `threads`
-/// threads; their number does not change the passes.
+/// threads. The number of threads does not change the passes.
 ///
-/// Passes show the surfaces of the models, even if the style of the scene draws lines; they exclude
-/// overlays, environment, backdrop and ground.
+/// Passes show the surfaces of the models even if the scene's style draws lines. They exclude
+/// overlays, the environment, the backdrop and the ground.
 ///
 /// ```
 /// # use pipeline::scene::file::{CameraFile, LightFile};
@@ -75,8 +75,8 @@ pub fn render_passes(
 }
 
 impl Renderer {
-    /// Renders passes of a region of a scene's picture, in the order of `wanted`: like the function
-    /// [`render_passes`], but with this renderer's memory and existing textures.
+    /// Renders passes of a region of a scene's picture, in the order of `wanted`, like the function
+    /// [`render_passes`] but with this renderer's memory and existing textures.
     ///
     /// # Errors
     /// As [`render`](Self::render).
@@ -138,7 +138,8 @@ impl TilePasses<'_, '_> {
         Ok(buffers)
     }
 
-    /// The nearest primitive at each pixel's center: a visibility buffer of ids and weights.
+    /// Finds the nearest primitive at each pixel's center and returns a visibility buffer of ids
+    /// and weights.
     fn nearest_hits(&mut self) -> Result<Vec<Hit>, RenderError> {
         let mut hits = vec![Hit::MISS; self.tile_region.pixel_count()];
         let threads = self.context.threads;
@@ -149,8 +150,8 @@ impl TilePasses<'_, '_> {
         Ok(hits)
     }
 
-    /// Overdraw: the number of fragments at each pixel's center, including hidden ones. All
-    /// primitives are drawn as translucent, because opaque ones would replace each other.
+    /// Counts the fragments at each pixel's center, including hidden fragments (overdraw). All
+    /// primitives are drawn as translucent, because opaque primitives would replace each other.
     fn count_overdraw(&mut self, counts: &mut [u32]) -> Result<(), RenderError> {
         let threads = self.context.threads;
         self.with_frame(Samples::One, Some(Opacity::Translucent), |frame, surface| {
@@ -158,14 +159,14 @@ impl TilePasses<'_, '_> {
         })
     }
 
-    /// Coverage: the fraction of each pixel's samples that a surface covers.
+    /// Measures the fraction of each pixel's samples that a surface covers (coverage).
     fn measure_coverage(&mut self, coverage: &mut [f32]) -> Result<(), RenderError> {
         let RenderContext { scene, threads, .. } = self.context;
         self.with_frame(scene.image.samples, None, |frame, surface| {
             let mut pixels = vec![[0; 4]; coverage.len()];
             u16::draw_frame(frame, &CoverageMask(surface), [0.0; 4], threads, &mut pixels);
-            // Alpha is the mean of the samples; rounded to an integer number of samples it is
-            // exact.
+            // Alpha is the mean of the samples, and rounding it to a whole number of samples makes
+            // it exact.
             let count = scene.image.samples.count() as f32;
             for (coverage, [.., alpha]) in coverage.iter_mut().zip(pixels) {
                 *coverage = (f32::from(alpha) * count / f32::from(u16::MAX)).round() / count;
@@ -173,8 +174,8 @@ impl TilePasses<'_, '_> {
         })
     }
 
-    /// Assembles a frame of only the models, with another number of samples and, if given, another
-    /// opacity.
+    /// Assembles a frame of only the models, with a different number of samples and optionally a
+    /// different opacity.
     fn with_frame(
         &mut self,
         samples: Samples,
@@ -185,7 +186,7 @@ impl TilePasses<'_, '_> {
         (scene.image.samples, scene.image.environment_blur) = (samples, None);
         scene.backdrop = None;
         (scene.ground, scene.occlusion_radius) = (None, None);
-        // Other styles may show back faces, or draw opaque materials as translucent.
+        // Other styles may show back faces or draw opaque materials as translucent.
         scene.style = if scene.style == Style::Flat { Style::Flat } else { Style::Shaded };
         let context = self.context.with_scene(&scene);
         let memory = self.memory.take_frame(&context, self.tile_region)?;
@@ -200,7 +201,7 @@ impl TilePasses<'_, '_> {
     }
 }
 
-/// A surface that is white everywhere that another passes its alpha test.
+/// A surface that is white wherever another surface passes its alpha test.
 struct CoverageMask<'a>(&'a dyn Surface);
 
 impl Surface for CoverageMask<'_> {

@@ -31,7 +31,7 @@ pub struct PassBuffer {
 }
 
 impl PassBuffer {
-    /// A pass in which nothing is visible.
+    /// Creates a pass in which nothing is visible.
     pub(super) fn new_empty(pass: Pass, region: PixelRect) -> Self {
         let count = region.area() * pass.channels();
         let values = if pass.is_integer() {
@@ -42,7 +42,7 @@ impl PassBuffer {
         Self { pass, width: region.width, height: region.height, values }
     }
 
-    /// The values of a pixel; `None` outside the region and for integer passes.
+    /// Returns the values of a pixel, or `None` outside the region and for integer passes.
     #[must_use]
     pub fn float_values(&self, x: u32, y: u32) -> Option<&[f32]> {
         let (at, count) = (self.pixel_index(x, y)?, self.pass.channels());
@@ -52,7 +52,7 @@ impl PassBuffer {
         }
     }
 
-    /// The integer of a pixel; `None` outside the region and for floating-point passes.
+    /// Returns the integer of a pixel, or `None` outside the region and for floating-point passes.
     #[must_use]
     pub fn integer_value(&self, x: u32, y: u32) -> Option<u32> {
         match &self.values {
@@ -67,7 +67,7 @@ impl PassBuffer {
         inside.then(|| y as usize * self.width as usize + x as usize)
     }
 
-    /// The bytes of the pass as a file.
+    /// Encodes the pass as a file.
     #[must_use]
     pub fn encode_file(&self, encoding: PassEncoding) -> Vec<u8> {
         match encoding {
@@ -77,7 +77,8 @@ impl PassBuffer {
         }
     }
 
-    /// Computes the values of each pixel from the nearest primitive there, rows in parallel.
+    /// Computes the values of each pixel from the nearest primitive there. Rows are processed in
+    /// parallel.
     pub(super) fn fill_pixels(
         &mut self,
         geometry: &SceneGeometry<'_>,
@@ -94,7 +95,7 @@ impl PassBuffer {
                 let rows = values.chunks_mut(width * count).zip(hits.chunks(width)).enumerate();
                 raster::for_each_parallel(threads, rows, |(row, (values, hits))| {
                     let pixels = values.chunks_exact_mut(count).zip(hits).enumerate();
-                    // Starts anew in each row, because rows run in parallel.
+                    // Reset for each row, because rows run in parallel.
                     let mut last = None;
                     for (column, (values, hit)) in pixels {
                         geometry.write_value(pass, hit, pixel(row, column), &mut last, values);
@@ -131,7 +132,7 @@ impl PassBuffer {
                 ),
                 _ => part.copy_into_region(patch, region, all),
             },
-            _ => debug_assert!(false, "all tiles of a pass have values of one type"),
+            _ => debug_assert!(false, "all tiles of a pass have the same value type"),
         }
     }
 }

@@ -1,10 +1,10 @@
 //! Passes as OpenEXR files, for compositing programs.
 //!
-//! The format (*OpenEXR file layout*, Academy Software Foundation): a magic number and a version, the
-//! attributes of the header, a table of all row offsets, and the rows, in each of which the
-//! channels follow each other in alphabetical order. Nothing is compressed, so the values are exact
-//! and the bytes are the same everywhere. The package `exr` would add a second deflate
-//! implementation.
+//! The format (*OpenEXR file layout*, Academy Software Foundation): a magic number and a version,
+//! the header attributes, a table of row offsets, and the rows. Each row stores its channels one
+//! after another in alphabetical order. Nothing is compressed, so the values are exact and the
+//! bytes are the same everywhere. The `exr` package is not used because it would add a second
+//! deflate implementation.
 
 use super::buffer::{PassBuffer, PassValues};
 use scene_file::Pass;
@@ -27,8 +27,7 @@ impl PassBuffer {
         self.write_header(&names, &mut bytes);
         let (width, height) = (self.width as usize, self.height as usize);
         let row_bytes = 4 * width * names.len();
-        // Without compression every row is a block, and a table of their offsets follows the
-        // header.
+        // Without compression every row is a block. A table of row offsets follows the header.
         let first_row = bytes.len() + 8 * height;
         let offsets = (0..height).map(|row| (first_row + row * (8 + row_bytes)) as u64);
         bytes.extend(offsets.flat_map(u64::to_le_bytes));
@@ -67,7 +66,8 @@ impl PassBuffer {
         for name in names {
             channels.extend(name.as_bytes());
             channels.push(0);
-            // Type, linear flag, and three reserved bytes; every column and row has a value.
+            // Type, linear flag and three reserved bytes. The sampling rate is 1: every column and
+            // row has a value.
             channels.extend([kind, 0, 1, 1].into_iter().flat_map(i32::to_le_bytes));
         }
         channels.push(0);
@@ -87,7 +87,7 @@ impl PassBuffer {
     }
 }
 
-/// The channel names of a pass, in value order, which is alphabetical.
+/// Returns the channel names of a pass in the order of its values, which is alphabetical.
 fn channel_names(pass: Pass) -> Vec<&'static str> {
     match (pass, pass.channels()) {
         (Pass::Depth, _) => vec!["Z"],
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rows_follow_the_header_and_the_table_of_their_offsets() {
+    fn rows_follow_the_header_and_the_offset_table() {
         let values = PassValues::Floats((0..12).map(|n| n as f32).collect());
         let bytes = PassBuffer { pass: Pass::Normal, width: 2, height: 2, values }.to_exr();
         assert!(bytes.starts_with(&MAGIC_AND_VERSION));
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn channels_are_in_the_order_of_their_names() {
+    fn channels_are_sorted_by_name() {
         for pass in Pass::ALL {
             let names = channel_names(pass);
             assert!(names.is_sorted() && names.len() == pass.channels(), "{names:?}");

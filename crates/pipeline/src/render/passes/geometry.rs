@@ -1,8 +1,8 @@
-//! Attribute interpolation for passes: exact barycentric weights of a pixel's center, and the
+//! Attribute interpolation for passes: exact barycentric weights at a pixel's center and the
 //! position, normal and texture coordinates computed from them, in f64.
 //!
-//! The rasterizer's weights are f32 and refer to vertices snapped to 1/256 pixel: good for colors,
-//! but not for positions that must agree with the unprojection of a depth. Everything is therefore
+//! The rasterizer's weights are f32 and refer to vertices snapped to 1/256 pixel: good enough for
+//! colors, but not for positions that must match an unprojected depth. Everything is therefore
 //! recomputed for the one visible triangle of each pixel.
 
 use crate::render::RenderError;
@@ -19,7 +19,7 @@ use std::borrow::Cow;
 /// The nearest primitive at a pixel's center, as the rasterizer found it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hit {
-    /// Its primitive id; `u32::MAX` for none.
+    /// The primitive id; `u32::MAX` if there is no primitive.
     pub(super) id: u32,
     /// Barycentric weights on the snapped triangle, as used by shading.
     pub(super) weights: [f32; 3],
@@ -36,7 +36,7 @@ pub(super) struct SceneGeometry<'a> {
     draws: Vec<DrawGeometry<'a>>,
     /// The view transform, for depths and view-space normals.
     world_to_view: Affine<World, View>,
-    /// The eye, or the direction to it.
+    /// The eye, or the direction toward it.
     viewer: HPoint<World>,
     /// The inverse viewport transform of the tile.
     screen_to_ndc: Affine<Screen, homog::Ndc>,
@@ -44,15 +44,15 @@ pub(super) struct SceneGeometry<'a> {
     is_flat: bool,
 }
 
-/// One primitive of one mesh instance: its draw call in the frame.
+/// The draw call of one primitive of one mesh instance.
 struct DrawGeometry<'a> {
-    /// The id of its first point, line or triangle.
+    /// The id of the first point, line or triangle.
     first_id: u32,
-    /// Index plus one of model, node, mesh and material; 0 for none.
+    /// One-based indices of the model, node, mesh and material; 0 means none.
     owner_ids: [u32; 4],
     /// Indices and topology.
     primitive: &'a Primitive,
-    /// Posed positions and normals.
+    /// The posed positions and normals.
     skinned: SkinnedPrimitive<'a>,
     /// The texture coordinates `TEXCOORD_0`.
     uvs: Option<Cow<'a, [[f32; 2]]>>,
@@ -65,7 +65,7 @@ struct DrawGeometry<'a> {
 }
 
 impl<'a> SceneGeometry<'a> {
-    /// Collects the draw calls of a scene, posed, with the same ids as the frame of the tile.
+    /// Collects the posed draw calls of a scene, with the same ids as the frame of the tile.
     pub(super) fn new(scene: &'a Scene, tile: ImageTile) -> Result<Self, RenderError> {
         let transform = ScreenTransform::for_tile(scene, tile)?;
         let mut draws = Vec::new();
@@ -75,7 +75,7 @@ impl<'a> SceneGeometry<'a> {
             for (instance, primitive) in model.scene_primitives() {
                 let skinned = model.skin_primitive(instance, primitive);
                 let model_to_world = skinned.to_model.then(model_instance.model_to_world);
-                // 0 means that there is no such object.
+                // 0 means that there is none.
                 let id = |index: Option<usize>| index.map_or(0, |index| index as u32 + 1);
                 let (node, mesh) = (Some(instance.node), model.nodes[instance.node].mesh);
                 let owner_ids = [model_id, id(node), id(mesh), id(primitive.material)];
@@ -103,7 +103,7 @@ impl<'a> SceneGeometry<'a> {
         })
     }
 
-    /// The draw call that a hit's primitive belongs to.
+    /// Returns the draw call of a hit's primitive.
     fn draw_of_hit(&self, hit: &Hit) -> Option<&DrawGeometry<'a>> {
         if hit.id == u32::MAX {
             return None;
@@ -112,7 +112,7 @@ impl<'a> SceneGeometry<'a> {
         self.draws.get(after.checked_sub(1)?)
     }
 
-    /// The value of an integer pass at a pixel; 0 for background pixels.
+    /// Returns the value of an integer pass at a pixel; 0 for background pixels.
     pub(super) fn id_value(&self, pass: Pass, hit: &Hit) -> u32 {
         let Some(draw) = self.draw_of_hit(hit) else { return 0 };
         let [model, node, mesh, material] = draw.owner_ids;
@@ -125,10 +125,10 @@ impl<'a> SceneGeometry<'a> {
         }
     }
 
-    /// Writes the values of a floating-point pass for the pixel at `pixel` of the tile; leaves them
-    /// unchanged for background pixels.
+    /// Writes the values of a floating-point pass for the pixel `pixel` of the tile. Values of
+    /// background pixels are left unchanged.
     ///
-    /// `last` is the item of the previous pixel: neighbors mostly show the same triangle.
+    /// `last` is the item of the previous pixel, because neighbors usually show the same triangle.
     pub(super) fn write_value<'s>(
         &'s self,
         pass: Pass,
@@ -161,7 +161,8 @@ impl<'a> SceneGeometry<'a> {
         }
     }
 
-    /// The point, line or triangle of a hit with its corners in clip space and in the world.
+    /// Returns the point, line or triangle of a hit, with its corners in clip space and in world
+    /// space.
     fn item_of_hit(&self, hit: &Hit) -> Option<HitItem<'_, 'a>> {
         let draw = self.draw_of_hit(hit)?;
         let vertices = draw.vertex_indices((hit.id - draw.first_id) as usize)?;
@@ -176,8 +177,8 @@ impl<'a> SceneGeometry<'a> {
         Some(HitItem { id: hit.id, draw, vertices, edge_normals, corners })
     }
 
-    /// The surface point at a pixel's center. Points and lines keep the rasterizer's weights: their
-    /// fragments extend beyond the primitive itself.
+    /// Returns the surface point at a pixel's center. Points and lines use the rasterizer's
+    /// weights, because their fragments extend beyond the primitive itself.
     fn surface_point(&self, item: &HitItem<'_, '_>, hit: &Hit, [x, y]: [u32; 2]) -> SurfacePoint {
         let weights = if item.draw.primitive.topology == Topology::Triangles {
             let center = Point::new(f64::from(x) + 0.5, f64::from(y) + 0.5, 0.0);
@@ -191,8 +192,8 @@ impl<'a> SceneGeometry<'a> {
         SurfacePoint { weights, position }
     }
 
-    /// The unit normal of the visible side: interpolated, or the triangle's normal for flat
-    /// surfaces; zero for points and lines.
+    /// Returns the unit normal of the visible side. It is interpolated, or the triangle's normal
+    /// for flat surfaces, or zero for points and lines.
     fn visible_normal(&self, item: &HitItem<'_, '_>, point: &SurfacePoint) -> DVec3 {
         let draw = item.draw;
         if draw.primitive.topology != Topology::Triangles {
@@ -210,7 +211,8 @@ impl<'a> SceneGeometry<'a> {
 }
 
 impl DrawGeometry<'_> {
-    /// The vertex indices of a point, line or triangle; missing ones repeat the last.
+    /// Returns the vertex indices of a point, line or triangle. Points and lines repeat their last
+    /// index.
     fn vertex_indices(&self, item: usize) -> Option<[usize; 3]> {
         let count = self.primitive.topology.vertices_per_item();
         let indices = self.primitive.indices.get(item * count..(item + 1) * count)?;
@@ -226,14 +228,15 @@ pub(super) struct HitItem<'s, 'a> {
     draw: &'s DrawGeometry<'a>,
     /// Vertex indices.
     vertices: [usize; 3],
-    /// Edge normals in (x, y, w), used to compute weights at a point of the picture.
+    /// Edge normals in (x, y, w), for computing weights at a point of the picture.
     edge_normals: [DVec3; 3],
     /// Vertex positions in the world.
     corners: [Point<World>; 3],
 }
 
 impl HitItem<'_, '_> {
-    /// The interpolated vertex normal in the world; `None` without vertex normals.
+    /// Returns the interpolated vertex normal in world space, or `None` if there are no vertex
+    /// normals.
     fn smooth_normal(&self, point: &SurfacePoint) -> Option<DVec3> {
         let normals = self.draw.skinned.normals.as_deref()?;
         let mut vertex_normals = [DVec3::ZERO; 3];
@@ -244,7 +247,7 @@ impl HitItem<'_, '_> {
         interpolate(vertex_normals, point.weights).try_normalize()
     }
 
-    /// The interpolated texture coordinates, with 0 as third component.
+    /// Returns the interpolated texture coordinates, with 0 as the third component.
     fn uv(&self, point: &SurfacePoint) -> [f64; 3] {
         let Some(uvs) = self.draw.uvs.as_deref() else { return [0.0; 3] };
         let uv = self.vertices.map(|vertex| {
@@ -268,24 +271,26 @@ fn interpolate([a, b, c]: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     a * weights[0] + b * weights[1] + c * weights[2]
 }
 
-/// Normals of the planes through the origin and each edge of a triangle, in (x, y, w): q × r
-/// opposite p, and so on, all on the side of the triangle.
+/// Returns the normals of the planes through the origin and each edge of a triangle, in (x, y, w).
+/// The normal q × r belongs to the edge opposite p, and so on. All normals point to the side of the
+/// triangle.
 ///
-/// Their products with a point (x, y, 1) of the picture are its weights, up to a factor.
+/// Their dot products with a point (x, y, 1) of the picture are its weights, up to a factor.
 fn edge_normals(corners: [HPoint<Clip>; 3]) -> [DVec3; 3] {
     let [p, q, r] = corners.map(|corner| DVec3::new(corner.x(), corner.y(), corner.w()));
     let normals = [q.cross(r), r.cross(p), p.cross(q)];
-    // For either winding: the volume of the triangle and the origin has the sign of the winding.
+    // Corrects for the winding: the signed volume spanned by the triangle and the origin has the
+    // sign of the winding.
     let sign = if normals[0].dot(p) < 0.0 { -1.0 } else { 1.0 };
     normals.map(|normal| normal * sign)
 }
 
-/// Perspective-correct barycentric weights of a triangle at a point (x, y, 1) of the picture;
-/// `None` if the triangle is seen edge-on.
+/// Returns the perspective-correct barycentric weights of a triangle at a point (x, y, 1) of the
+/// picture, or `None` if the triangle is seen edge-on.
 ///
-/// The point is, up to a factor, the sum of the vertices' (x, y, w) times their weights, so the
-/// weights are its products with the edge normals. No vertex is divided by its w, and some may be
-/// behind the eye. Negative weights, of points just outside, become 0.
+/// Up to a factor, the point is the weighted sum of the vertices' (x, y, w), so the weights are its
+/// dot products with the edge normals. Vertices are not divided by w and may be behind the eye.
+/// Negative weights of points just outside are clamped to 0.
 fn perspective_weights(edge_normals: &[DVec3; 3], point: DVec3) -> Option<[f64; 3]> {
     let weights = edge_normals.map(|normal| normal.dot(point).max(0.0));
     let factor = 1.0 / (weights[0] + weights[1] + weights[2]);
@@ -298,7 +303,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn weights_are_those_of_the_point_before_the_divide() {
+    fn weights_match_the_point_before_the_divide() {
         let corners = [[-3.0, -1.0, 0.0, 2.0], [4.0, -2.0, 0.0, 5.0], [0.5, 6.0, 0.0, 9.0]];
         let corners = corners.map(|[x, y, z, w]| HPoint::new(x, y, z, w));
         for expected in [[0.2, 0.3, 0.5], [1.0, 0.0, 0.0], [0.05, 0.9, 0.05]] {
@@ -316,6 +321,6 @@ mod tests {
             }
         }
         let no_area = edge_normals([corners[0]; 3]);
-        assert_eq!(perspective_weights(&no_area, DVec3::Z), None, "no area");
+        assert_eq!(perspective_weights(&no_area, DVec3::Z), None, "degenerate triangle");
     }
 }
