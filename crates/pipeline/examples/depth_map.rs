@@ -2,7 +2,7 @@
 //! the view axis, in model units.
 //!
 //! Run it with `cargo run -p alberti-pipeline --example depth_map -- model.glb depth.npy`.
-# ![allow(clippy::print_stdout, reason = "an example prints its results")]
+#![allow(clippy::print_stdout, reason = "an example prints its results")]
 
 use pipeline::render::passes::{Pass, render_passes};
 use pipeline::{Origin, Scene, Timings};

@@ -2,7 +2,7 @@
 //! writes them as RON.
 //!
 //! Run it with `cargo run --release -p alberti-pipeline --example thousand_scenes -- model.glb folder`.
-# ![allow(clippy::print_stdout, reason = "an example prints its results")]
+#![allow(clippy::print_stdout, reason = "an example prints its results")]
 
 use pipeline::scene::file::{CameraFile, LightFile, ModelFile};
 use pipeline::{Origin, Scene, SceneFile, render};
@@ -10,7 +10,8 @@ use std::path::PathBuf;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut names = std::env::args().skip(1);
-    let (model, folder) = names.next().zip(names.next()).ok_or("usage: thousand_scenes MODEL FOLDER")?;
+    let (model, folder) =
+        names.next().zip(names.next()).ok_or("usage: thousand_scenes MODEL FOLDER")?;
     let (model, folder) = (PathBuf::from(model), PathBuf::from(folder));
     std::fs::create_dir_all(&folder)?;
     let name = model.file_name().ok_or("MODEL must be a file")?.to_string_lossy().into_owned();

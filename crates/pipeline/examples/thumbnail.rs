@@ -1,7 +1,7 @@
 //! Renders a thumbnail of a model, framed and lit automatically, to memory and to a PNG.
 //!
 //! Run it with `cargo run -p alberti-pipeline --example thumbnail -- model.glb thumb.png`.
-# ![allow(clippy::print_stdout, reason = "an example prints its results")]
+#![allow(clippy::print_stdout, reason = "an example prints its results")]
 
 use pipeline::{Origin, Scene, render};
 

@@ -184,13 +184,13 @@ impl Sequence {
         Ok(self)
     }
 
-    /// The number of frames.
+    /// Returns the number of frames.
     #[must_use]
     pub const fn frame_count(&self) -> usize {
         self.frame_count
     }
 
-    /// Width and height of each frame in pixels.
+    /// Returns the width and height of each frame in pixels.
     #[must_use]
     pub const fn image_size(&self) -> (u32, u32) {
         (self.scene.image.width, self.scene.image.height)

@@ -3,8 +3,8 @@
 //!
 //! ```text
 //!   ┌───────────────┬──────┐   The rasterizer's grid ends at 16,384 pixels. A larger picture is
-//!   │  ┌─────────┐  │      │   divided into tiles of that size, each a picture of its own: the
-//!   │  │ region  │  │      │   view volume is narrowed to it by a pick matrix. A region is
+//!   │  ┌─────────┐  │      │   divided into tiles of that size. Each is rendered like a picture:
+//!   │  │ region  │  │      │   a pick matrix narrows the view volume to the tile. A region is
 //!   │  └─────────┘  │      │   rendered tile by tile.
 //!   ├───────────────┼──────┤
 //!   └───────────────┴──────┘
@@ -94,7 +94,7 @@ impl TileRegion {
         [self.rect.width, self.rect.height]
     }
 
-    /// The number of pixels.
+    /// Returns the number of pixels.
     pub(super) const fn pixel_count(&self) -> usize {
         self.rect.area()
     }
@@ -122,7 +122,7 @@ pub(super) fn tile_regions(image: ImageSpec, region: PixelRect) -> Vec<TileRegio
     regions.collect()
 }
 
-/// The tile in a column and row of tiles.
+/// Returns the tile in a column and row of tiles.
 fn tile_at(image: ImageSpec, [column, row]: [u32; 2]) -> ImageTile {
     let (x, y) = (column * TILE_SIDE, row * TILE_SIDE);
     let (width, height) = (TILE_SIDE.min(image.width - x), TILE_SIDE.min(image.height - y));
@@ -152,7 +152,7 @@ mod tests {
         assert_eq!([at(383, 83), at(384, 83), at(383, 84), at(384, 84)], [1, 2, 3, 4]);
     }
 
-    /// The rectangle to report as an error; `None` if the region is valid.
+    /// Returns the rectangle that the error reports, or `None` if the region is valid.
     fn refused(image: ImageSpec, region: PixelRect) -> Option<PixelRect> {
         match validate_region(image, region) {
             Ok(()) => None,

@@ -1,8 +1,8 @@
 //! Insets: pictures from other cameras, composited into rectangles of a picture.
 //!
 //! ```text
-//!  ┌──────────────┐   Insets are rendered like pictures of their own and composited in scene
-//!  │   picture  ┌─┤   order over the picture: opaque, with an optional border inside of their
+//!  ┌──────────────┐   Insets are rendered like separate pictures and composited over the
+//!  │   picture  ┌─┤   picture in scene order: opaque, with an optional border inside the
 //!  │            │2│   rectangle, or in cyan for the right eye of a red-cyan anaglyph.
 //!  │       ┌──┐ └─┤
 //!  └───────┤1 ├───┘   A region of the picture renders only the parts of insets that it contains.

@@ -200,7 +200,8 @@ pub(super) fn surface_line_layers(
     }
 }
 
-/// The layers of the scene's overlays (axes, grid, view volumes …) on a page of the picture's size.
+/// Returns the layers of the scene's overlays (axes, grid, view volumes …) on a page of the
+/// picture's size.
 pub(super) fn overlay_layers(scene: &Scene) -> Vec<Layer> {
     drawing::overlay_layers(
         &scene.drawing_subject(),
@@ -209,7 +210,7 @@ pub(super) fn overlay_layers(scene: &Scene) -> Vec<Layer> {
     )
 }
 
-/// The backdrop as an image that fills the page.
+/// Returns the backdrop as an image that fills the page.
 fn backdrop_image(backdrop: &Backdrop, image: ImageSpec) -> PlacedImage {
     let size = [image.width, image.height].map(to_page_millimeters);
     let size = to_micrometers(DVec2::from(size));

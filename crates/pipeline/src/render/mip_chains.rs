@@ -3,7 +3,7 @@
 //!
 //! ```text
 //!  level 0  64 × 64   the image, decoded
-//!  level 1  32 × 32   each texel the mean of 2 × 2, in linear light for colors
+//!  level 1  32 × 32   each texel is the mean of 2 × 2 texels, in linear light for colors
 //!  …
 //!  level 6   1 × 1
 //! ```

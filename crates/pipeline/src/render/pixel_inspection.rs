@@ -1,7 +1,7 @@
-//! Inspection of one pixel: its fragments, their triangles, barycentric weights and colors.
+//! Pixel inspection: the fragments of a pixel with their triangles, barycentric weights and colors.
 //!
 //! The pixel is rendered again as a region of 1 × 1 pixel, bit for bit as in the picture, with a
-//! surface that records each shading call.
+//! surface that records every shading call.
 //!
 //! It answers "why does this pixel have this color?": the triangles and nodes visible in it, their
 //! barycentric weights, and the linear color that each contributes.
@@ -24,22 +24,22 @@ use std::sync::{Mutex, PoisonError};
 /// One pixel of a picture and its fragments.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PixelFragments {
-    /// The color in the picture: sRGB with straight alpha.
+    /// The color in the picture, in sRGB with straight alpha.
     pub color: [u8; 4],
-    /// The shaded fragments in scene order; of neighbors in one smooth surface, which share a
-    /// color, only the shaded one. With several samples per pixel, a fragment may be hidden in some
-    /// of them.
+    /// The shaded fragments in scene order. Neighboring triangles of a smooth surface share a
+    /// color, and only the shaded triangle is listed. With several samples per pixel, a fragment
+    /// may be hidden in some samples.
     pub fragments: Vec<ShadedFragment>,
 }
 
 /// A shaded fragment: one point, line or triangle in the pixel.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ShadedFragment {
-    /// The primitive it comes from; `None` for environment, backdrop and ground.
+    /// The source primitive; `None` for the environment, the backdrop and the ground.
     pub source: Option<FragmentSource>,
     /// The barycentric weights of its vertices at the pixel's center.
     pub weights: [f32; 3],
-    /// Its color: linear, premultiplied by alpha.
+    /// The linear color, premultiplied by alpha.
     pub color: [f32; 4],
 }
 
@@ -56,8 +56,8 @@ pub struct FragmentSource {
     pub element: usize,
 }
 
-/// Renders one pixel of a scene's picture and lists its fragments. `None` outside the picture, and
-/// for line drawings, which have no fragments.
+/// Renders one pixel of a scene's picture and lists its fragments. Returns `None` outside the
+/// picture and for line drawings, which have no fragments.
 ///
 /// ```
 /// # use pipeline::scene::file::{CameraFile, LightFile};
@@ -86,8 +86,8 @@ pub fn inspect_pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelFragme
     let context = RenderContext::new(scene, &textures, 1);
     let memory = RenderBuffers::default().take_frame(&context, pixel_region)?;
     let memory = assemble_scene(&context, memory)?;
-    // Shadows, occlusion and the light behind glass depend on the whole picture, even for one
-    // pixel.
+    // Even for one pixel, shadows, occlusion and the light behind glass depend on the whole
+    // picture.
     let mut shadows = ShadowMapRenderer::default();
     shadows.render_maps(&context)?;
     let occlusion = compute_whole_occlusion(&context)?;
@@ -98,8 +98,8 @@ pub fn inspect_pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelFragme
     let styled = style_shading(scene, &shading);
     let surface: &dyn Surface = styled.as_ref().map_or(&shading as _, |styled| styled as _);
     let (color, mut recorded) = record_fragments(frame, surface, offset, image.background);
-    // A triangle split by clipping, or several samples of one pixel, can shade a fragment
-    // repeatedly.
+    // A fragment can be shaded repeatedly if clipping split its triangle or the pixel has several
+    // samples.
     recorded.sort_by_key(|(id, ..)| *id);
     recorded.dedup_by_key(|(id, ..)| *id);
     let fragments = recorded.into_iter().map(|(id, weights, color)| {
@@ -112,7 +112,7 @@ pub fn inspect_pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelFragme
 /// Primitive id, weights and color of a shading call.
 type RecordedFragment = (u32, [f32; 3], [f32; 4]);
 
-/// Draws a frame of one pixel, and records its shading calls.
+/// Draws a frame of one pixel and records its shading calls.
 fn record_fragments(
     frame: &Frame,
     surface: &dyn Surface,
@@ -127,9 +127,10 @@ fn record_fragments(
 
 /// A surface that forwards to another and records the fragments shaded in one pixel.
 ///
-/// The rasterizer shades from several threads through a shared reference, so there is a mutex.
+/// The mutex is needed because the rasterizer shades from several threads through a shared
+/// reference.
 struct Recorder<'a> {
-    /// The surface that shades.
+    /// The wrapped surface.
     surface: &'a dyn Surface,
     /// The pixel whose fragments are recorded.
     pixel: [u32; 2],
@@ -162,8 +163,8 @@ impl Surface for Recorder<'_> {
     }
 }
 
-/// The primitive that a primitive id belongs to. Ids count points, lines and triangles in scene
-/// order, including culled ones.
+/// Finds the primitive of a primitive id. Ids count points, lines and triangles in scene order,
+/// including culled primitives.
 fn find_source(scene: &Scene, id: u32) -> Option<FragmentSource> {
     let mut first_id = 0;
     for (model, model_instance) in scene.models.iter().enumerate() {
@@ -180,7 +181,7 @@ fn find_source(scene: &Scene, id: u32) -> Option<FragmentSource> {
     None
 }
 
-/// The index of a primitive in the mesh of a node.
+/// Returns the index of a primitive in the mesh of a node.
 fn primitive_index(model: &Model, node: usize, primitive: &model::Primitive) -> Option<usize> {
     let mesh = model.meshes.get(model.nodes.get(node)?.mesh?)?;
     mesh.primitives.iter().position(|known| std::ptr::eq(known, primitive))

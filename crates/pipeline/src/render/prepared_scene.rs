@@ -1,9 +1,10 @@
-//! A scene prepared for rendering region by region: pictures larger than memory, crops, bands.
+//! A scene prepared for rendering region by region, for pictures larger than memory, crops and
+//! bands.
 //!
 //! The mip chains, shadow maps, the depth buffer of ambient occlusion, the page of a line drawing
-//! and the overlay layers are computed once and shared by all regions. The rest is repeated for
-//! each region, beginning with the models, so that memory is bounded by the region and not by the
-//! picture.
+//! and the overlay layers are computed once and shared by all regions. Everything else, beginning
+//! with the geometry, is repeated for each region, so memory is bounded by the region and not by
+//! the picture.
 //!
 //! ```text
 //!  scene ─► prepare ─► region: surfaces of its image tiles, or lines ─► overlays ─► insets, caption
@@ -33,9 +34,9 @@ use shade::FrameChannel;
 use shade::{AmbientOcclusion, TransmissionFramebuffer};
 use std::sync::Arc;
 
-/// A scene prepared so that any region can be rendered; made by [`Renderer::prepare`].
+/// A scene prepared so that any region can be rendered; created by [`Renderer::prepare`].
 ///
-/// Regions match the picture bit for bit, for any size and order.
+/// Regions of any size, in any order, match the picture bit for bit.
 #[derive(Debug)]
 pub struct PreparedScene<'a> {
     /// Scene, textures and threads.
@@ -46,16 +47,16 @@ pub struct PreparedScene<'a> {
     page: Option<Page>,
     /// Outlines and overlays, drawn over surfaces.
     overlay_layers: Vec<Layer>,
-    /// Whether the buffers hold this scene's shadow maps.
+    /// Whether the buffers contain this scene's shadow maps.
     has_shadow_maps: bool,
     /// The occlusion buffer of the whole picture, for partial regions and for pictures with a
     /// transmission framebuffer.
     full_occlusion: Option<AmbientOcclusion>,
-    /// The picture behind refracting and rough glass, rendered when needed.
+    /// The picture behind refracting and rough glass, rendered on demand.
     transmission_framebuffer: Option<TransmissionFramebuffer>,
-    /// The color of the picture, as long as everything rendered so far has a single one.
+    /// The color of the picture, as long as all pixels so far have the same color.
     only_color: OnlyColor,
-    /// The number of pixels rendered.
+    /// The number of pixels rendered so far.
     pixels_seen: usize,
     /// The number of pixels in all requested regions, for progress.
     pub(super) pixels_due: u64,
@@ -68,16 +69,16 @@ pub struct PreparedScene<'a> {
 /// Whether the pixels of a picture differ.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum OnlyColor {
-    /// There are no pixels yet.
+    /// No pixels yet.
     Unknown,
-    /// All have this color so far, with 8 bits per channel.
+    /// All pixels so far have this color, with 8 bits per channel.
     One([u8; 4]),
-    /// They differ.
+    /// The pixels differ.
     Several,
 }
 
 impl OnlyColor {
-    /// Adds the pixels of another region, up to the first that differs.
+    /// Adds the pixels of another region, up to the first pixel that differs.
     fn add_pixels<C: FrameChannel>(&mut self, picture: &Picture<C>) {
         if *self == Self::Several {
             return;
@@ -93,7 +94,7 @@ impl OnlyColor {
 }
 
 impl<'a> PreparedScene<'a> {
-    /// Draws the lines of a scene and of its insets, each inset with a separate renderer.
+    /// Draws the lines of a scene and its insets, with a separate renderer for each inset.
     pub(super) fn new(
         renderer: &'a mut Renderer,
         context: RenderContext<'a>,
@@ -115,7 +116,7 @@ impl<'a> PreparedScene<'a> {
             warnings.extend(text_warnings(scene));
         }
         let Renderer { buffers, insets } = renderer;
-        // The renderers of insets are retained, so that later frames reuse their memory.
+        // Inset renderers are retained so that later frames can reuse their memory.
         insets.resize_with(scene.insets.len(), Renderer::default);
         let prepare = |(inset, renderer): (&'a Inset, _)| {
             Self::new(renderer, context.with_scene(&inset.scene))
@@ -137,7 +138,7 @@ impl<'a> PreparedScene<'a> {
         })
     }
 
-    /// The warnings about missing parts of the picture, including the insets, each once.
+    /// Returns the warnings about missing parts of the picture and its insets, without duplicates.
     #[must_use]
     pub fn into_warnings(self) -> Vec<Warning> {
         let mut all = self.warnings;
@@ -158,7 +159,7 @@ impl<'a> PreparedScene<'a> {
     ///
     /// # Errors
     /// The region is empty, too large or outside the picture, the scene has too many primitives, or
-    /// the context's monitor requested the end.
+    /// the context's monitor requested cancellation.
     pub fn render_region<C: FrameChannel>(
         &mut self,
         region: PixelRect,
@@ -166,7 +167,7 @@ impl<'a> PreparedScene<'a> {
     ) -> Result<(), RenderError> {
         let scene = self.context.scene;
         validate_region(scene.image, region)?;
-        // The caption covers its strip, and the insets may cover the view above it.
+        // The caption covers its strip, and insets may cover the view above the strip.
         let view = region.intersection(view_rect(scene.image));
         if view.is_none_or(|view| covers_region(&scene.insets, view)) {
             picture.resize(region.width, region.height);
@@ -186,7 +187,7 @@ impl<'a> PreparedScene<'a> {
         Ok(())
     }
 
-    /// Renders a region without the insets: lines, or surfaces with the layers over them.
+    /// Renders a region without the insets: lines, or surfaces with the layers drawn over them.
     fn render_below_insets<C: FrameChannel>(
         &mut self,
         region: PixelRect,
@@ -221,7 +222,7 @@ impl<'a> PreparedScene<'a> {
         }
         picture.resize(region.width, region.height);
         let tiles = tile_regions(image, region);
-        // Almost every picture is a single tile, which needs no copy.
+        // Most pictures are a single tile, which needs no copy.
         if let [tile] = tiles[..] {
             self.render_tile(tile, &mut picture.pixels)?;
         } else {
@@ -231,15 +232,15 @@ impl<'a> PreparedScene<'a> {
                 tile.copy_into_region(&pixels, region, &mut picture.pixels);
             }
         }
-        // Canceled tiles return early and incomplete, without an error.
+        // A canceled tile returns early and incomplete but without an error.
         if self.context.workers().is_canceled() {
             return Err(RenderError::Canceled);
         }
         Ok(())
     }
 
-    /// Renders the shadow maps once. They depend on the scene and on the size of the whole picture,
-    /// never on the region.
+    /// Renders the shadow maps once. They depend on the scene and the size of the whole picture,
+    /// but never on the region.
     fn render_shadow_maps(&mut self) -> Result<(), RenderError> {
         if self.has_shadow_maps {
             return Ok(());
@@ -263,7 +264,7 @@ impl<'a> PreparedScene<'a> {
         Ok(())
     }
 
-    /// The monitor for the frame of a region, which counts the pixels of the whole work.
+    /// Returns the monitor for the frame of a region, which reports progress for the whole job.
     fn frame_monitor(&self, region: TileRegion) -> Option<PartMonitor> {
         let outer = Arc::clone(self.context.monitor?);
         let pixels = region.pixel_count() as u64;
@@ -272,8 +273,8 @@ impl<'a> PreparedScene<'a> {
         Some(PartMonitor { outer, done, pixels, total })
     }
 
-    /// Renders the part of an image tile that a region needs: vertex processing and primitive
-    /// assembly into a visibility buffer, then shading of its visible fragments.
+    /// Renders the part of an image tile that a region needs. Vertex processing and primitive
+    /// assembly fill a visibility buffer, and then the visible fragments are shaded.
     fn render_tile<C: FrameChannel>(
         &mut self,
         region: TileRegion,

@@ -1,5 +1,5 @@
 //! Primitive assembly: the geometry half of the pipeline, from the meshes of a scene to the
-//! primitives of a frame and its list of draw calls.
+//! primitives and draw calls of a frame.
 //!
 //! Each primitive of each mesh instance is one draw call:
 //!
@@ -8,8 +8,8 @@
 //!                                                       └► attributes in the world ─► Draw
 //! ```
 //!
-//! The frame gets screen positions, the [`Draw`] the vertex attributes for shading; a primitive id
-//! links them.
+//! Screen positions go into the frame, and vertex attributes for shading go into the [`Draw`]. A
+//! primitive id links them.
 
 use super::RenderError;
 use super::context::RenderContext;
@@ -30,7 +30,7 @@ use std::sync::LazyLock;
 /// Assembles the visible parts of a scene into an empty frame.
 ///
 /// # Errors
-/// The scene has more primitives than ids.
+/// The scene has more primitives than there are ids.
 pub(super) fn assemble_scene<'a>(
     context: &RenderContext<'a>,
     memory: FrameMemory<'a>,
@@ -59,11 +59,11 @@ pub(super) fn assemble_with_opacity<'a>(
     PrimitiveAssembler::new(context, memory, opacity)?.assemble_all(context)
 }
 
-/// The state of an assembly: transform, style, the frame so far, and the next free ids.
+/// The state of an assembly: transform, style, the frame so far and the next free ids.
 pub(super) struct PrimitiveAssembler<'a> {
     /// The transform of the image tile.
     pub(super) transform: ScreenTransform,
-    /// The eye, or the direction to it.
+    /// The eye, or the direction toward it.
     viewer: HPoint<World>,
     /// The inputs required by the style.
     inputs: VertexInputs,
@@ -83,7 +83,7 @@ pub(super) struct PrimitiveAssembler<'a> {
     pub(super) next_part_id: u32,
 }
 
-/// The default material of glTF 2.0 §3.9, for primitives without one.
+/// The default material of glTF 2.0 §3.9, for primitives without a material.
 pub(super) static DEFAULT_MATERIAL: LazyLock<Material> = LazyLock::new(Material::default);
 
 /// Two triangles over four vertices: ground, environment and backdrop.
@@ -91,8 +91,7 @@ pub(super) static QUAD: LazyLock<Primitive> =
     LazyLock::new(|| Primitive { indices: vec![0, 1, 2, 0, 2, 3], ..Primitive::default() });
 
 impl<'a> PrimitiveAssembler<'a> {
-    /// An assembly of all primitives into an empty frame; `opacity` overrides the primitives'
-    /// opacity.
+    /// Starts an assembly with an empty frame. `opacity` overrides the opacity of all primitives.
     fn new(
         context: &RenderContext<'a>,
         memory: FrameMemory<'a>,
@@ -113,7 +112,7 @@ impl<'a> PrimitiveAssembler<'a> {
         })
     }
 
-    /// Issues the draw calls of a scene: models, ground, environment and backdrop.
+    /// Issues the draw calls of the models, ground, environment and backdrop.
     fn assemble_all(mut self, context: &RenderContext<'a>) -> Result<FrameMemory<'a>, RenderError> {
         let RenderContext { scene, textures, .. } = *context;
         let is_repeated = find_repeated(&scene.models, scene.style);
@@ -129,7 +128,7 @@ impl<'a> PrimitiveAssembler<'a> {
                 self.draw_primitive(model_instance, instance, primitive, texture)?;
             }
         }
-        // In a picture of numbers a shadow would falsify the values.
+        // A shadow would falsify the values in a picture of numbers.
         if let Some(ground) = scene.ground.filter(|_| !scene.style.is_false_color()) {
             self.add_ground(ground)?;
         }
@@ -161,8 +160,8 @@ impl<'a> PrimitiveAssembler<'a> {
         if !self.project_primitive(primitive, material, &skinned, model_to_world) {
             return Ok(());
         }
-        // The sign of the determinant shows whether faces are mirrored, its cube root the mean
-        // scale.
+        // The sign of the determinant tells whether faces are mirrored, and its cube root is the
+        // mean scale.
         let determinant = model_to_world.determinant();
         let mut draw = Draw {
             first_id,
@@ -193,7 +192,8 @@ impl<'a> PrimitiveAssembler<'a> {
         Ok(())
     }
 
-    /// The id of the primitive's first point, line or triangle, and the number of the draw call.
+    /// Returns the id of the primitive's first point, line or triangle, and the number of the draw
+    /// call.
     fn allocate_ids(&mut self, primitive: &Primitive) -> Result<(u32, u32), RenderError> {
         let ids = (self.next_id, self.next_part_id);
         let count =
@@ -203,8 +203,8 @@ impl<'a> PrimitiveAssembler<'a> {
         Ok(ids)
     }
 
-    /// Culls the clusters of a primitive and transforms the vertices of the others; `false` if
-    /// none is left.
+    /// Culls the clusters of a primitive and transforms the vertices of the remaining clusters.
+    /// Returns `false` if none remain.
     fn project_primitive(
         &mut self,
         primitive: &Primitive,
@@ -237,7 +237,7 @@ impl<'a> PrimitiveAssembler<'a> {
     }
 
     /// Writes the vertex attributes needed for shading. Positions and normals are skipped if
-    /// neither light nor style needs them.
+    /// neither the lighting nor the style needs them.
     fn write_attributes(
         &self,
         draw: &mut Draw<'_>,
@@ -257,8 +257,8 @@ impl<'a> PrimitiveAssembler<'a> {
         arrays.write_vertices(count, selections, model_to_world, self.threads, vertices);
     }
 
-    /// The back-face culling of a draw call. Front faces run counter-clockwise in the picture,
-    /// unless either the model matrix or the projection mirrors.
+    /// Returns the back-face culling of a draw call. Front faces are counterclockwise in the
+    /// picture unless exactly one of the model matrix and the projection mirrors.
     pub(super) fn cull_mode(&self, draw: &Draw<'_>) -> CullMode {
         let shows_both_faces = draw.material.double_sided || self.inputs.shows_back_faces;
         match (shows_both_faces, draw.flips_winding == self.transform.is_mirrored) {
@@ -269,8 +269,8 @@ impl<'a> PrimitiveAssembler<'a> {
     }
 }
 
-/// The viewer in model space, where clusters are tested against it; `None` for a singular model
-/// matrix.
+/// Returns the viewer in model space, where clusters are tested against it, or `None` if the model
+/// matrix is singular.
 fn viewer_in_model_space(
     model_to_world: Affine<Model, World>,
     viewer: HPoint<World>,

@@ -1,9 +1,9 @@
 //! Frustum culling and the vertex transform of one draw call.
 //!
 //! A mesh is divided into clusters of neighboring triangles, each with a bounding box and a cone of
-//! normals. Clusters outside the view volume, and clusters that show only back faces, are skipped
-//! entirely. The vertices of the others are projected; only if a cluster crosses the guard band are
-//! they also stored in clip space, for clipping.
+//! normals. Clusters that are outside the view volume or show only back faces are skipped entirely.
+//! The vertices of the other clusters are projected. If a cluster crosses the guard band, its
+//! vertices are also stored in clip space for clipping.
 //!
 //! ```text
 //!  clusters ─► frustum culling ─► back-face culling by normal cones ─► unclipped │ to_clip
@@ -17,7 +17,7 @@ use model::{Primitive, SkinnedPrimitive, Topology};
 use raster::{MeshSelection, ScreenVertex, SimdLevel, VertexProjection};
 use std::borrow::Cow;
 
-/// The culled and projected vertices of one draw call. The memory is reused for the next.
+/// The culled and projected vertices of one draw call. The next draw call reuses the memory.
 #[derive(Debug, Default)]
 pub(super) struct ProjectedMesh {
     /// Triangles inside the guard band, drawn without clipping.
@@ -33,10 +33,10 @@ pub(super) struct ProjectedMesh {
 }
 
 impl ProjectedMesh {
-    /// Frustum culling and back-face culling of a primitive's clusters.
+    /// Culls a primitive's clusters by frustum and by back faces.
     ///
     /// `viewer` is the viewer in model space, or `None` if back faces are visible. Skinned and
-    /// morphed meshes have no clusters, because their positions change with the pose; they are
+    /// morphed meshes have no clusters, because their positions change with the pose. They are
     /// culled by a single box.
     pub(super) fn cull_clusters(
         &mut self,
@@ -69,7 +69,7 @@ impl ProjectedMesh {
             if viewer.is_some_and(|viewer| cluster.is_back_facing(viewer)) {
                 continue;
             }
-            // If the mesh is inside, so are its clusters.
+            // If the whole mesh is inside, so are its clusters.
             let containment = match mesh_containment {
                 Containment::Inside => mesh_containment,
                 _ => transform.classify_bounds(model_to_clip, cluster.bounds()),
@@ -82,10 +82,10 @@ impl ProjectedMesh {
         }
     }
 
-    /// The vertex transform of the selected vertices: model to clip space, perspective divide,
-    /// viewport, snapping.
+    /// Transforms the selected vertices: model to clip space, perspective divide, viewport,
+    /// snapping.
     ///
-    /// Vertices of unclipped triangles take one pass of SIMD code from positions to the grid.
+    /// One pass of SIMD code takes the vertices of unclipped triangles from positions to the grid.
     pub(super) fn project_vertices(
         &mut self,
         transform: &ScreenTransform,
@@ -110,17 +110,18 @@ impl ProjectedMesh {
             guard_band.project_positions(model_to_clip, &positions[run.clone()], clip, outcodes);
             let screen = &mut self.screen_vertices[run];
             ScreenVertex::divide_and_snap_points(clip, ndc_to_screen, simd_level, screen);
-            // Outside the guard band a snapped position is off the grid, or, behind the eye, wrong.
+            // Outside the guard band a snapped position is off the grid; behind the eye it is
+            // wrong.
             for (vertex, code) in screen.iter_mut().zip(outcodes) {
                 *vertex = vertex.filter(|_| code.is_inside());
             }
         }
     }
 
-    /// The runs of selected triangles in mesh order: pairs of unclipped runs and the run to clip
-    /// that follows. The last pair has an empty run at `usize::MAX`.
+    /// Returns the runs of selected triangles in mesh order, as pairs of unclipped runs and the
+    /// following run to clip. The last pair has an empty run at `usize::MAX`.
     ///
-    /// Mesh order keeps translucent triangles of equal depth in file order.
+    /// Mesh order ensures that translucent triangles of equal depth stay in file order.
     pub(super) fn triangle_runs(&self) -> impl Iterator<Item = (&[Range<usize>], Range<usize>)> {
         let mut remaining = self.unclipped.triangles();
         let to_clip = self.to_clip.triangles().iter().cloned();
@@ -133,7 +134,7 @@ impl ProjectedMesh {
     }
 }
 
-/// The bounding box of positions: minimum and maximum coordinates.
+/// Returns the bounding box of positions as minimum and maximum coordinates.
 fn position_bounds(positions: &[[f32; 3]]) -> [[f32; 3]; 2] {
     let (mut min, mut max) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
     for position in positions {

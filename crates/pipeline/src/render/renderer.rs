@@ -1,4 +1,4 @@
-//! The renderer: draws complete scenes repeatedly, reusing the memory of the first picture.
+//! The renderer, which draws scenes one after another and reuses its memory.
 
 use super::RenderError;
 use super::ambient_occlusion::OcclusionBuffers;
@@ -17,10 +17,10 @@ use std::sync::Arc;
 
 /// Renders whole pictures: surfaces or lines, outlines, overlays and insets.
 ///
-/// It is the single renderer behind single pictures, batches, frame sequences and pictures rendered
-/// in bands. A second picture reuses the buffers of the first: apart from lists of nodes and
-/// textures, from tangents, and from skinned or morphed vertices, surfaces allocate nothing.
-/// Pictures do not depend on those rendered before.
+/// Single pictures, batches, frame sequences and pictures rendered in bands all use this renderer.
+/// A second picture reuses the buffers of the first: surfaces allocate only lists of nodes and
+/// textures, tangents, and skinned or morphed vertices. A picture does not depend on the pictures
+/// rendered before it.
 ///
 /// ```no_run
 /// # use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures};
@@ -39,13 +39,13 @@ use std::sync::Arc;
 pub struct Renderer {
     /// The buffers of the picture without its insets.
     pub(super) buffers: RenderBuffers,
-    /// One renderer for each inset, in order.
+    /// A renderer for each inset, in order.
     pub(super) insets: Vec<Self>,
 }
 
 impl Renderer {
-    /// Renders a whole picture, and returns the warnings about missing parts: each once, none for
-    /// most pictures. The picture takes the size of the scene's image.
+    /// Renders a whole picture and returns the warnings about missing parts, without duplicates;
+    /// most pictures have none. The picture is resized to the scene's image size.
     ///
     /// ```
     /// # use pipeline::scene::file::{CameraFile, LightFile};
@@ -82,8 +82,8 @@ impl Renderer {
         Ok(prepared.into_warnings())
     }
 
-    /// Renders a whole picture with 8 bits per channel as the bytes of a PNG file, and returns them
-    /// with the warnings about missing parts.
+    /// Renders a whole picture with 8 bits per channel, and returns it as a PNG file with the
+    /// warnings about missing parts.
     ///
     /// # Errors
     /// As [`render`](Self::render).
@@ -96,9 +96,9 @@ impl Renderer {
         Ok((picture.to_png(), warnings))
     }
 
-    /// Computes the parts shared by all regions of a picture: the page of a line drawing, the
-    /// layers of outlines and overlays. Shadow maps and occlusion follow with the first region that
-    /// needs them.
+    /// Computes the parts shared by all regions of a picture: the page of a line drawing and the
+    /// layers of outlines and overlays. Shadow maps and occlusion are computed with the first
+    /// region that needs them.
     ///
     /// # Errors
     /// The lines cannot be drawn.
@@ -110,29 +110,29 @@ impl Renderer {
     }
 }
 
-/// The memory that one picture passes on to the next.
+/// Buffers that are reused from picture to picture.
 #[derive(Debug, Default)]
 pub(super) struct RenderBuffers {
     /// The rasterizer's frame; `None` before the first picture and after an error.
     frame: Option<Frame>,
     /// Vertices of one draw call.
     mesh: ProjectedMesh,
-    /// Always empty; kept for its capacity.
+    /// Always empty; retained for its capacity.
     draws: Vec<Draw<'static>>,
     /// Vertex lists of the last picture's draw calls.
     vertex_pool: Vec<Vec<Vertex>>,
-    /// The shadow maps of the current scene, and their memory.
+    /// The shadow maps of the current scene and their memory.
     pub(super) shadow_maps: ShadowMapRenderer,
     /// The memory of screen-space ambient occlusion.
     pub(super) occlusion: OcclusionBuffers,
 }
 
-/// The frame of one image tile while it is assembled: visibility buffer, draw calls, scratch space.
+/// The frame of one image tile during assembly: visibility buffer, draw calls and scratch space.
 #[derive(Debug)]
 pub(super) struct FrameMemory<'a> {
     /// The rasterizer's triangle and visibility buffers.
     pub(super) frame: Frame,
-    /// The image tile that the frame shows entirely or partly.
+    /// The image tile that the frame covers entirely or partly.
     pub(super) tile: ImageTile,
     /// The draw calls so far, by ascending primitive id.
     pub(super) draws: DrawList<'a>,
@@ -143,7 +143,7 @@ pub(super) struct FrameMemory<'a> {
 }
 
 impl FrameMemory<'_> {
-    /// This frame, with a monitor that receives its progress, if any.
+    /// Returns this frame with an optional monitor that receives its progress.
     pub(super) fn with_monitor(self, monitor: Option<PartMonitor>) -> Self {
         match monitor {
             Some(monitor) => Self { frame: self.frame.with_monitor(Arc::new(monitor)), ..self },
@@ -153,10 +153,10 @@ impl FrameMemory<'_> {
 }
 
 impl RenderBuffers {
-    /// Takes the buffers, with an empty frame for a region of a tile.
+    /// Takes the buffers and an empty frame for a region of a tile.
     ///
-    /// A frame that does not begin at its tile's corner is allocated anew: only
-    /// [`Frame::for_region`] has an offset.
+    /// A frame that does not begin at its tile's corner is newly allocated, because only
+    /// [`Frame::for_region`] supports an offset.
     pub(super) fn take_frame<'a>(
         &mut self,
         context: &RenderContext<'_>,
@@ -183,10 +183,10 @@ impl RenderBuffers {
         })
     }
 
-    /// Puts the buffers of a finished frame back.
+    /// Returns the buffers of a finished frame for reuse.
     pub(super) fn recycle_frame(&mut self, memory: FrameMemory<'_>) {
         let FrameMemory { frame, mut draws, mesh, mut vertex_pool, .. } = memory;
-        // Reversed, so that the first list taken next time belongs to the first draw call, which
+        // Reversed, so that the first draw call of the next picture gets its own list back, which
         // has the right capacity if the scene is the same.
         vertex_pool.extend(draws.draws.drain(..).rev().map(|draw| draw.vertices));
         self.frame = Some(frame);
@@ -196,14 +196,14 @@ impl RenderBuffers {
     }
 }
 
-/// Empties a list and reuses its capacity for draws of another lifetime: in-place collection reuses
-/// the allocation of `into_iter` if the item types have the same layout.
+/// Empties a list and reuses its capacity for draws with another lifetime. In-place collection
+/// reuses the allocation of `into_iter` if the item types have the same layout.
 fn retype_empty_draws<'b>(mut draws: Vec<Draw<'_>>) -> Vec<Draw<'b>> {
     draws.clear();
     draws.into_iter().map_while(|_| None).collect()
 }
 
-/// The frame with a monitor, if any.
+/// Attaches a monitor, if any, to a frame.
 fn with_monitor(frame: Frame, monitor: Option<CancelOnly>) -> Frame {
     match monitor {
         Some(monitor) => frame.with_monitor(Arc::new(monitor)),

@@ -1,7 +1,7 @@
-//! Repeated models: those that coincide with an earlier model need not be drawn again.
+//! Repeated models: a model that coincides with an earlier model does not have to be drawn again.
 //!
-//! A scene that names one model a hundred thousand times takes two megabytes, and would fill the
-//! picture as often. Of opaque surfaces at the same depth the first stays: drawing the others
+//! A two-megabyte scene file can name a model a hundred thousand times, and each copy could fill
+//! the picture. Among opaque surfaces at the same depth the first wins, so drawing the others
 //! changes nothing.
 
 use super::vertex_inputs::material_opacity;
@@ -10,8 +10,8 @@ use raster::Opacity;
 use scene::Style;
 use std::sync::Arc;
 
-/// For each model of a scene, whether an identical earlier one has the same transform and shows no
-/// translucent surface, which would become denser if drawn twice.
+/// Returns, for each model of a scene, whether an identical earlier model has the same transform
+/// and no translucent surface, which would become denser if drawn twice.
 pub(super) fn find_repeated(models: &[ModelInstance], style: Style) -> Vec<bool> {
     let mut is_repeated = vec![false; models.len()];
     // In the X-ray style all surfaces are translucent.
@@ -23,7 +23,7 @@ pub(super) fn find_repeated(models: &[ModelInstance], style: Style) -> Vec<bool>
         (Arc::as_ptr(model).addr(), model_to_world.raw().to_cols_array().map(f64::to_bits))
     };
     let mut order: Vec<usize> = (0..models.len()).collect();
-    // Addresses only group equal ones; the first in each group is the first in scene order.
+    // Addresses only group equal models; the first in each group is the first in scene order.
     order.sort_by_key(|index| place(*index));
     for pair in order.windows(2) {
         if place(pair[0]) == place(pair[1]) {
@@ -42,7 +42,7 @@ mod tests {
     use model::{AlphaMode, Material, Model};
 
     #[test]
-    fn equal_places_of_opaque_models_are_found() {
+    fn opaque_models_with_equal_transforms_are_found() {
         let opaque = Arc::new(Model::default());
         let glass = Material { alpha_mode: AlphaMode::Blend, ..Material::default() };
         let glass = Arc::new(Model { materials: vec![glass], ..Model::default() });

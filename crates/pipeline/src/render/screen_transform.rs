@@ -4,9 +4,9 @@
 //!  Model ──model_to_clip──► Clip ──clip against near, far, guard band──► ÷ w ──viewport──► snap
 //! ```
 //!
-//! Triangles are not clipped against the sides of the view volume. A *guard band* far outside
-//! replaces them (CL-4), and the rasterizer's tiles discard anything in between. Only the near and
-//! far planes and the limits of the rasterizer's fixed-point grid need geometric clipping.
+//! Triangles are not clipped against the sides of the view volume, but against a *guard band* far
+//! outside it (CL-4). The rasterizer's tiles discard anything in between. Only the near and far
+//! planes and the limits of the rasterizer's fixed-point grid need geometric clipping.
 
 use super::RenderError;
 use super::image_tiles::ImageTile;
@@ -21,7 +21,7 @@ use viewport::Viewport;
 /// World → clip → screen for one raster, and the volume that geometry is clipped against.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ScreenTransform {
-    /// For an image tile: with the tile filling the view volume.
+    /// World to clip space. For an image tile, the tile fills the view volume.
     view: ViewTransform,
     /// Clipping against the near and far planes and the guard band, divide, viewport and snapping.
     pub(super) screen: ScreenProjection,
@@ -38,12 +38,12 @@ pub(super) enum Containment {
     Inside,
     /// Outside one plane of the view volume: nothing is visible.
     Outside,
-    /// Neither is certain: the vertices are tested one by one.
+    /// Undecided: vertices must be tested individually.
     Intersecting,
 }
 
 impl ScreenTransform {
-    /// The transform of an image tile.
+    /// Creates the transform for an image tile.
     pub(super) fn for_tile(scene: &Scene, tile: ImageTile) -> Result<Self, RenderError> {
         let whole = Self::new(&scene.view_projection, tile.rect.width, tile.rect.height)?;
         let (ndc_to_screen, viewer) = (whole.view.ndc_to_screen(), whole.view.viewer());
@@ -52,7 +52,8 @@ impl ScreenTransform {
         Ok(Self { view, ..whole })
     }
 
-    /// The transform of a raster of `width` × `height` pixels that shows the whole view volume.
+    /// Creates the transform for a raster of `width` × `height` pixels that shows the whole view
+    /// volume.
     pub(super) fn new(
         view_projection: &ViewProjection,
         width: u32,
@@ -67,27 +68,27 @@ impl ScreenTransform {
         })
     }
 
-    /// World to clip space, with the tile filling the view volume.
+    /// Returns the transform from world to clip space, in which the tile fills the view volume.
     pub(super) fn world_to_clip(&self) -> Projective<World, Clip> {
         self.view.world_to_clip()
     }
 
-    /// The viewport transform.
+    /// Returns the viewport transform.
     pub(super) fn ndc_to_screen(&self) -> Affine<Ndc, Screen> {
         self.view.ndc_to_screen()
     }
 
-    /// The inverse viewport transform: pixels back to the canonical volume.
+    /// Returns the inverse viewport transform, from pixels back to the canonical volume.
     pub(super) fn screen_to_ndc(&self) -> Affine<Screen, Ndc> {
         self.screen_to_ndc
     }
 
-    /// World to pixels and depth as one matrix, before the divide.
+    /// Returns the transform from the world to pixels and depth as one matrix, before the divide.
     pub(super) fn world_to_screen(&self) -> DMat4 {
         self.view.world_to_screen().raw()
     }
 
-    /// Model to clip space: the model-view-projection matrix.
+    /// Returns the model-view-projection matrix, from model to clip space.
     pub(super) fn model_to_clip(
         &self,
         model_to_world: Affine<Model, World>,
@@ -95,10 +96,10 @@ impl ScreenTransform {
         model_to_world.then_project(self.view.world_to_clip())
     }
 
-    /// Frustum culling of a box given by its minimum and maximum coordinates.
+    /// Tests a box, given by its minimum and maximum coordinates, for frustum culling.
     ///
-    /// The eight corners decide: a box is convex and stays convex in clip space, so if all corners
-    /// are on one side of a plane, the whole box is.
+    /// Testing the eight corners is enough: a box stays convex in clip space, so if all corners are
+    /// on one side of a plane, the whole box is too.
     pub(super) fn classify_bounds(
         &self,
         model_to_clip: Projective<Model, Clip>,
@@ -121,7 +122,7 @@ impl ScreenTransform {
     }
 }
 
-/// The outcodes of a box's corners combined: all inside, all outside one plane, or neither.
+/// Combines the outcodes of a box's corners: all inside, all outside one plane, or neither.
 fn summarize_outcodes(
     volume: &Volume,
     model_to_clip: Projective<Model, Clip>,
@@ -131,15 +132,15 @@ fn summarize_outcodes(
     volume.project_positions(model_to_clip, corners, &mut points, &mut [Outcode::INSIDE; 8])
 }
 
-/// A vertex position in f64. All geometry before the rasterizer uses f64: the models are f32, and
-/// products of matrices and positions must not lose any of their bits.
+/// Converts a vertex position to f64. All geometry before the rasterizer uses f64, because products
+/// of matrices and f32 positions must not lose any bits.
 pub(super) fn model_point(position: [f32; 3]) -> Point<Model> {
     Point::from_raw(Vec3::from_array(position).as_dvec3())
 }
 
-/// The center of a view volume in the world; the eye if the volume is infinite.
+/// Returns the center of a view volume in the world, or the eye if the volume is infinite.
 ///
-/// It is close to everything visible: positions relative to it lose few bits in `f32`.
+/// The center is close to everything visible, so positions relative to it lose few bits in `f32`.
 pub(super) fn volume_center(view: &ViewProjection) -> DVec3 {
     let center = view.world_to_clip().raw().inverse() * DVec4::new(0.0, 0.0, 0.0, 1.0);
     let center = center.truncate() / center.w;

@@ -31,23 +31,24 @@ pub(super) struct ShadowMapRenderer {
     mesh: ProjectedMesh,
     /// The maps of each light, in order; empty if no light casts shadows.
     pub(super) maps: Vec<Option<LightShadow>>,
-    /// The occlusion of the ground in light from all directions; `None` if there is none.
+    /// The occlusion of the ground in light from all directions; `None` if the ground has no
+    /// occlusion.
     pub(super) ground_occlusion: Option<GroundOcclusion>,
-    /// Maps of earlier pictures, kept to reuse their memory.
+    /// Maps of earlier pictures, retained for their memory.
     map_pool: Vec<ShadowMap>,
 }
 
 impl ShadowMapRenderer {
-    /// Discards all maps and keeps their memory.
+    /// Discards all maps but retains their memory.
     pub(super) fn recycle_maps(&mut self) {
-        // Reversed, so that the next picture's first map reuses the memory of the first light's.
+        // Reversed, so that the first map of the next picture reuses the memory of the first map.
         self.ground_occlusion = None;
         let maps = self.maps.drain(..).rev().flatten();
         self.map_pool.extend(maps.flat_map(LightShadow::into_maps));
     }
 
-    /// Renders the maps of a scene's lights; `None` for lights without shadows, and for lights that
-    /// reach no triangle.
+    /// Renders the maps of a scene's lights. Lights without shadows and lights that reach no
+    /// triangle get `None`.
     pub(super) fn render_maps(&mut self, context: &RenderContext<'_>) -> Result<(), RenderError> {
         let scene = context.scene;
         self.recycle_maps();
@@ -65,7 +66,7 @@ impl ShadowMapRenderer {
         Ok(())
     }
 
-    /// Renders the maps of one light; `None` if it reaches no triangle.
+    /// Renders the maps of one light, or returns `None` if the light reaches no triangle.
     fn render_light(
         &mut self,
         context: &RenderContext<'_>,
@@ -88,7 +89,7 @@ impl ShadowMapRenderer {
         Ok(Some(LightShadow::Cube(Box::new(cameras.to_cube(faces)))))
     }
 
-    /// Renders one shadow map: the nearest surfaces from the light, with alpha test.
+    /// Renders one shadow map: the surfaces nearest to the light, with the alpha test.
     fn render_map(
         &mut self,
         context: &RenderContext<'_>,

@@ -1,4 +1,5 @@
-//! SIMD shading against scalar shading: eight fragments at once get the same bits as one at a time.
+//! Compares SIMD shading with scalar shading: eight fragments at once must get the same bits as one
+//! at a time.
 
 use super::context::RenderContext;
 use super::fragment_shading::fragment_shading;
@@ -37,7 +38,7 @@ impl Surface for ScalarShading<'_> {
     }
 }
 
-/// A scene of the project at a small size.
+/// Loads a scene of the project at a small size.
 fn load_scene(name: &str) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let text = std::fs::read_to_string(folder.join(name)).expect("a scene of the project");
@@ -45,7 +46,7 @@ fn load_scene(name: &str) -> Scene {
     file.image.size = (200, 130);
     let origin = Origin::from_text(name, text, folder);
     let mut scene = Scene::resolve(&origin, &file, &Default::default()).expect("a valid scene");
-    // The glass ball becomes rough, and shows the transmission framebuffer.
+    // The glass ball becomes rough and shows the transmission framebuffer.
     for material in
         scene.models.iter_mut().flat_map(|of| &mut Arc::make_mut(&mut of.model).materials)
     {
@@ -57,14 +58,14 @@ fn load_scene(name: &str) -> Scene {
 }
 
 #[test]
-fn eight_fragments_at_once_have_the_colours_of_one_by_one() {
+fn simd_shading_matches_scalar_shading() {
     for name in
         ["crates.ron", "finishes.ron", "lights.ron", "panes.ron", "primitives.ron", "room.ron"]
     {
         for (samples, style) in [(1, Style::Shaded), (4, Style::Shaded), (1, Style::Flat)] {
             let mut scene = load_scene(name);
             scene.style = style;
-            scene.image.samples = Samples::from_count(samples).expect("a number of samples");
+            scene.image.samples = Samples::from_count(samples).expect("a valid sample count");
             let textures = Textures::for_models(&scene.models);
             let tile_region = tile_regions(scene.image, scene.image.pixel_rect())[0];
             let context = RenderContext::new(&scene, &textures, 1);

@@ -1,8 +1,8 @@
 //! Rendering of the transmission framebuffer: everything that may be visible behind refracting and
-//! rough glass, as one picture of light.
+//! rough glass, in linear light.
 //!
-//! It covers the whole picture, even if only a region is rendered: refracted rays and rough glass
-//! reach beyond the borders of the region. The lookup is `shade::TransmissionFramebuffer`.
+//! It covers the whole picture even if only a region is rendered, because refracted rays and rough
+//! glass reach beyond the borders of the region. The lookup is `shade::TransmissionFramebuffer`.
 
 use super::RenderError;
 use super::ambient_occlusion::{OcclusionBuffers, compute_full_occlusion, compute_occlusion};
@@ -18,15 +18,15 @@ use raster::Surface;
 use scene::{ImageSpec, Scene};
 use shade::{AmbientOcclusion, ScreenProjection, ToneMapper, TransmissionFramebuffer};
 
-/// The maximum side of a framebuffer in texels. For larger pictures it is halved until it fits: it
-/// takes 21 bytes per texel.
+/// The maximum side of a framebuffer in texels. For larger pictures the size is halved until it
+/// fits, because each texel takes 21 bytes.
 const MAX_FRAMEBUFFER_SIDE: u32 = 4096;
 
-/// Whether a scene's picture needs a transmission framebuffer: some glass refracts or is rough, and
-/// the style shows materials.
+/// Whether a scene's picture needs a transmission framebuffer, which is the case if some glass
+/// refracts or is rough and the style shows materials.
 pub(super) fn needs_framebuffer(scene: &Scene) -> bool {
     let bends_light = |model: &model::Model| {
-        // Most models have no such material, so its uses need not be searched.
+        // Most models have no such material, so there is no need to search for its uses.
         model.materials.iter().any(Material::bends_transmitted_light)
             && model.scene_primitives().any(|(_, primitive)| {
                 let material = primitive.material.map(|index| &model.materials[index]);
@@ -37,7 +37,8 @@ pub(super) fn needs_framebuffer(scene: &Scene) -> bool {
         && scene.models.iter().any(|instance| bends_light(&instance.model))
 }
 
-/// The ambient occlusion of the whole picture, from all surfaces except glass and blended ones.
+/// Computes the ambient occlusion of the whole picture from all surfaces except glass and blended
+/// surfaces.
 ///
 /// # Errors
 /// The picture is larger than one image tile, or the scene has too many primitives.
@@ -52,12 +53,12 @@ pub(super) fn compute_whole_occlusion(
         return Err(RenderError::OcclusionTooLarge);
     };
     let memory = RenderBuffers::default().take_frame(context, whole)?;
-    // Refracting glass is opaque to the rasterizer; in this depth buffer it would occlude.
+    // The rasterizer treats refracting glass as opaque, so it would occlude in this depth buffer.
     let memory = assemble_behind_glass(context, memory)?;
     compute_occlusion(context, &memory, &mut OcclusionBuffers::default())
 }
 
-/// Renders the framebuffer of a scene's whole picture; `None` if none is needed.
+/// Renders the framebuffer of a scene's whole picture, or returns `None` if none is needed.
 ///
 /// # Errors
 /// The scene has too many primitives.
@@ -71,7 +72,8 @@ pub(super) fn render_framebuffer(
     }
     let mut scene = context.scene.clone();
     [scene.image.width, scene.image.height] = framebuffer_size(scene.image);
-    // Light, not the picture's colors: glass is tone mapped together with the light behind it.
+    // Contains linear light and not picture colors, because glass is tone mapped together with the
+    // light behind it.
     scene.tone_mapper = ToneMapper::default();
     let context = context.with_scene(&scene);
     let whole = TileRegion::for_whole(scene.image);
@@ -88,14 +90,14 @@ pub(super) fn render_framebuffer(
     Ok(Some(TransmissionFramebuffer::new(projection, texels, backdrop, background, threads)))
 }
 
-/// The size of the framebuffer in texels: the picture's size, or a fraction of it.
+/// Returns the size of the framebuffer in texels: the picture's size or a fraction of it.
 fn framebuffer_size(image: ImageSpec) -> [u32; 2] {
     let longer = image.width.max(image.height);
     let halvings = longer.div_ceil(MAX_FRAMEBUFFER_SIDE).next_power_of_two();
     [image.width, image.height].map(|side| side.div_ceil(halvings))
 }
 
-/// The mapping from the world to the texels of a framebuffer.
+/// Returns the mapping from the world to the texels of a framebuffer.
 fn screen_projection(scene: &Scene) -> Result<ScreenProjection, RenderError> {
     let ImageSpec { width, height, .. } = scene.image;
     let view = &scene.view_projection;

@@ -1,16 +1,16 @@
-//! The vertex attributes, opacity and faces that a style needs for each draw call.
+//! The vertex attributes, opacity and visible faces that a style needs for each draw call.
 //!
-//! A style that overrides materials (clay, normals, ids …) still needs some of their properties:
-//! their alpha, and whether surfaces are double-sided. Styles that show the base color blend
-//! blended materials; the others have one color for each fragment, and holes instead. The X-ray
-//! style makes everything translucent and also shows back faces.
+//! A style that overrides materials (clay, normals, ids …) still needs their alpha and whether
+//! surfaces are double-sided. Styles that show the base color blend blended materials; other styles
+//! use one color per fragment, with holes instead of blending. The X-ray style makes everything
+//! translucent and also shows back faces.
 
 use super::vertex_processing::material_uv_set;
 use model::{AlphaMode, Material, Primitive};
 use raster::Opacity;
 use scene::Style;
 
-/// The needs of a style.
+/// The inputs that a style needs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct VertexInputs {
     /// Whether each triangle has a single normal (flat shading).
@@ -19,27 +19,27 @@ pub(super) struct VertexInputs {
     pub(super) forces_lit_inputs: bool,
     /// Whether back faces of single-sided materials are visible.
     pub(super) shows_back_faces: bool,
-    /// The rule that derives the opacity from the material.
+    /// The rule for deriving opacity from the material.
     opacity_rule: OpacityRule,
     /// Whether the first set of texture coordinates is always needed.
     needs_first_uv_set: bool,
 }
 
-/// The opacity of primitives under a style.
+/// The rule for the opacity of primitives in a style.
 #[derive(Clone, Copy, Debug)]
 enum OpacityRule {
-    /// From the alpha mode and transmission of their materials.
+    /// Derived from the alpha mode and transmission of the material.
     FromMaterial,
-    /// Only from their alpha modes.
+    /// Derived only from the alpha mode.
     AlphaMode,
-    /// Opaque, with holes from masked materials and the textures of blended ones.
+    /// Opaque, with holes from masked materials and from the textures of blended materials.
     CutOut,
-    /// One opacity for all primitives.
+    /// The same opacity for all primitives.
     Force(Opacity),
 }
 
 impl VertexInputs {
-    /// The needs of a style; `opacity` overrides the opacity of all primitives.
+    /// Returns the inputs that a style needs. `opacity` overrides the opacity of all primitives.
     pub(super) fn for_style(style: Style, opacity: Option<Opacity>) -> Self {
         let default_rule = match style {
             Style::XRay => OpacityRule::Force(Opacity::Translucent),
@@ -56,26 +56,26 @@ impl VertexInputs {
         }
     }
 
-    /// The opacity of a material's surfaces under the style.
+    /// Returns the opacity of a material's surfaces in the style.
     pub(super) fn opacity(&self, material: &Material) -> Opacity {
         match (self.opacity_rule, material.alpha_mode) {
             (OpacityRule::Force(opacity), _) => opacity,
             (OpacityRule::AlphaMode | OpacityRule::CutOut, AlphaMode::Opaque) => Opacity::Opaque,
             (OpacityRule::CutOut, AlphaMode::Blend) => Opacity::Masked,
-            // Its color already includes the background, which it hides; so only visible fragments
+            // Its color already includes the background, so it can hide it: only visible fragments
             // are shaded, without the cost of layers.
             (_, AlphaMode::Opaque) if material.bends_transmitted_light() => Opacity::Opaque,
             _ => material_opacity(material),
         }
     }
 
-    /// Whether a material's surfaces are in the transmission framebuffer, the picture behind glass:
-    /// all except glass and blended surfaces.
+    /// Whether a material's surfaces are in the transmission framebuffer, the picture behind glass,
+    /// which excludes glass and blended surfaces.
     pub(super) fn is_behind_glass(&self, material: &Material) -> bool {
         self.opacity(material) != Opacity::Translucent && !material.bends_transmitted_light()
     }
 
-    /// The index of the texture coordinate set that vertices carry, if any.
+    /// Returns the index of the texture coordinate set that vertices carry, if any.
     pub(super) fn uv_set(&self, material: &Material, primitive: &Primitive) -> Option<usize> {
         if self.needs_first_uv_set {
             (!primitive.uvs.is_empty()).then_some(0)
@@ -85,8 +85,8 @@ impl VertexInputs {
     }
 }
 
-/// The opacity of a material: glTF's alpha mode, with transmission (`KHR_materials_transmission`)
-/// drawn as translucency.
+/// Returns the opacity of a material: its glTF alpha mode, or translucent if it has transmission
+/// (`KHR_materials_transmission`).
 pub(super) fn material_opacity(material: &Material) -> Opacity {
     match material.alpha_mode {
         AlphaMode::Opaque if material.is_transmissive() => Opacity::Translucent,

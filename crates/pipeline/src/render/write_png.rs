@@ -1,9 +1,9 @@
-//! PNG files rendered in bands of rows: the whole picture is never in memory.
+//! PNG files rendered in bands of rows, so that the whole picture is never in memory.
 //!
 //! ```text
 //!  region ─► band of rows ─► render_region ─► rows to the PNG encoder ─► next band, same memory
 //! ```
-//! A band is an ordinary region: the file has the same bytes as one encoded from memory.
+//! A band is an ordinary region, so the file has the same bytes as a picture encoded from memory.
 
 use super::RenderError;
 use super::prepared_scene::PreparedScene;
@@ -13,18 +13,18 @@ use picture::encode_png;
 use shade::FrameChannel;
 use std::io::{self, Write};
 
-/// The maximum number of pixel bytes in a band, for pictures of reasonable width.
+/// The maximum number of pixel bytes in a band, except for very wide pictures.
 const BAND_BYTES: u64 = 64 << 20;
 
-/// The number of rows in a band for a picture of this width: about 64 MiB of 8-bit pixels, in whole
-/// rows of the rasterizer's 64-pixel tiles, between 64 and 2048.
+/// Returns the number of rows in a band for a picture of this width. A band has about 64 MiB of
+/// 8-bit pixels, in 64 to 2048 rows and whole rows of the rasterizer's 64-pixel tiles.
 #[must_use]
 pub fn rows_per_band(width: u32) -> u32 {
     let rows = BAND_BYTES / (4 * u64::from(width.max(1)));
     (rows as u32 / 64 * 64).clamp(64, 2048)
 }
 
-/// The bits per channel of a PNG file.
+/// The number of bits per channel in a PNG file.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum BitDepth {
     /// 8 bits.
@@ -35,12 +35,12 @@ pub enum BitDepth {
 
 impl PreparedScene<'_> {
     /// Writes a region as a PNG file, rendered in bands of `rows` rows. The bytes do not depend on
-    /// the number of rows. `copy` becomes the region's picture in 8 bits; without it, only a band
-    /// is in memory.
+    /// the number of rows. If `copy` is set, it becomes the region's picture in 8 bits; otherwise
+    /// only one band is in memory.
     ///
-    /// The PNG header declares whether there is an alpha channel. A picture over a translucent
-    /// background is therefore rendered up to its first translucent band before anything is
-    /// written, and then again.
+    /// The PNG header declares whether there is an alpha channel. Before anything is written, a
+    /// picture over a translucent background is therefore rendered up to its first translucent
+    /// band, and then again from the start.
     ///
     /// # Errors
     /// A band cannot be rendered (see [`render_region`](Self::render_region)), or the file cannot
@@ -59,7 +59,7 @@ impl PreparedScene<'_> {
         }
     }
 
-    /// Writes the bands of a file with channels of this type.
+    /// Writes the bands of a file with this channel type.
     fn write_bands<C: FrameChannel>(
         &mut self,
         out: &mut dyn Write,
@@ -74,7 +74,8 @@ impl PreparedScene<'_> {
         let mut bands = region.bands(rows);
         let mut picture = Picture::<C>::default();
         self.render_region(bands.next().unwrap_or(region), &mut picture)?;
-        // The color type precedes the pixels, so the opacity of all bands must be known first.
+        // The color type precedes the pixels, so it must be known first whether all bands are
+        // opaque.
         let is_opaque =
             picture.is_opaque() && self.bands_are_opaque::<C>(region.bands(rows).skip(1))?;
         encode_png(out, [region.width, region.height], is_opaque, C::BITS, |png| {
@@ -91,8 +92,8 @@ impl PreparedScene<'_> {
         })
     }
 
-    /// Whether all bands are opaque. Over an opaque background they are; otherwise they are
-    /// rendered up to the first translucent pixel.
+    /// Returns whether all bands are opaque. They are over an opaque background; otherwise bands
+    /// are rendered until a translucent pixel is found.
     fn bands_are_opaque<C: FrameChannel>(
         &mut self,
         bands: impl Iterator<Item = PixelRect>,
@@ -111,7 +112,7 @@ impl PreparedScene<'_> {
     }
 }
 
-/// A PNG file that could not be written.
+/// The reason why a PNG file could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum WritePngError {
     /// A band cannot be rendered.

@@ -1,4 +1,4 @@
-//! Pictures with a closed form: each pixel is compared with the formula behind the scene.
+//! Pictures with a closed form: each pixel is compared with the formula for the scene.
 
 mod glass;
 mod refraction;
@@ -14,7 +14,8 @@ use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures, render
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// A glTF file of one mesh: triangles with normals, each part with a separate material.
+/// Builds a glTF file with one mesh of triangles with normals, with a separate material for each
+/// part.
 fn build_glb(parts: &[TestPart]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let (mut views, mut accessors, mut primitives, mut materials) =
@@ -66,7 +67,7 @@ struct TestPart {
     material: String,
 }
 
-/// The square from −1 to 1 at a height, facing +z.
+/// Returns the square from −1 to 1 at height `z`, facing +z.
 fn square_part(z: f32, material: &str) -> TestPart {
     let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let positions = [0, 1, 2, 0, 2, 3].map(|n: usize| [corners[n][0], corners[n][1], z]);
@@ -77,7 +78,7 @@ fn square_part(z: f32, material: &str) -> TestPart {
     }
 }
 
-/// A sphere of radius 1, fine enough that its normals match a sphere's to four digits.
+/// Returns a sphere of radius 1, fine enough that its normals are accurate to four digits.
 fn sphere_part(material: &str) -> TestPart {
     let (rows, columns) = (96, 192);
     let point = |row: usize, column: usize| {
@@ -93,8 +94,8 @@ fn sphere_part(material: &str) -> TestPart {
     TestPart { normals: positions.clone(), positions, material: material.to_owned() }
 }
 
-/// The picture of some parts, completed by the rest of a scene file, seen from (0, 0, 5), with a
-/// picture height of 2.2 units.
+/// Renders parts and the rest of a scene file, seen from (0, 0, 5), with a picture height of 2.2
+/// units.
 fn render_parts(parts: &[TestPart], rest: &str) -> Picture {
     render_parts_larger(parts, 1.0, rest)
 }
@@ -119,7 +120,7 @@ fn test_scene(parts: &[TestPart], size: f64, rest: &str) -> Scene {
     Scene::from_models(&origin, &file, &[placed]).expect("a valid scene")
 }
 
-/// The scene of a bare model: the program's defaults for a file without a scene.
+/// Returns the scene of a bare model, with the program's defaults for a model without a scene file.
 fn bare_scene(parts: &[TestPart], change: impl FnOnce(&mut SceneFile)) -> Scene {
     let (origin, mut file) = Origin::from_model_bytes("made.gltf", build_glb(parts));
     file.image.size = (120, 120);
@@ -127,12 +128,12 @@ fn bare_scene(parts: &[TestPart], change: impl FnOnce(&mut SceneFile)) -> Scene 
     Scene::resolve(&origin, &file, &ResolveOptions::default()).expect("a valid scene")
 }
 
-/// Everything framed from a direction.
+/// Returns a view that frames everything from a direction.
 fn framed_from(from: FromFile) -> ViewFile {
     ViewFile::Frame { from: Some(from), padding_percent: DEFAULT_PADDING }
 }
 
-/// The codes of the fully covered pixels.
+/// Returns the codes of the fully covered pixels.
 fn covered_codes(picture: &Picture) -> impl Iterator<Item = [u8; 3]> {
     let covered = picture.pixels.iter().filter(|pixel| pixel[3] == 255);
     covered.map(|&[r, g, b, _]| [r, g, b])
@@ -141,10 +142,10 @@ fn covered_codes(picture: &Picture) -> impl Iterator<Item = [u8; 3]> {
 const WHITE: &str = r#"{"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,1],"metallicFactor":0,"roughnessFactor":1}}"#;
 
 #[test]
-fn matte_white_does_not_clip_in_the_default_light_with_shadows_and_without() {
+fn matte_white_does_not_clip_in_default_light_with_or_without_shadows() {
     let most_allowed = encode_srgb(0.95).round() as u8;
     let mut brightest = 0;
-    // From above and all around: the key light moves with the view.
+    // From above and all around, because the key light moves with the view.
     let around = (0..12).map(|twelfth| {
         let angle = f64::from(twelfth) * PI / 6.0;
         let [x, z] = [libm::sin(angle), libm::cos(angle)];
@@ -159,19 +160,20 @@ fn matte_white_does_not_clip_in_the_default_light_with_shadows_and_without() {
             let picture = render(&scene, 2).expect("a picture");
             let most = covered_codes(&picture).flatten().max().expect("a pixel");
             assert!(most <= most_allowed, "{view:?} {shadows:?}: {most}");
-            assert!(most >= 200, "{view:?} {shadows:?}: {most} is dark");
+            assert!(most >= 200, "{view:?} {shadows:?}: {most} is too dark");
             brightest = brightest.max(most);
         }
     }
-    // The sentence in the README about the studio.
+    // The README states the brightness of matte white in the studio.
     let readme = include_str!("../../../../README.md");
-    let told = readme.split_once("matte white reaches at most ").expect("the sentence").1;
+    let told =
+        readme.split_once("matte white reaches at most ").expect("the sentence about the studio").1;
     let told: f64 = told.split_once(' ').expect("a word").0.parse().expect("a number");
     assert_eq!(brightest, encode_srgb(told).round() as u8, "the README says {told}");
 }
 
 #[test]
-fn lit_styles_of_a_bare_sphere_are_bright_towards_the_key_light_and_dark_below() {
+fn lit_spheres_are_bright_toward_the_key_light_and_dark_below() {
     for style in [StyleFile::Shaded, StyleFile::Clay, StyleFile::Gouraud, StyleFile::Toon] {
         for environment in [None, Some(EnvironmentFile::SKY), Some(EnvironmentFile::Dark)] {
             let scene = bare_scene(&[sphere_part(WHITE)], |file| {
@@ -202,7 +204,10 @@ fn encode_srgb(light: f64) -> f64 {
 fn assert_near(actual: [u8; 4], expected: [f64; 3], where_: &str) {
     for k in 0..3 {
         let (found, due) = (f64::from(actual[k]), encode_srgb(expected[k]).round());
-        assert!((found - due).abs() <= 1.0, "{where_}, channel {k}: {found}, not {due:.2}");
+        assert!(
+            (found - due).abs() <= 1.0,
+            "{where_}, channel {k}: found {found}, expected {due:.2}"
+        );
     }
 }
 
@@ -214,9 +219,9 @@ fn normalize(v: [f64; 3]) -> [f64; 3] {
     v.map(|c| c / dot(v, v).sqrt())
 }
 
-/// The light that a dielectric of this color and roughness reflects to +z, per lux, according to
-/// Appendix B of the specification; the single-bounce loss of highlights is ignored, which is less
-/// than one code.
+/// Returns the light that a dielectric of this color and roughness reflects toward +z, per lux,
+/// according to Appendix B of the specification. The single-bounce loss of highlights is ignored,
+/// because it is less than one code.
 fn expected_reflection(base: [f64; 3], roughness: f64, n: [f64; 3], l: [f64; 3]) -> [f64; 3] {
     let v = [0.0, 0.0, 1.0];
     let h = normalize([0, 1, 2].map(|k: usize| l[k] + v[k]));
@@ -233,7 +238,7 @@ fn expected_reflection(base: [f64; 3], roughness: f64, n: [f64; 3], l: [f64; 3])
 const MATTE: &str = r#"{"pbrMetallicRoughness":{"baseColorFactor":[0.8,0.4,0.1,1],"metallicFactor":0,"roughnessFactor":0.6}}"#;
 
 #[test]
-fn a_lit_plane_has_the_colour_of_the_formula_everywhere() {
+fn lit_planes_match_the_formula() {
     let picture = render_parts(
         &[square_part(0.0, MATTE)],
         r#"lights: [Directional(direction: (-1, -1, -2), intensity: 2)], image: (size: (80, 80), samples: 1)"#,
@@ -246,7 +251,7 @@ fn a_lit_plane_has_the_colour_of_the_formula_everywhere() {
 }
 
 #[test]
-fn a_plane_under_a_point_has_the_colour_of_the_formula_everywhere() {
+fn planes_under_a_point_light_match_the_formula() {
     let picture = render_parts(
         &[square_part(0.0, MATTE)],
         r#"lights: [Point(position: (0.5, 0.3, 0.8), intensity: 1.5)], image: (size: (88, 88), samples: 1)"#,
@@ -262,7 +267,7 @@ fn a_plane_under_a_point_has_the_colour_of_the_formula_everywhere() {
 }
 
 #[test]
-fn a_lit_sphere_has_the_colours_of_the_formula() {
+fn lit_spheres_match_the_formula() {
     let size = 440;
     let rest = format!(
         "lights: [Directional(direction: (-1, -2, -2), intensity: 2.5)], image: (size: ({size}, {size}), samples: 1)"
@@ -278,7 +283,7 @@ fn a_lit_sphere_has_the_colours_of_the_formula() {
             continue;
         }
         let n = [at[0], at[1], (1.0 - square).sqrt()];
-        // The normals within a pixel spread as they turn from one pixel to the next, which widens
+        // Normals vary within a pixel as much as between neighboring pixels, which widens
         // highlights.
         let turn = 2.2 / side / n[2];
         let expected = expected_reflection([0.8, 0.4, 0.1], 0.6 + turn, n, l).map(|c| c * 2.5);
@@ -297,7 +302,7 @@ fn pane_material(color: [f64; 4]) -> String {
 const PANES: [[f64; 4]; 3] = [[0.9, 0.2, 0.1, 0.5], [0.1, 0.7, 0.2, 0.25], [0.2, 0.3, 0.9, 0.75]];
 
 #[test]
-fn three_translucent_squares_are_laid_over_each_other_by_depth_whatever_their_order() {
+fn translucent_squares_blend_by_depth_in_any_file_order() {
     let mut expected = [1.0; 3];
     for [r, g, b, alpha] in PANES {
         expected = [0, 1, 2].map(|k: usize| [r, g, b][k] * alpha + expected[k] * (1.0 - alpha));
@@ -313,7 +318,7 @@ fn three_translucent_squares_are_laid_over_each_other_by_depth_whatever_their_or
 }
 
 #[test]
-fn a_transparent_picture_laid_over_a_colour_is_the_opaque_one_over_it() {
+fn transparent_pictures_over_a_color_match_opaque_pictures() {
     let parts = || {
         [
             sphere_part(MATTE),
@@ -325,8 +330,8 @@ fn a_transparent_picture_laid_over_a_colour_is_the_opaque_one_over_it() {
         let lights = "lights: [Directional(direction: (-1, -2, -2), intensity: 2.5), Ambient(intensity: 0.5)]";
         format!("{lights}, image: (size: (60, 60), background: {background}, samples: 4)")
     };
-    // In 16 bits, because where sRGB is steep, half a code of 8-bit alpha is more than one code of
-    // color.
+    // 16 bits are needed because half a code of 8-bit alpha is more than one code of color where
+    // sRGB is steep.
     let clear = test_scene(&parts(), 1.0, &rest("Transparent"));
     let textures = Textures::for_scene(&clear);
     let context = RenderContext::new(&clear, &textures, 2);
@@ -351,9 +356,9 @@ fn a_transparent_picture_laid_over_a_colour_is_the_opaque_one_over_it() {
     }
 }
 
-/// The light that a sphere reflects in surroundings of 1: none is created, and little is lost.
+/// A sphere in surroundings of 1 must not create light and may lose only a little.
 #[test]
-fn white_surroundings_are_no_brighter_on_any_surface() {
+fn surfaces_in_white_surroundings_create_no_light() {
     let material = |metallic: f64, roughness: f64| {
         format!(
             r#"{{"pbrMetallicRoughness":{{"metallicFactor":{metallic},"roughnessFactor":{roughness}}}}}"#
@@ -366,9 +371,9 @@ fn white_surroundings_are_no_brighter_on_any_surface() {
         let picture = render_parts(&[sphere_part(&material(metallic, roughness))], rest);
         let inside = picture.pixels.iter().filter(|pixel| pixel[3] == 255);
         let codes: Vec<u8> = inside.map(|pixel| pixel[1]).collect();
-        // sRGB of 0.5 is 188. White scatters everything that is not mirrored, and metal mirrors
-        // everything: only rounding may lose light. A half-and-half material loses, at each bounce
-        // except the first, the part not reflected by a reflectance of one half.
+        // 0.5 in sRGB is 188. White scatters everything that it does not mirror, and metal mirrors
+        // everything, so only rounding may lose light. A half-and-half material has a reflectance
+        // of one half, so it loses the rest at each bounce except the first.
         let (least, most) = (codes.iter().min().unwrap(), codes.iter().max().unwrap());
         let lost = if metallic == 0.5 { 8 } else { 1 };
         let holds = codes.len() > 5000 && *least >= 188 - lost && *most <= 188;

@@ -1,5 +1,5 @@
-//! A checkered floor that extends to the horizon, at 1080 lines, compared with the mean of 64
-//! positions in each pixel.
+//! A checkered floor that extends to the horizon, rendered at 1080 lines and compared with the mean
+//! of 64 positions in each pixel.
 
 use homog::Affine;
 use model::ModelInstance;
@@ -11,14 +11,14 @@ use pipeline::{Origin, Scene, render};
 use std::sync::Arc;
 
 const IMAGE_SIZE: (u32, u32) = (1920, 1080);
-/// Texels along a side of the texture, and of a check.
+/// Texels along a side of the texture and of a check.
 const TEXELS: u32 = 64;
 const CHECK_TEXELS: u32 = 8;
 /// Texture repetitions per unit in the world.
 const REPEATS_PER_UNIT: f32 = 0.5;
 const FLOOR_SIDE: f32 = 200.0;
 
-/// 1 for a white texel, 0 for a black one, interpolated between texels.
+/// Returns 1 for a white texel and 0 for a black texel, interpolated between texels.
 fn check_texture(u: f64, v: f64) -> f64 {
     let place = |c: f64| {
         let texels = c * f64::from(TEXELS) - 0.5;
@@ -89,8 +89,8 @@ fn decode_srgb(code: u8) -> f64 {
     if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
 }
 
-/// The mean of the texture at 8 × 8 positions in a pixel; `None` if any is outside the floor, or
-/// close to its edge.
+/// Returns the mean of the texture at 8 × 8 positions in a pixel, or `None` if any position is
+/// outside the floor or close to its edge.
 fn exact_floor_value(clip_to_world: glam::DMat4, x: u32, y: u32) -> Option<f64> {
     let mut sum = 0.0;
     for (i, j) in (0..8).flat_map(|i| (0..8).map(move |j| (i, j))) {
@@ -115,8 +115,8 @@ fn exact_floor_value(clip_to_world: glam::DMat4, x: u32, y: u32) -> Option<f64> 
     Some(sum / 64.0)
 }
 
-/// The root mean square difference in linear light over the whole floor, and the difference that
-/// all but a thousandth of the pixels stay below.
+/// Returns the root mean square difference in linear light over the whole floor, and the difference
+/// that is exceeded by only a thousandth of the pixels.
 fn rms_error(anisotropy: u32) -> (f64, f64) {
     let scene = floor_scene(anisotropy);
     let picture = render(&scene, 2).expect("a picture");
@@ -137,10 +137,11 @@ fn rms_error(anisotropy: u32) -> (f64, f64) {
 }
 
 #[test]
-fn a_floor_of_checks_is_near_the_mean_of_64_places() {
+fn checkered_floors_are_close_to_the_mean_of_64_positions() {
     let errors = [1, 2, 4, 8].map(rms_error);
     let roots = errors.map(|(root, _)| root);
-    // In linear light, from 0 to 1: the limits for one position, two, the usual four, and eight.
+    // The limits in linear light, from 0 to 1, for one, two, four (the default) and eight
+    // positions.
     for ((root, worst), (most, bound)) in
         errors.into_iter().zip([(0.065, 0.46), (0.045, 0.43), (0.034, 0.39), (0.028, 0.34)])
     {

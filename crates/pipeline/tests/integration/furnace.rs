@@ -1,4 +1,5 @@
-//! White furnace: a white metal in uniform light returns all light it receives, at any anisotropy.
+//! White furnace test: a white metal in uniform light returns all light it receives, at any
+//! anisotropy.
 
 use homog::Affine;
 use model::{
@@ -8,10 +9,10 @@ use pipeline::scene::parse_scene;
 use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures};
 use std::sync::Arc;
 
-/// The side of the picture; the ball fills it.
+/// The side of the picture, which the ball fills.
 const SIDE: u32 = 161;
 
-/// A ball of radius 1 with tangents along its circles of latitude.
+/// Returns a ball of radius 1 with tangents along its circles of latitude.
 fn ball_mesh(rows: u32) -> Primitive {
     let mut primitive = Primitive { material: Some(0), ..Primitive::default() };
     let (mut normals, mut tangents) = (Vec::new(), Vec::new());
@@ -33,7 +34,7 @@ fn ball_mesh(rows: u32) -> Primitive {
     Primitive { normals: Some(normals), tangents: Some(tangents), ..primitive }
 }
 
-/// The picture of a white metal ball in uniform light of half the range, in parallel projection.
+/// Renders a white metal ball in uniform light of half the range, in parallel projection.
 fn furnace_picture(strength: f32, roughness: f32) -> Picture<u16> {
     let anisotropy =
         (strength > 0.0).then(|| Box::new(Anisotropy { strength, ..Anisotropy::default() }));
@@ -64,7 +65,7 @@ fn furnace_picture(strength: f32, roughness: f32) -> Picture<u16> {
     picture
 }
 
-/// The linear light of a 16-bit code.
+/// Returns the linear light of a 16-bit code.
 fn linear(code: u16) -> f64 {
     let srgb = f64::from(code) / 65535.0;
     if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
@@ -77,7 +78,7 @@ fn anisotropic_metal_reflects_as_much_as_isotropic_metal() {
         for strength in [0.5, 1.0] {
             let picture = furnace_picture(strength, roughness);
             for (x, y) in (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y))) {
-                // From the center of the ball to where it is seen at an angle of 80°.
+                // From the center of the ball to the viewing angle of 80°.
                 let from_center = |at: u32| (2.0 * f64::from(at) + 1.0) / f64::from(SIDE) - 1.0;
                 let sine = libm::hypot(from_center(x), from_center(y));
                 if sine > libm::sin(80_f64.to_radians()) {

@@ -1,4 +1,4 @@
-//! The ground that shows shadows: its appearance in a framed picture.
+//! Shadow-catching ground in framed pictures.
 
 use camera::{NamedView, Slopes, frame_perspective};
 use homog::PixelRect;
@@ -7,14 +7,15 @@ use pipeline::scene::parse_scene;
 use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
 use std::path::PathBuf;
 
-/// The alpha above which something visibly ends at the picture's border: 3 %.
+/// The alpha above which the picture's border visibly cuts something off: 3%.
 const MAX_BORDER_ALPHA: u8 = 8;
 
 fn model_path(name: &str) -> PathBuf {
     PathBuf::from(format!("{}/../../scenes/models/{name}.glb", env!("CARGO_MANIFEST_DIR")))
 }
 
-/// A bare model as drawn by the program, at this size, with or without ground that shows shadows.
+/// Returns the scene of a bare model as the program draws it, at this size, with or without
+/// shadow-catching ground.
 fn bare_model(name: &str, size: (u32, u32), ground: Option<GroundFile>) -> Scene {
     let (origin, mut file) = Origin::from_model_path(&model_path(name));
     (file.ground, file.image.size) = (ground, size);
@@ -22,7 +23,7 @@ fn bare_model(name: &str, size: (u32, u32), ground: Option<GroundFile>) -> Scene
 }
 
 #[test]
-fn shadows_of_bare_models_are_inside_of_the_picture() {
+fn shadows_of_bare_models_are_inside_the_picture() {
     for name in ["teapot", "crate", "vase", "table", "house"] {
         for size in [(320, 200), (160, 240)] {
             let scene = bare_model(name, size, Some(GroundFile::DEFAULT));
@@ -56,7 +57,8 @@ fn without_ground_only_the_model_is_framed() {
         assert_eq!(scene.view_projection.camera, framing.camera, "{name}");
         let on_ground = bare_model(name, size, Some(GroundFile::DEFAULT));
         assert_ne!(on_ground.view_projection.camera, framing.camera, "{name}");
-        // Nor where its shadows may extend beyond the picture; they are visible where they do not.
+        // The same applies if its shadows may extend beyond the picture; they are visible where
+        // they do not.
         let cropped = GroundFile::Shadow { height: None, framed: false };
         let cropped = bare_model(name, size, Some(cropped));
         assert_eq!(cropped.view_projection.camera, framing.camera, "{name}");
@@ -85,7 +87,7 @@ fn shadows_of_low_light_do_not_push_the_model_away() {
     assert!(distance("(1, 0.2, -0.5)") < high);
 }
 
-/// A bare model only in light from all directions.
+/// Returns the scene of a bare model that is lit only by light from all directions.
 fn model_in_uniform_light(name: &str, size: (u32, u32), shadows: Option<ShadowsFile>) -> Scene {
     let (origin, mut file) = Origin::from_model_path(&model_path(name));
     (file.ground, file.image.size) = (Some(GroundFile::DEFAULT), size);
@@ -95,7 +97,7 @@ fn model_in_uniform_light(name: &str, size: (u32, u32), shadows: Option<ShadowsF
 }
 
 #[test]
-fn models_stand_on_the_ground_in_light_from_all_around() {
+fn models_in_uniform_light_have_contact_shadows() {
     for name in ["teapot", "crate"] {
         let size = (240, 180);
         let scene = model_in_uniform_light(name, size, None);
@@ -103,7 +105,7 @@ fn models_stand_on_the_ground_in_light_from_all_around() {
         assert!(picture == render(&scene, 1).expect("a picture"), "{name}: threads");
         let alphas: Vec<u8> =
             picture.pixels.iter().filter(|p| p[..3] == [0; 3]).map(|p| p[3]).collect();
-        // Dark at the foot, and without an edge anywhere else.
+        // Dark at the foot and without an edge anywhere else.
         let dark = alphas.iter().filter(|&&alpha| alpha > 90).count();
         assert!(dark > 20, "{name}: {dark}");
         let off = model_in_uniform_light(name, size, Some(ShadowsFile::Off));
@@ -113,7 +115,7 @@ fn models_stand_on_the_ground_in_light_from_all_around() {
 }
 
 #[test]
-fn parts_of_a_picture_with_a_contact_shadow_unite() {
+fn regions_with_contact_shadows_match_the_whole_picture() {
     let scene = model_in_uniform_light("teapot", (160, 120), None);
     let whole = render(&scene, 1).expect("a picture");
     let (textures, mut renderer) = (Textures::for_scene(&scene), Renderer::default());
@@ -128,7 +130,7 @@ fn parts_of_a_picture_with_a_contact_shadow_unite() {
     }
 }
 
-/// A lamp lit from its left on ground that shows shadows, with additional fields in the scene.
+/// Renders a lamp lit from its left on shadow-catching ground, with additional fields in the scene.
 fn lamp_picture(fields: &str) -> Picture {
     let text = format!(
         r#"Scene(models: [(path: "lamp.glb")], ground: Shadow(), shadows: On(),
@@ -141,9 +143,9 @@ fn lamp_picture(fields: &str) -> Picture {
     render(&scene, 2).expect("a picture")
 }
 
-/// The shadow extends behind the models, beyond the far plane that encloses them.
+/// The shadow extends behind the models, beyond the far plane that encloses the models.
 #[test]
-fn shadows_behind_the_models_darken_every_kind_of_background() {
+fn shadows_behind_models_darken_every_background() {
     let camera = |projection: &str| {
         let size = "size: (160, 120), samples: 1";
         format!("camera: (projection: {projection}), image: ({size}, background: BACKGROUND)")
@@ -164,12 +166,12 @@ fn shadows_behind_the_models_darken_every_kind_of_background() {
         [("Perspective()", "Perspective(far: 1000)"), ("Orthographic()", "Orthographic(far: 1000)")]
     {
         let differing = count_differing(&around(tight), &around(wide));
-        // Depths are rounded differently where surfaces meet.
+        // Depths round differently where surfaces meet.
         assert!(differing < 20, "{tight}: {differing}");
     }
 }
 
-/// The number of pixels that differ by more than rounding.
+/// Counts the pixels that differ by more than rounding.
 fn count_differing(one: &Picture, other: &Picture) -> usize {
     let differs = |(a, b): &(&[u8; 4], &[u8; 4])| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 2);
     one.pixels.iter().zip(&other.pixels).filter(differs).count()

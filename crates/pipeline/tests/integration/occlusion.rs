@@ -1,4 +1,4 @@
-//! Ambient occlusion against a ray-cast reference.
+//! Ambient occlusion compared with a ray-cast reference.
 
 use glam::DVec3;
 use homog::PixelRect;
@@ -8,10 +8,10 @@ use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures};
 use std::path::Path;
 use std::sync::Arc;
 
-/// The number of directions in which the reference looks for occluders.
+/// The number of directions in which the reference searches for occluders.
 const DIRECTION_COUNT: usize = 128;
 
-/// Makes all surfaces matte and nearly black: occluders reflect no light.
+/// Makes all surfaces matte and nearly black, so that occluders reflect no light.
 fn blacken_materials(scene: &mut Scene) {
     for ModelInstance { model, .. } in &mut scene.models {
         let materials = model.materials.iter().map(|material| Material {
@@ -26,7 +26,7 @@ fn blacken_materials(scene: &mut Scene) {
     }
 }
 
-/// A model of the project in light from all directions, with or without occlusion.
+/// Loads a model of the project in light from all directions, with or without occlusion.
 fn load_scene(model: &str, image: &str, occlusion: &str) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let text = format!(
@@ -40,7 +40,7 @@ fn load_scene(model: &str, image: &str, occlusion: &str) -> Scene {
     scene
 }
 
-/// The linear red of each pixel.
+/// Returns the linear red of each pixel.
 fn linear_light(scene: &Scene, threads: usize) -> Vec<f64> {
     let (textures, mut renderer) = (Textures::for_scene(scene), Renderer::default());
     let context = RenderContext::new(scene, &textures, threads);
@@ -58,8 +58,8 @@ fn linear_light(scene: &Scene, threads: usize) -> Vec<f64> {
     picture.pixels.iter().map(linear).collect()
 }
 
-/// The fraction of the light from all directions that the picture shows at each pixel; NaN for
-/// background pixels.
+/// Returns the fraction of the light from all directions that the picture shows at each pixel; NaN
+/// for background pixels.
 fn drawn_visibility(model: &str, image: &str, radius: f64) -> (Scene, Vec<f64>) {
     let without = linear_light(&load_scene(model, image, ""), 2);
     let scene = load_scene(model, image, &format!("ambient_occlusion: (radius: {radius})"));
@@ -67,7 +67,7 @@ fn drawn_visibility(model: &str, image: &str, radius: f64) -> (Scene, Vec<f64>) 
     (scene, with.iter().zip(without).map(|(with, without)| with / without).collect())
 }
 
-/// The triangles of a scene in the world.
+/// Returns the triangles of a scene in world space.
 fn world_triangles(scene: &Scene) -> Vec<[DVec3; 3]> {
     let mut triangles = Vec::new();
     for ModelInstance { model, model_to_world } in &scene.models {
@@ -85,7 +85,8 @@ fn world_triangles(scene: &Scene) -> Vec<[DVec3; 3]> {
     triangles
 }
 
-/// The distance along a ray to the nearest triangle, and that triangle (Möller and Trumbore 1997).
+/// Returns the distance along a ray to the nearest triangle and the index of that triangle (Möller
+/// and Trumbore 1997).
 fn cast_ray(triangles: &[[DVec3; 3]], origin: DVec3, direction: DVec3) -> Option<(f64, usize)> {
     let mut nearest: Option<(f64, usize)> = None;
     for (index, &[a, b, c]) in triangles.iter().enumerate() {
@@ -108,8 +109,8 @@ fn cast_ray(triangles: &[[DVec3; 3]], origin: DVec3, direction: DVec3) -> Option
     nearest
 }
 
-/// The visibility at the surface visible in a pixel, by ray casting: each occluder blocks the light
-/// from its direction, less with distance.
+/// Computes the visibility at a pixel's surface by ray casting. Each occluder blocks the light from
+/// its direction, by an amount that decreases with distance.
 fn reference_visibility(
     triangles: &[[DVec3; 3]],
     scene: &Scene,
@@ -134,7 +135,7 @@ fn reference_visibility(
     let bitangent = normal.cross(tangent);
     let mut visible = 0.0;
     for k in 0..DIRECTION_COUNT {
-        // Directions with cosine density: a spiral over the disc below them.
+        // Directions with cosine density come from a spiral on the unit disc.
         let squared = (k as f64 + 0.5) / DIRECTION_COUNT as f64;
         let angle = k as f64 * 2.399_963_229_728_653;
         let (r, up) = (squared.sqrt(), (1.0 - squared).sqrt());
@@ -148,7 +149,7 @@ fn reference_visibility(
 }
 
 #[test]
-fn occlusion_is_that_of_rays() {
+fn occlusion_matches_ray_casting() {
     let models = [
         "bearing",
         "finishes",

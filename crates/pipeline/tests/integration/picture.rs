@@ -1,6 +1,6 @@
 //! Passes, regions, bit depths and styles of pictures.
 
-#![allow(clippy::panic, reason = "a missing part of an answer fails the test")]
+#![allow(clippy::panic, reason = "a missing part of a result fails the test")]
 
 mod passes;
 mod plane;
@@ -12,7 +12,7 @@ use pipeline::scene::file::SceneFile;
 use pipeline::{Origin, Scene};
 use std::path::Path;
 
-/// A scene of the project, with changes to its file.
+/// Loads a scene of the project, with changes to its file.
 fn load_scene(name: &str, change: impl FnOnce(&mut SceneFile)) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let (origin, mut file) =

@@ -1,4 +1,4 @@
-//! Inspected pixels have the colors of their pictures, from the triangles visible there.
+//! Inspected pixels have the colors of the picture and list the triangles visible there.
 
 use pipeline::render::inspect_pixel;
 use pipeline::scene::ResolveOptions;
@@ -19,9 +19,9 @@ const SCENES: [&str; 10] = [
 ];
 
 #[test]
-fn a_thousand_pixels_have_the_colours_of_their_pictures() {
+fn a_thousand_inspected_pixels_match_their_pictures() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    // A position generator that gives the same results everywhere (Lehmer, 1951).
+    // A random number generator that gives the same positions everywhere (Lehmer, 1951).
     let mut state = 20_261_121_u64;
     let mut below = |count: u32| {
         state = state * 48_271 % 2_147_483_647;
@@ -42,5 +42,5 @@ fn a_thousand_pixels_have_the_colours_of_their_pictures() {
         }
         assert_eq!(inspect_pixel(&scene, 160, 0).expect("a picture"), None);
     }
-    assert!(seen > 300, "most of the pictures show something: {seen}");
+    assert!(seen > 300, "too few pixels show a surface: {seen}");
 }

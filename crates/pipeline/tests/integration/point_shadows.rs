@@ -1,4 +1,4 @@
-//! Shadows of point lights: they match rays from the lamp, on all six faces and across their seams.
+//! Shadows of point lights match rays from the lamp, on all six faces and across their seams.
 
 use glam::{DVec3, DVec4};
 use homog::{Affine, PixelRect};
@@ -9,9 +9,9 @@ use std::sync::Arc;
 
 /// The lamp, slightly off the center of the room.
 const LAMP: DVec3 = DVec3::new(0.11, -0.07, 0.05);
-/// Half of the side of the room.
+/// Half of the room's side.
 const ROOM: f64 = 3.0;
-/// The walls, as directions from the center.
+/// The directions from the center to the walls.
 const DIRECTIONS: [[f64; 3]; 6] = [
     [1.0, 0.0, 0.0],
     [-1.0, 0.0, 0.0],
@@ -24,7 +24,8 @@ const DIRECTIONS: [[f64; 3]; 6] = [
 /// A box given by its minimum and maximum coordinates.
 type Box3 = [DVec3; 2];
 
-/// A box of half side 0.3 in front of each wall, and one across the borders of three faces.
+/// Returns boxes with a half side of 0.3: one in front of each wall, and one across the borders of
+/// three faces.
 fn boxes() -> Vec<Box3> {
     let around = |center: DVec3, half: f64| [center - half, center + half];
     let mut boxes: Vec<Box3> =
@@ -34,7 +35,7 @@ fn boxes() -> Vec<Box3> {
     boxes
 }
 
-/// The six sides of a box, visible from both sides.
+/// Returns the six sides of a box, visible from both sides.
 fn box_mesh([low, high]: Box3) -> Primitive {
     let corner = |index: usize| {
         let pick = |axis: usize| if index >> axis & 1 == 0 { low[axis] } else { high[axis] };
@@ -47,7 +48,7 @@ fn box_mesh([low, high]: Box3) -> Primitive {
     Primitive { positions, indices, ..Primitive::default() }
 }
 
-/// A scene of matte white parts, visible from both sides.
+/// Returns a scene of matte white parts, visible from both sides.
 fn white_scene(primitives: Vec<Primitive>, rest: &str) -> Scene {
     let text = format!(r#"Scene(models: [(path: "made")], {rest})"#);
     let file = parse_scene("made.ron", &text).expect("a scene");
@@ -76,7 +77,7 @@ fn code_at(picture: &Picture, x: u32, y: u32) -> u8 {
     picture.pixels[(y * picture.width + x) as usize][0]
 }
 
-/// The parameters at which a ray enters and leaves a box, if it meets it.
+/// Returns the parameters at which a ray enters and leaves a box, if it meets the box.
 fn meet_box([low, high]: Box3, from: DVec3, along: DVec3) -> Option<[f64; 2]> {
     let (a, b) = ((low - from) / along, (high - from) / along);
     let (enter, leave) = (a.min(b).max_element(), a.max(b).min_element());
@@ -92,7 +93,7 @@ fn is_lit(boxes: &[Box3], place: DVec3) -> bool {
 }
 
 #[test]
-fn shadows_in_all_six_directions_lie_where_rays_from_the_lamp_say() {
+fn shadows_in_all_six_directions_match_rays_from_the_lamp() {
     let boxes = boxes();
     let room = [DVec3::splat(-ROOM), DVec3::splat(ROOM)];
     let mut primitives: Vec<Primitive> = boxes.iter().map(|&b| box_mesh(b)).collect();
@@ -117,7 +118,7 @@ fn shadows_in_all_six_directions_lie_where_rays_from_the_lamp_say() {
             let along = (seen.truncate() / seen.w - eye).normalize();
             let Some([_, leave]) = meet_box(room, eye, along) else { panic!("in the room") };
             let place = eye + along * leave;
-            // The current wall, away from its edges, with nothing in front of it.
+            // This wall, away from its edges, with nothing in front of it.
             let is_hidden = boxes.iter().any(|&b| {
                 meet_box([b[0] - 0.02, b[1] + 0.02], eye, along)
                     .is_some_and(|[_, leave]| leave > 0.0)
@@ -127,7 +128,7 @@ fn shadows_in_all_six_directions_lie_where_rays_from_the_lamp_say() {
             if is_hidden || !on_wall {
                 continue;
             }
-            // Two texels of a wall's 2048 for its 6 units, and half a pixel.
+            // Two texels, where 2048 texels cover the 6 units of a wall, plus half a pixel.
             let border = [side, -side, up, -up].map(|way| is_lit(&boxes, place + 0.008 * way));
             let expected = is_lit(&boxes, place);
             if border.iter().any(|&near| near != expected) {
@@ -135,13 +136,13 @@ fn shadows_in_all_six_directions_lie_where_rays_from_the_lamp_say() {
             }
             counts[usize::from(expected)] += 1;
             let code = code_at(&picture, x, y);
-            assert_eq!(code > 0, expected, "wall {direction:?}, place {place}: {code}");
+            assert_eq!(code > 0, expected, "wall {direction:?}, position {place}: {code}");
         }
         assert!(counts[0] > 500 && counts[1] > 5000, "{direction:?}: {counts:?}");
     }
 }
 
-/// A ball around a position, seen from inside, with smooth normals that point inward.
+/// Returns a ball around a position, seen from inside, with smooth normals that point inward.
 fn hollow_ball(radius: f32, rows: u32) -> Primitive {
     let columns = 2 * rows;
     let mut primitive = Primitive::default();
@@ -164,9 +165,9 @@ fn hollow_ball(radius: f32, rows: u32) -> Primitive {
 }
 
 #[test]
-fn a_ball_around_the_lamp_is_lit_as_without_shadows() {
-    // A wide filter treats the ball's surface as its tangent plane, although it is hollow next to
-    // it.
+fn balls_around_the_lamp_do_not_shadow_themselves() {
+    // A wide filter treats the ball's surface as its tangent plane, although the surface is
+    // concave.
     for (position, shadows, tolerance) in [
         ("(0, 0, 0)", "On()", 0),
         ("(0.5, 0.3, -0.8)", "On()", 0),
@@ -182,7 +183,7 @@ fn a_ball_around_the_lamp_is_lit_as_without_shadows() {
                 render(&white_scene(vec![hollow_ball(3.0, 40)], &rest), 2).expect("a picture")
             };
             let (with, without) = (render_with(shadows), render_with("Off"));
-            assert!(without.pixels.iter().all(|pixel| pixel[0] > 40), "there is light");
+            assert!(without.pixels.iter().all(|pixel| pixel[0] > 40), "the scene is lit");
             let pairs = with.pixels.iter().zip(&without.pixels);
             let most = pairs.map(|(a, b)| a[0].abs_diff(b[0])).max();
             assert!(most <= Some(tolerance), "{position} {shadows} {gaze}: {most:?}");
@@ -190,7 +191,8 @@ fn a_ball_around_the_lamp_is_lit_as_without_shadows() {
     }
 }
 
-/// A floor and three plates between it and a lamp, turned about the vertical axis through the lamp.
+/// Returns a floor and three plates between it and a lamp, turned about the vertical axis through
+/// the lamp.
 fn turned_room(degrees: f64, rest: &str) -> Scene {
     let angle = degrees.to_radians();
     let (sine, cosine) = (libm::sin(angle), libm::cos(angle));
@@ -214,16 +216,16 @@ fn turned_room(degrees: f64, rest: &str) -> Scene {
     white_scene(parts.into(), &rest)
 }
 
-/// The linear light of a code.
+/// Returns the linear light of a code.
 fn linear(code: u8) -> f64 {
     let srgb = f64::from(code) / 255.0;
     if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
 }
 
 #[test]
-fn penumbras_have_no_seams_where_faces_meet() {
-    // The borders of the faces cross the floor elsewhere when everything but the light's faces is
-    // turned.
+fn penumbras_have_no_seams_between_faces() {
+    // When everything except the light's faces is turned, the borders of the faces cross the floor
+    // elsewhere.
     let rest =
         "lights: [Point(position: (0, 0, 0), intensity: 8, shadows: On(softness_degrees: 6))],
         image: (size: (400, 300))";
@@ -236,14 +238,14 @@ fn penumbras_have_no_seams_where_faces_meet() {
         differences.sort_unstable_by(f64::total_cmp);
         let (most, last) =
             (differences[differences.len() * 999 / 1000], differences[differences.len() - 1]);
-        // The pattern of 48 positions falls differently in the penumbra; if a face ended there, at
+        // The pattern of 48 positions falls differently in the penumbra. If a face ended there, at
         // least half of the light would be missing.
         assert!(most < 0.05 && last < 0.15, "{degrees}: {most} {last}");
     }
 }
 
 #[test]
-fn parts_of_a_picture_in_the_light_of_a_lamp_unite() {
+fn regions_in_the_light_of_a_lamp_match_the_whole_picture() {
     let scene = turned_room(
         30.0,
         "lights: [Point(position: (0, 0, 0), intensity: 8, shadows: On(softness_degrees: 6))],

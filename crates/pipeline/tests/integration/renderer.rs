@@ -1,4 +1,5 @@
-//! A renderer's second picture: bit for bit as if rendered separately, without new allocations.
+//! A renderer's second picture has the bits of a separate rendering and needs no new large
+//! allocations.
 
 use pipeline::{
     CancelToken, Monitor, Origin, Picture, RenderContext, RenderError, Renderer, Scene, Textures,
@@ -7,7 +8,7 @@ use pipeline::{
 use std::path::Path;
 use std::sync::Arc;
 
-/// A scene of the project at a small size.
+/// Loads a scene of the project at a small size.
 fn load_scene(name: &str, size: (u32, u32)) -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name);
     let (origin, mut file) = Origin::read_scene(&path).expect("a scene of the project");
@@ -25,7 +26,7 @@ fn render_next(
 }
 
 #[test]
-fn a_second_picture_allocates_but_short_lists() {
+fn a_second_picture_allocates_only_short_lists() {
     for name in ["crates.ron", "panes.ron", "product.ron", "room.ron", "shadows.ron", "teapot.ron"]
     {
         let scene = load_scene(name, (160, 120));
@@ -36,10 +37,10 @@ fn a_second_picture_allocates_but_short_lists() {
         let first = allocation_counter::measure(&mut draw);
         let second = allocation_counter::measure(&mut draw);
         assert!(first.bytes_total > 100_000, "{name}: {first:?}");
-        // Lists of nodes and of each draw's textures: nothing that grows with vertices or pixels.
-        // Each shadow map traverses the nodes again.
+        // Only lists of nodes and of each draw's textures, and nothing that grows with vertices or
+        // pixels. Each shadow map traverses the nodes again.
         let maps = scene.lights.iter().filter(|light| light.shadow().is_some()).count() as u64;
-        // The occlusion of the ground has a grid of at most 192 × 192 cells for every picture.
+        // Ground occlusion allocates a grid of at most 192 × 192 cells for every picture.
         let has_grid = scene.ground.is_some_and(|ground| ground.occlusion.is_some());
         let grid = if has_grid { 192 * 192 * 24 } else { 0 };
         assert!(second.bytes_total < 20_000 + 4000 * maps + grid, "{name}: {second:?}");
@@ -47,7 +48,7 @@ fn a_second_picture_allocates_but_short_lists() {
 }
 
 #[test]
-fn pictures_do_not_depend_on_those_before() {
+fn pictures_do_not_depend_on_earlier_pictures() {
     let (mut renderer, mut picture) = (Renderer::default(), Picture::default());
     for (name, size) in [
         ("crates.ron", (160, 120)),
@@ -68,7 +69,7 @@ fn pictures_do_not_depend_on_those_before() {
 }
 
 #[test]
-fn a_canceled_picture_is_an_error_and_the_renderer_can_be_used_again() {
+fn canceling_is_an_error_and_the_renderer_can_be_reused() {
     let scene = load_scene("crates.ron", (160, 120));
     let textures = Textures::for_models(&scene.models);
     let (cancel, mut renderer) = (CancelToken::default(), Renderer::default());

@@ -1,4 +1,4 @@
-//! Shadows: tight at contacts, no self-shadowing, no light through walls.
+//! Shadows: tight contacts, no self-shadowing and no light leaks through walls.
 
 use homog::Affine;
 use homog::PixelRect;
@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 type Position = [f32; 3];
 
-/// A model made of parts, each with its material.
+/// Builds a model from parts with materials.
 fn build_model(parts: Vec<(Primitive, Material)>) -> Model {
     let (primitives, materials): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
     let primitives = primitives.into_iter().enumerate();
@@ -30,7 +30,7 @@ fn matte_material(red: f32, green: f32, blue: f32) -> Material {
     Material { base_color, metallic: 0.0, roughness: 1.0, ..Material::default() }
 }
 
-/// Black in any light except for its emission.
+/// Returns a material that is black in any light except for its emission.
 fn emissive_material(emissive: [f32; 3]) -> Material {
     Material { emissive, double_sided: true, ..matte_material(0.0, 0.0, 0.0) }
 }
@@ -41,12 +41,12 @@ fn quad_mesh(quads: &[[Position; 4]]) -> Primitive {
     Primitive { indices: indices.collect(), positions, ..Primitive::default() }
 }
 
-/// The square floor at y = 0 from −side to side.
+/// Returns the square floor at y = 0 from −side to side.
 fn floor_quad(side: f32) -> Primitive {
     quad_mesh(&[[[-side, 0.0, -side], [-side, 0.0, side], [side, 0.0, side], [side, 0.0, -side]]])
 }
 
-/// The sides of a box, and its top unless it is open.
+/// Returns the sides of a box, and its top if `top` is set.
 fn box_sides([x0, y0, z0]: Position, [x1, y1, z1]: Position, top: bool) -> Primitive {
     let mut faces = vec![
         [[x0, y0, z1], [x1, y0, z1], [x1, y1, z1], [x0, y1, z1]],
@@ -60,7 +60,7 @@ fn box_sides([x0, y0, z0]: Position, [x1, y1, z1]: Position, top: bool) -> Primi
     quad_mesh(&faces)
 }
 
-/// A coarse ball with smooth normals.
+/// Returns a coarse ball with smooth normals.
 fn ball_mesh(center: Position, radius: f32, rows: u32) -> Primitive {
     let columns = 2 * rows;
     let mut primitive = Primitive::default();
@@ -99,7 +99,7 @@ fn pixel_at(picture: &Picture, x: u32, y: u32) -> [u8; 4] {
     picture.pixels[(y * picture.width + x) as usize]
 }
 
-/// A box on a floor at 1080 lines, seen from one side.
+/// Renders a box on a floor at 1080 lines, seen from one side.
 fn render_box_on_floor(eye: &str, lights: &str) -> Picture {
     let parts = vec![
         (floor_quad(4.0), matte_material(0.8, 0.8, 0.8)),
@@ -114,7 +114,7 @@ fn render_box_on_floor(eye: &str, lights: &str) -> Picture {
     )
 }
 
-/// For each column through the middle of the box, the codes of the floor below it, starting at the
+/// Returns the codes of the floor below the box for each column through its middle, starting at the
 /// first pixel outside the box.
 fn pixels_below_box(picture: &Picture) -> Vec<Vec<u8>> {
     let is_box =
@@ -128,7 +128,7 @@ fn pixels_below_box(picture: &Picture) -> Vec<Vec<u8>> {
 }
 
 #[test]
-fn a_box_and_its_shadow_touch_and_its_lit_side_stays_lit() {
+fn boxes_touch_their_shadows_and_lit_sides_stay_lit() {
     for lights in [
         "Directional(direction: (1, -1, 0.1), intensity: 3, shadows: On())",
         "Directional(direction: (1, -1, 0.1), intensity: 3, shadows: On(softness_degrees: 0))",
@@ -138,7 +138,7 @@ fn a_box_and_its_shadow_touch_and_its_lit_side_stays_lit() {
         "Point(position: (-4, 4, -0.4), intensity: 90, shadows: On(softness_degrees: 3))",
     ] {
         for column in pixels_below_box(&render_box_on_floor("(5, 3, 0)", lights)) {
-            // Black from the second pixel on, and lit again where the shadow ends.
+            // Black from the second pixel on and lit again where the shadow ends.
             assert!(column[1..40].iter().all(|&code| code == 0), "{lights}: {:?}", &column[..40]);
             assert!(column.iter().any(|&code| code > 100), "{lights}");
         }
@@ -154,18 +154,19 @@ fn a_box_and_its_shadow_touch_and_its_lit_side_stays_lit() {
     }
 }
 
-/// The maximum difference in codes between a scene with and without shadows.
+/// Returns the maximum difference in codes between the scene with and without shadows.
 fn greatest_difference(parts: &[(Primitive, Material)], rest: &str, shadows: &str) -> u8 {
     let without = render_parts(parts.to_vec(), &format!("{rest}, shadows: Off"));
     let with = render_parts(parts.to_vec(), &format!("{rest}, shadows: {shadows}"));
-    assert!(without.pixels.iter().any(|pixel| pixel[0] > 60), "there is light");
+    assert!(without.pixels.iter().any(|pixel| pixel[0] > 60), "the scene is lit");
     let pairs = with.pixels.iter().zip(&without.pixels);
     pairs.map(|(a, b)| a[0].abs_diff(b[0])).max().expect("a pixel")
 }
 
 #[test]
 fn balls_do_not_shade_themselves_in_grazing_light() {
-    // A row of balls perpendicular to the light, from coarse to fine: none is in another's shadow.
+    // A row of balls perpendicular to the light, from coarse to fine. No ball is in the shadow of
+    // another.
     let balls: Vec<_> = [(-4.0, 12), (-2.0, 24), (0.0, 48), (2.0, 96), (4.0, 192)]
         .map(|(x, rows)| (ball_mesh([x, 0.0, 0.0], 0.9, rows), matte_material(0.8, 0.8, 0.8)))
         .into();
@@ -207,7 +208,7 @@ fn a_floor_and_a_bowl_do_not_shade_themselves() {
 }
 
 #[test]
-fn no_light_leaks_through_walls_without_thickness() {
+fn walls_without_thickness_do_not_leak_light() {
     let wall = Material { double_sided: true, ..matte_material(0.8, 0.8, 0.8) };
     for (light, shadows) in [
         ("Directional(direction: (1, -1, 0.3), intensity: 3)", "On()"),
@@ -225,8 +226,8 @@ fn no_light_leaks_through_walls_without_thickness() {
             lights: [{light}], shadows: {shadows}, image: (size: (960, 540), samples: 1)"
         );
         let picture = render_parts(room, &rest);
-        // Where a wall without thickness meets another, light and shade meet too: single pixels on
-        // the edges may be lit.
+        // Light and shade meet where two walls without thickness meet, so single pixels on the
+        // edges may be lit.
         let lit = |x: u32, y: u32| u32::from(pixel_at(&picture, x, y)[0] > 0);
         let all = (0..540).flat_map(|y| (0..960).map(move |x| (x, y)));
         let (mut count, mut clump) = (0, 0);
@@ -241,7 +242,7 @@ fn no_light_leaks_through_walls_without_thickness() {
 }
 
 #[test]
-fn masked_parts_cast_shadows_of_their_opaque_texels_and_blended_parts_none() {
+fn only_opaque_texels_of_masked_parts_cast_shadows_and_blended_parts_do_not() {
     let roof =
         || quad_mesh(&[[[-1.0, 1.0, -1.0], [-1.0, 1.0, 1.0], [1.0, 1.0, 1.0], [1.0, 1.0, -1.0]]]);
     let shade_of = |alpha: f32, alpha_mode: AlphaMode| {
@@ -280,7 +281,7 @@ fn shadows_are_the_same_for_any_number_of_threads() {
     assert!(one == render(&scene, 3).expect("a picture"));
 }
 
-/// A ball above a shadow-catching ground, with the sun directly overhead.
+/// Renders a ball above a shadow-catching ground, with the sun directly overhead.
 fn render_over_ground(background: &str, rest: &str) -> Picture {
     let ball = (ball_mesh([0.0, 1.0, 0.0], 0.5, 60), matte_material(0.8, 0.8, 0.8));
     render_parts(
@@ -292,7 +293,7 @@ fn render_over_ground(background: &str, rest: &str) -> Picture {
     )
 }
 
-/// The pixel of a ground position in that picture.
+/// Returns the pixel of a ground position in that picture.
 fn pixel_of_ground_point(x: f64, z: f64) -> (u32, u32) {
     let scene = shadow_scene(
         vec![(ball_mesh([0.0, 1.0, 0.0], 0.5, 60), matte_material(0.8, 0.8, 0.8))],
@@ -308,10 +309,10 @@ fn pixel_of_ground_point(x: f64, z: f64) -> (u32, u32) {
 }
 
 #[test]
-fn the_ground_shows_the_share_of_light_that_shadows_take() {
+fn ground_alpha_is_the_fraction_of_light_that_shadows_remove() {
     // 3 lux from the sun and 1 lux from all directions. Where the sun is hidden, three quarters of
-    // the light are missing. The ball also hides a part of the last quarter: its solid angle,
-    // weighted by the cosine.
+    // the light are missing. The ball also blocks part of the remaining quarter, namely its solid
+    // angle weighted by the cosine.
     let lights =
         "lights: [Directional(direction: (0, -1, 0), intensity: 3), Ambient(intensity: 1)]";
     let clear = render_over_ground("Transparent", lights);
@@ -328,11 +329,11 @@ fn the_ground_shows_the_share_of_light_that_shadows_take() {
             "{x} {z} {alpha} {expected}"
         );
     }
-    // Almost all light arrives next to the ball, and all of it far away.
+    // Almost all light arrives next to the ball, and all light arrives far away.
     for (x, z, most) in [(0.0, 0.8, 8), (-0.8, 0.0, 8), (-1.3, 1.0, 0)] {
         assert!(at(&clear, x, z)[3] <= most, "{x} {z}");
     }
-    // Over white, in linear light: less than a quarter is left.
+    // Over white, less than a quarter of the linear light is left.
     let white = render_over_ground("Color(\"#ffffff\")", lights);
     let [gray, _, _, alpha] = at(&white, 0.0, 0.3);
     assert!((118..130).contains(&gray) && alpha == 255, "{gray}");
@@ -351,7 +352,7 @@ fn occlusion_darkens_corners_but_not_open_surfaces() {
     };
     let floor = || (floor_quad(6.0), matte_material(0.8, 0.8, 0.8));
     let (without, with) = draw_both(vec![floor()], "Ambient(intensity: 3)");
-    assert!(without == with, "a plane is not occluded");
+    assert!(without == with, "a plane must not be occluded");
     let (without, with) = draw_both(
         vec![(ball_mesh([0.0; 3], 1.0, 60), matte_material(0.8, 0.8, 0.8))],
         "Ambient(intensity: 3)",
@@ -359,9 +360,10 @@ fn occlusion_darkens_corners_but_not_open_surfaces() {
     let pairs = with.pixels.iter().zip(&without.pixels);
     assert!(
         pairs.map(|(a, b)| a[0].abs_diff(b[0])).max() <= Some(8),
-        "a ball is not occluded except along its facets"
+        "a ball must not be occluded except along its facets"
     );
-    // A dark wall on a dark floor: half of the light is missing at its foot, and none far away.
+    // A dark wall on a dark floor: half of the light is missing at the foot of the wall, and none
+    // far away.
     let wall_on_floor = |albedo: f32| {
         let material = matte_material(albedo, albedo, albedo);
         let wall = box_sides([-6.0, 0.0, -4.0], [6.0, 4.0, -0.5], false);
@@ -388,9 +390,9 @@ fn occlusion_darkens_corners_but_not_open_surfaces() {
 }
 
 #[test]
-fn occlusion_has_no_stripes_beside_sharp_edges() {
-    // A box at 1080 lines, whose occlusion radius covers much of the screen; on the ground to the
-    // left of it.
+fn occlusion_has_no_stripes_next_to_sharp_edges() {
+    // A box at 1080 lines, with an occlusion radius that covers much of the screen. The test looks
+    // at the ground to the left of the box.
     let parts = vec![
         (floor_quad(6.0), matte_material(0.05, 0.05, 0.05)),
         (box_sides([-0.5, 0.0, -0.5], [0.5, 1.0, 0.5], true), matte_material(0.05, 0.05, 0.05)),
@@ -416,6 +418,6 @@ fn occlusion_has_no_stripes_beside_sharp_edges() {
         back = back.max(code(x + 1, y) - code(x, y));
     }
     let fall = code(0, 30) - code(100, 30);
-    assert!(fall > 8.0, "it is darker beside the box, by {fall}");
+    assert!(fall > 8.0, "it must be darker next to the box: {fall}");
     assert!(step < 0.5 && back < 0.25, "step {step}, back {back}");
 }

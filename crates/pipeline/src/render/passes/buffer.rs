@@ -61,7 +61,7 @@ impl PassBuffer {
         }
     }
 
-    /// The index of a pixel in row order; `None` outside the region.
+    /// Returns the index of a pixel in row order, or `None` outside the region.
     fn pixel_index(&self, x: u32, y: u32) -> Option<usize> {
         let inside = x < self.width && y < self.height;
         inside.then(|| y as usize * self.width as usize + x as usize)

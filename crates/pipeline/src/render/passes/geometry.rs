@@ -266,7 +266,7 @@ struct SurfacePoint {
     position: Point<World>,
 }
 
-/// The weighted sum of three vertex attributes.
+/// Returns the weighted sum of three vertex attributes.
 fn interpolate([a, b, c]: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     a * weights[0] + b * weights[1] + c * weights[2]
 }

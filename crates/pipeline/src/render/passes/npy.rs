@@ -1,26 +1,26 @@
 //! Passes as NumPy arrays: `numpy.load("picture.depth.npy")`.
 //!
-//! The format is NPY 1.0 (`numpy.lib.format`): a magic string, the length of the header, a Python
-//! literal that describes the array, padded so that the data begins at a multiple of 64 bytes, and
-//! the little-endian values.
+//! The format is NPY 1.0 (`numpy.lib.format`): a magic string, the header length, a Python literal
+//! that describes the array (padded so that the data begins at a multiple of 64 bytes), and the
+//! values in little-endian order.
 
 use super::buffer::{PassBuffer, PassValues};
 use std::fmt::Write;
 
 impl PassBuffer {
-    /// Encodes the pass as an NPY file: an array of rows × columns, or rows × columns × channels,
-    /// of f32 or u32.
+    /// Encodes the pass as an NPY file: an f32 or u32 array of rows × columns, or rows × columns ×
+    /// channels.
     #[must_use]
     pub fn to_npy(&self) -> Vec<u8> {
         let type_code = if self.pass.is_integer() { "<u4" } else { "<f4" };
         let mut shape = format!("{}, {}", self.height, self.width);
         if self.pass.channels() > 1 {
-            // Writing to a String does not fail.
+            // Writing to a String cannot fail.
             let _ = write!(shape, ", {}", self.pass.channels());
         }
         let mut header =
             format!("{{'descr': '{type_code}', 'fortran_order': False, 'shape': ({shape}), }}");
-        // Magic string, version and length take ten bytes; a line break ends the header.
+        // The magic string, version and length take ten bytes, and a line break ends the header.
         let padding = (64 - (10 + header.len() + 1) % 64) % 64;
         header.extend(std::iter::repeat_n(' ', padding));
         header.push('\n');
@@ -42,7 +42,7 @@ mod tests {
     use super::*;
     use scene_file::Pass;
 
-    /// Splits header and data like `numpy.lib.format` for version 1.0.
+    /// Splits header and data as `numpy.lib.format` does for version 1.0.
     fn parse_npy(bytes: &[u8]) -> (&str, &[u8]) {
         assert_eq!(&bytes[..8], b"\x93NUMPY\x01\x00");
         let length = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
@@ -52,7 +52,7 @@ mod tests {
     }
 
     #[test]
-    fn headers_follow_the_npy_format() {
+    fn headers_match_the_npy_format() {
         let values = PassValues::Floats((0..30).map(|n| n as f32 * 0.5).collect());
         let normal = PassBuffer { pass: Pass::Normal, width: 5, height: 2, values };
         let bytes = normal.to_npy();

@@ -1,4 +1,4 @@
-//! Passes as 16-bit PNG files, for image viewers and for tools that read no other format.
+//! Passes as 16-bit PNG files, for image viewers and for tools that support no other format.
 //!
 //! | pass | meaning of a code c from 0 to 65,535 |
 //! | --- | --- |
@@ -6,22 +6,22 @@
 //! | position, uv | likewise for each of red, green and blue; all 0 for background pixels |
 //! | normal, view-normal | c / 65,535 · 2 − 1; all 0 for background pixels |
 //! | barycentric, coverage | c / 65,535 |
-//! | integers | the value in gray; if any exceeds 65,535, c / 65,536 in red, the rest in green |
+//! | integers | the value in gray; if any value exceeds 65,535, its high 16 bits in red and its low 16 bits in green |
 //!
-//! min and max are the file's minimum and maximum. They are in its text chunk `Description`, with
-//! the pass and its unit.
+//! min and max are the minimum and maximum in the file. The text chunk `Description` records them,
+//! with the pass and its unit.
 
 use super::buffer::{PassBuffer, PassValues};
 use png::{BitDepth, ColorType, Compression, Encoder};
 use scene_file::Pass;
 use std::fmt::Write;
 
-/// The largest code.
+/// The maximum code.
 const MAX_CODE: f64 = 65_535.0;
 
 impl PassBuffer {
     /// Encodes the pass as a PNG file with 16 bits per channel: gray for one value per pixel,
-    /// otherwise red, green and blue.
+    /// otherwise RGB.
     #[must_use]
     pub fn to_png(&self) -> Vec<u8> {
         match &self.values {
@@ -30,7 +30,7 @@ impl PassBuffer {
         }
     }
 
-    /// Encodes floating-point values, each channel in a separate range.
+    /// Encodes floating-point values, with a separate range for each channel.
     fn floats_to_png(&self, values: &[f32]) -> Vec<u8> {
         let count = self.pass.channels();
         let mut text = format!("{}: {}", self.pass.name(), unit_description(self.pass));
@@ -52,7 +52,7 @@ impl PassBuffer {
         )
     }
 
-    /// The range of values spanned by the codes of a channel, which is also added to the
+    /// Returns the range of values that the codes of a channel span, and adds it to the
     /// description.
     fn code_range(&self, values: &[f32], channel: usize, text: &mut String) -> CodeRange {
         match self.pass {
@@ -72,12 +72,12 @@ impl PassBuffer {
             .map(|pixel| pixel[channel])
             .fold(empty, |(least, most), value| (least.min(value), most.max(value)));
         let (from, to) = if from <= to { (from, to) } else { (0.0, 0.0) };
-        // Writing to a String does not fail.
+        // Writing to a String cannot fail.
         let _ = write!(text, "; channel {}: 1 is {from}, 65535 is {to}", channel + 1);
         CodeRange { min: from.into(), max: to.into(), first_code: 1.0 }
     }
 
-    /// Encodes integers: one channel, or two for values beyond 16 bits.
+    /// Encodes integers in one channel, or in two if a value exceeds 16 bits.
     fn integers_to_png(&self, values: &[u32]) -> Vec<u8> {
         let text = format!("{}: {}", self.pass.name(), unit_description(self.pass));
         if values.iter().all(|value| *value <= 65_535) {
@@ -85,11 +85,11 @@ impl PassBuffer {
             return self.write_png16(&codes, ColorType::Grayscale, &text);
         }
         let codes = values.iter().flat_map(|value| [(value >> 16) as u16, *value as u16, 0]);
-        let text = format!("{text}; red times 65536 and green");
+        let text = format!("{text}; value is red * 65536 + green");
         self.write_png16(&codes.collect::<Vec<_>>(), ColorType::Rgb, &text)
     }
 
-    /// Writes codes as a PNG file with a description.
+    /// Encodes codes as a PNG file with a description.
     fn write_png16(&self, codes: &[u16], color: ColorType, text: &str) -> Vec<u8> {
         let mut bytes = Vec::new();
         let mut encoder = Encoder::new(&mut bytes, self.width, self.height);
@@ -101,23 +101,23 @@ impl PassBuffer {
         let written = text_result
             .and_then(|()| encoder.write_header())
             .and_then(|mut writer| writer.write_image_data(&data));
-        debug_assert!(written.is_ok(), "a pass has width x height pixels: {written:?}");
+        debug_assert!(written.is_ok(), "a pass must have width x height pixels: {written:?}");
         bytes
     }
 }
 
-/// The values of the first and the last code.
+/// The values of the first and last codes.
 struct CodeRange {
     /// The value of the first code.
     min: f64,
     /// The value of the last code, 65,535.
     max: f64,
-    /// The first code used for a value: 0, or 1 if 0 marks empty pixels.
+    /// The first code used for a value: 0, or 1 if 0 marks background pixels.
     first_code: f64,
 }
 
 impl CodeRange {
-    /// The code of a value, clamped to the range and rounded to nearest.
+    /// Returns the code of a value, clamped to the range and rounded to nearest.
     fn encode_value(&self, value: f64) -> u16 {
         let width = self.max - self.min;
         let fraction = if width > 0.0 { (value - self.min) / width } else { 0.0 };
@@ -125,23 +125,23 @@ impl CodeRange {
     }
 }
 
-/// The description of a pass's values in the file.
+/// Returns the description of a pass's values.
 const fn unit_description(pass: Pass) -> &'static str {
     match pass {
-        Pass::Depth => "scene units ahead of the eye along the view axis; 0 is nothing",
-        Pass::Distance => "scene units from the eye; 0 is nothing",
-        Pass::Normal => "unit normal in the world, 0 is -1, 65535 is 1",
-        Pass::ViewNormal => "unit normal in view space, 0 is -1, 65535 is 1",
-        Pass::Position => "place in the world in scene units",
-        Pass::Uv => "texture coordinates of TEXCOORD_0",
-        Pass::Barycentric => "shares of the three corners, 65535 is 1",
-        Pass::Id => "point, line or triangle of the scene, from 1; 0 is nothing",
-        Pass::Model => "model of the scene, from 1; 0 is nothing",
-        Pass::Node => "node of the model, from 1; 0 is nothing",
-        Pass::Mesh => "mesh of the model, from 1; 0 is nothing",
-        Pass::Material => "material of the model, from 1; 0 is nothing or the default",
+        Pass::Depth => "scene units from the eye along the view axis; 0 is background",
+        Pass::Distance => "scene units from the eye; 0 is background",
+        Pass::Normal => "unit normal in world space; 0 is -1, 65535 is 1",
+        Pass::ViewNormal => "unit normal in view space; 0 is -1, 65535 is 1",
+        Pass::Position => "world position in scene units",
+        Pass::Uv => "texture coordinates TEXCOORD_0",
+        Pass::Barycentric => "barycentric weights of the three corners; 65535 is 1",
+        Pass::Id => "point, line or triangle of the scene, from 1; 0 is background",
+        Pass::Model => "model of the scene, from 1; 0 is background",
+        Pass::Node => "node of the model, from 1; 0 is background",
+        Pass::Mesh => "mesh of the model, from 1; 0 is background",
+        Pass::Material => "material of the model, from 1; 0 is background or the default",
         Pass::Overdraw => "fragments that cover the pixel's center",
-        Pass::Coverage => "share of the pixel's samples covered, 65535 is 1",
+        Pass::Coverage => "fraction of the pixel's samples covered; 65535 is 1",
     }
 }
 
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn depths_run_from_one_to_the_last_code_and_nothing_is_zero() {
+    fn depths_span_codes_1_to_65535_and_background_is_0() {
         let values = PassValues::Floats(vec![f32::INFINITY, 2.0, 6.0, 3.0]);
         let buffer = PassBuffer { pass: Pass::Depth, width: 2, height: 2, values };
         let (codes, color, text) = decode_png(&buffer.to_png());
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn normals_and_large_numbers_take_three_channels() {
+    fn normals_and_large_integers_use_three_channels() {
         let values = PassValues::Floats(vec![-1.0, 0.0, 1.0]);
         let buffer = PassBuffer { pass: Pass::Normal, width: 1, height: 1, values };
         assert_eq!(decode_png(&buffer.to_png()).0, [0, 32_768, 65_535]);

@@ -1,12 +1,13 @@
 //! Shadow casters: the depth-only pass over all triangles that are not translucent.
 //!
-//! | material | casts |
+//! | material | casts a shadow |
 //! | --- | --- |
 //! | opaque | always |
-//! | masked (alpha test) | where its alpha passes the cutoff |
+//! | masked (alpha test) | where alpha passes the cutoff |
 //! | blended or transmissive | never: no colored or partial shadows |
 //!
-//! Points and lines cast no shadows either. The pass has separate ids, because it skips primitives.
+//! Points and lines do not cast shadows either. The pass has separate ids, because it skips
+//! primitives.
 
 use crate::render::RenderError;
 use crate::render::context::RenderContext;
@@ -22,7 +23,7 @@ use model::{MeshInstance, Model, ModelInstance, Primitive, TextureInfo, TextureS
 use raster::{CullMode, Fragment, Fragments, Frame, LANES, Opacity, SimdLevel, Surface};
 use shade::{Draw, DrawKind, DrawList, MaterialTextures, MipChain, Tangents};
 
-/// A surface for depth-only passes: it answers alpha tests and has no color.
+/// A surface for depth-only passes: it performs alpha tests and has no color.
 pub(in crate::render) struct DepthOnly<'a, 'b>(pub(in crate::render) &'b DrawList<'a>);
 
 impl Surface for DepthOnly<'_, '_> {
@@ -51,7 +52,7 @@ pub(super) struct CasterPass<'a, 'b> {
     pub(super) draws: &'b mut DrawList<'a>,
 }
 
-/// A primitive of a model, in one instance of its mesh.
+/// A primitive in one instance of its mesh.
 #[derive(Clone, Copy)]
 struct PlacedPrimitive<'a> {
     model_instance: &'a ModelInstance,
@@ -63,7 +64,7 @@ impl<'a> CasterPass<'a, '_> {
     /// Draws the opaque and masked triangles of all models.
     ///
     /// # Errors
-    /// The scene has more triangles than ids.
+    /// The scene has more triangles than there are ids.
     pub(super) fn draw_scene(&mut self, context: &RenderContext<'a>) -> Result<(), RenderError> {
         let RenderContext { scene, textures, threads, .. } = *context;
         let mut first_id = 0_u32;
@@ -84,8 +85,9 @@ impl<'a> CasterPass<'a, '_> {
         Ok(())
     }
 
-    /// Draws both faces of a primitive's triangles, and returns their number; 0 if it casts no
-    /// shadow. Back faces cast too, because open surfaces have no other side.
+    /// Draws both faces of a primitive's triangles and returns the number of triangles, or 0 if the
+    /// primitive casts no shadow. Back faces also cast shadows, because an open surface has no
+    /// other side.
     fn draw_primitive(
         &mut self,
         placed: PlacedPrimitive<'a>,
@@ -110,7 +112,7 @@ impl<'a> CasterPass<'a, '_> {
         DrawCall { transform, mesh, frame, opacity, cull_mode, point_size: 0.0 }
             .submit(primitive, first_id);
         if opacity == Opacity::Masked {
-            // The alpha test needs no anisotropic filtering.
+            // The alpha test does not need anisotropic filtering.
             let textures = MaterialTextures::new(material, 1, texture);
             let draw = masked_draw(model, instance, primitive, textures, mesh);
             self.draws.draws.push(Draw { first_id, ..draw });
@@ -119,8 +121,8 @@ impl<'a> CasterPass<'a, '_> {
     }
 }
 
-/// The draw call of a masked primitive: its material with only the texture coordinates and vertex
-/// colors that the alpha test reads.
+/// Returns the draw call of a masked primitive: its material, and only the texture coordinates and
+/// vertex colors that the alpha test reads.
 fn masked_draw<'a>(
     model: &'a Model,
     instance: MeshInstance,

@@ -1,13 +1,13 @@
 //! Cube shadow map fitting: the six cameras for a point light, cropped to its casters.
 //!
 //! ```text
-//!   ╲           ╱    a face sees 90° and, beyond them, what the filter's disc reaches from a
-//!    ╲┌──────┐ ╱     receiver at the border; its window is cropped to the casters in it.
-//!     │ ▟▛   │╱      Texels are alike on all faces, and so are near and far plane: a border
-//!     └──────●───    then looks the same from both sides.
+//!   ╲           ╱    a face covers 90° and a margin as wide as the filter's disc around a
+//!    ╲┌──────┐ ╱     receiver at the border. Its window is cropped to its casters.
+//!     │ ▟▛   │╱      All faces have the same texel size and near and far planes, so a
+//!     └──────●───    border looks the same from both sides.
 //!            │ light
 //! ```
-//! A face without casters has no map, nor does a face with nothing in the view.
+//! A face has no map if it has no casters or if nothing in the view is on its side.
 
 use super::light_fitting::{BORDER_TEXELS, LightCamera, ViewBounds, view_volume_corners};
 use camera::{Basis, Camera, ViewProjection};
@@ -27,10 +27,10 @@ const FACE_DIRECTIONS: [[f64; 3]; 6] = [
     [0.0, 0.0, 1.0],
     [0.0, 0.0, -1.0],
 ];
-/// The maximum total number of texels in the faces of all point lights: 0.8 GB. With more lights
-/// the faces are smaller.
+/// The maximum total number of texels in the faces of all point lights, which is 0.8 GB. With more
+/// lights the faces are smaller.
 const MAX_CUBE_TEXELS: f64 = (1_u32 << 26) as f64;
-/// The maximum ratio of the far plane's distance to the near plane's, for precision.
+/// The maximum ratio of the far distance to the near distance, for precision.
 const MAX_DEPTH_RATIO: f64 = 1e3;
 
 /// The cameras for a point light.
@@ -43,12 +43,12 @@ pub(super) struct CubeCameras {
     spread: f64,
     /// The distance of the near plane of all faces.
     near: f64,
-    /// The side of a texel at distance 1.
+    /// The side length of a texel at distance 1.
     texel: f64,
 }
 
 impl CubeCameras {
-    /// Fits cameras to a point light that casts shadows; `None` for other lights, and if no
+    /// Fits cameras to a point light that casts shadows. Returns `None` for other lights and if no
     /// triangle casts a shadow.
     pub(super) fn fit_to_light(scene: &Scene, light: &Light, shadow: Shadow) -> Option<Self> {
         let Light::Point { position, range, .. } = *light else { return None };
@@ -73,7 +73,7 @@ impl CubeCameras {
         Some(Self { faces, position, spread, near, texel })
     }
 
-    /// The cube of the maps rendered with these cameras.
+    /// Returns the cube of the maps rendered with these cameras.
     pub(super) fn to_cube(&self, faces: [Option<shade::ShadowMap>; 6]) -> ShadowCube {
         let (position, spread) = (self.position, self.spread as f32);
         let (nearest, texel) = (self.near as f32, self.texel as f32);
@@ -81,16 +81,18 @@ impl CubeCameras {
     }
 }
 
-/// The slope of the outermost direction on a disc of this radius around one at 45° from the axis.
+/// Returns the slope of the outermost direction on a disc of this radius around a direction at 45°
+/// from the axis.
 ///
-/// The worst case is at the corner of a face: there the disc moves x by r/√2 and the axis by −r/√2,
-/// from coordinates of 1/√3 each.
+/// The worst case is the corner of a face, where all coordinates are 1/√3. The disc moves x by r/√2
+/// and the axis coordinate by −r/√2.
 fn overlap_slope(radius: f64) -> f64 {
     let part = 1.5_f64.sqrt() * radius;
     (1.0 + part) / (1.0 - part)
 }
 
-/// The texels per 90° of a face: the requested number, or less if there are many lights.
+/// Returns the number of texels per 90° of a face: the requested number, or fewer if there are many
+/// lights.
 fn face_resolution(scene: &Scene, shadow: Shadow) -> f64 {
     let is_cube = |light: &&Light| matches!(light, Light::Point { shadow: Some(_), .. });
     let cubes = scene.lights.iter().filter(is_cube).count().max(1) as f64;
@@ -99,7 +101,7 @@ fn face_resolution(scene: &Scene, shadow: Shadow) -> f64 {
     f64::from(shadow.resolution).min(limit.floor()).max(16.0)
 }
 
-/// The camera of one face.
+/// Returns the camera of one face.
 fn fit_face(
     eye: DVec3,
     direction: [f64; 3],
@@ -117,7 +119,7 @@ fn fit_face(
         },
         size: cropped.size,
         center: eye + gaze.raw() * (0.5 * (near + far)),
-        // The cube has one penumbra for all faces.
+        // All faces of the cube share one penumbra.
         penumbra: 0.0,
         depth_at_infinity: Some(-near / (far - near)),
     })
@@ -132,7 +134,7 @@ struct CroppedWindow {
 }
 
 impl CroppedWindow {
-    /// The window around slopes with room for the filter, within `slope` of the axis.
+    /// Returns the window around slopes with a margin for the filter, within `slope` of the axis.
     fn around(bounds: ViewBounds, slope: f64, texel: f64) -> Option<Self> {
         let room = ((slope - 1.0) / texel).ceil() + BORDER_TEXELS;
         let end = (slope / texel).ceil() + BORDER_TEXELS;
@@ -148,7 +150,8 @@ impl CroppedWindow {
     }
 }
 
-/// The face coordinates of a position relative to the light: right, up, and along its axis.
+/// Returns the coordinates of a position relative to the light in the axes of a face: right, up and
+/// along its axis.
 fn face_coordinates(face: usize, p: DVec3) -> DVec3 {
     // The axes of `Basis::from_gaze_or_fallback` for these directions.
     match face {
@@ -161,10 +164,9 @@ fn face_coordinates(face: usize, p: DVec3) -> DVec3 {
     }
 }
 
-/// The sides of the six faces that a position is outside of, five bits for each face.
+/// Returns the sides of the six faces that a position is outside of, with five bits per face.
 ///
-/// Anything whose points share a bit is outside the face: a triangle, or a volume given by its
-/// corners.
+/// A triangle or a volume is outside a face if all its corners share one of the face's bits.
 fn outside_bits(p: DVec3, slope: f64) -> u32 {
     (0..6).fold(0, |bits, face| {
         let DVec3 { x, y, z } = face_coordinates(face, p);
@@ -175,14 +177,14 @@ fn outside_bits(p: DVec3, slope: f64) -> u32 {
     })
 }
 
-/// Whether the bits common to all positions place them outside a face.
+/// Whether the bits that all positions share place them outside a face.
 const fn is_outside_of(face: usize, common_bits: u32) -> bool {
     common_bits >> (5 * face) & 31 != 0
 }
 
-/// The faces that light anything in the view.
+/// Returns the faces through which the light reaches anything in the view.
 ///
-/// The ground is drawn beyond the far plane of the view, so all of it counts.
+/// All of the ground counts, because it is drawn beyond the far plane of the view too.
 fn visible_faces(scene: &Scene, eye: DVec3, slope: f64) -> [bool; 6] {
     let Some(corners) = view_volume_corners(scene) else { return [true; 6] };
     let ground = scene.ground.iter().flat_map(|ground| ground.corners);
@@ -191,19 +193,19 @@ fn visible_faces(scene: &Scene, eye: DVec3, slope: f64) -> [bool; 6] {
     std::array::from_fn(|face| !is_outside_of(face, common))
 }
 
-/// The triangles around a point light: their extent on each face, and their distances.
+/// The extent and distances of the triangles around a point light.
 struct CubeCasters {
-    /// The slopes of the triangles on each face; empty without triangles.
+    /// The slopes of the triangles on each face; empty if there are no triangles.
     slopes: [ViewBounds; 6],
     /// A distance along the axes within which there are no triangles.
     nearest: f64,
-    /// The maximum distance of a vertex along the axes.
+    /// The maximum vertex distance along the axes.
     farthest: f64,
 }
 
 impl CubeCasters {
-    /// The triangles of the models that begin within the range of a light at `eye`; `None` if there
-    /// are none.
+    /// Collects the triangles of the models that begin within the range of a light at `eye`, or
+    /// returns `None` if there are none.
     ///
     /// Slopes are bounded by `max_slope`.
     fn from_models(
@@ -238,7 +240,7 @@ impl CubeCasters {
         is_lit.then_some(casters)
     }
 
-    /// Adds a triangle, given its vertices and their outside bits.
+    /// Adds a triangle with the outside bits of its vertices.
     fn add_triangle(&mut self, triangle: [(DVec3, u32); 3], range: f64, max_slope: f64) {
         let positions = triangle.map(|(position, _)| position);
         let [a, b, c] = positions;
@@ -247,7 +249,7 @@ impl CubeCasters {
         if !is_in_range {
             return;
         }
-        // A bit that all vertices share puts the triangle outside one plane of a face.
+        // A bit that all vertices share means that the triangle is outside a plane of a face.
         let common = triangle.iter().fold(u32::MAX, |common, (_, bits)| common & bits);
         for (face, slopes) in self.slopes.iter_mut().enumerate() {
             if is_outside_of(face, common) {
@@ -255,7 +257,7 @@ impl CubeCasters {
             }
             let own = positions.map(|p| face_coordinates(face, p));
             let least = own.iter().fold(f64::INFINITY, |least, p| least.min(p.z));
-            // On the face, the distance of a point is at most √(1 + 2 slope²) times its depth.
+            // The distance of a point on the face is at most √(1 + 2 slope²) times its depth.
             let by_plane = plane_distance / (1.0 + 2.0 * max_slope * max_slope).sqrt();
             self.nearest = self.nearest.min(by_plane.max(least));
             self.farthest = own.iter().fold(self.farthest, |most, p| most.max(p.z));
@@ -266,7 +268,7 @@ impl CubeCasters {
                     slopes.include(slope.clamp(-limit, limit));
                 }
             } else {
-                // A triangle that reaches behind the light may cover any slope.
+                // A triangle that extends behind the light may cover any slope.
                 slopes.include(-limit);
                 slopes.include(limit);
             }
@@ -279,7 +281,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_coordinates_of_faces_are_those_of_their_cameras() {
+    fn face_coordinates_match_the_cameras() {
         let position = DVec3::new(1.0, 2.0, 3.0);
         for (face, direction) in FACE_DIRECTIONS.into_iter().enumerate() {
             let gaze = Vector::<World>::from(direction);
@@ -292,13 +294,13 @@ mod tests {
     }
 
     #[test]
-    fn positions_are_outside_of_all_faces_but_those_they_are_seen_on() {
+    fn positions_are_outside_every_face_that_does_not_see_them() {
         for (face, direction) in FACE_DIRECTIONS.into_iter().enumerate() {
             let bits = outside_bits(DVec3::from(direction) * 2.0, 1.2);
             let seen: Vec<usize> = (0..6).filter(|&at| !is_outside_of(at, bits)).collect();
             assert_eq!(seen, [face]);
         }
-        // Next to a border within the overlap: two faces.
+        // Near a border, within the overlap, two faces see the position.
         let bits = outside_bits(DVec3::new(1.0, 1.1, 0.0), 1.2);
         assert!(!is_outside_of(0, bits) && !is_outside_of(2, bits) && is_outside_of(4, bits));
     }

@@ -1,4 +1,4 @@
-//! Height maps of the models from below and from above, for the occlusion of the ground.
+//! Height maps of the models, from below and from above, for ground occlusion.
 //!
 //! ```text
 //!   ▼ ▼ ▼ ▼ ▼ ▼   highest surfaces      two orthographic depth passes over one grid
@@ -19,19 +19,19 @@ use shade::{GroundGrid, GroundOcclusion, HeightSlab, ShadowMap};
 
 /// The maximum number of cells along the grid's longer side.
 const MAX_GRID_CELLS: u32 = 192;
-/// The number of pixels along the picture's longer side per cell: a contact shadow is smooth, so
+/// The number of pixels per cell along the picture's longer side. A contact shadow is smooth, so
 /// small pictures do not need more cells.
 const PIXELS_PER_CELL: u32 = 3;
 
-/// The depths of a height map, with the planes that bound them.
+/// The depths of a height map and the planes that bound them.
 struct HeightMap {
     map: ShadowMap,
-    /// The heights above the ground at depth 1 and depth 0.
+    /// The heights above the ground at depths 1 and 0.
     heights: [f64; 2],
 }
 
 impl HeightMap {
-    /// The height of a texel above the ground; `None` if it is empty.
+    /// Returns the height of a texel above the ground, or `None` if the texel is empty.
     fn height(&self, index: usize) -> Option<f32> {
         let depth = f64::from(self.map.texels[index].depth);
         let [near, far] = self.heights;
@@ -40,7 +40,8 @@ impl HeightMap {
 }
 
 impl ShadowMapRenderer {
-    /// The occlusion of the scene's ground in light from all directions; `None` if it shows none.
+    /// Renders the occlusion of the scene's ground in light from all directions, or returns `None`
+    /// if the ground shows no occlusion.
     pub(super) fn render_ground_occlusion(
         &mut self,
         context: &RenderContext<'_>,
@@ -64,17 +65,17 @@ impl ShadowMapRenderer {
         let slab = |index: usize| {
             let (low, high) = (lowest.height(mirrored(index))?, highest.height(index)?);
             let low = low.max(0.0);
-            // A single sheet is thin, but not of zero thickness.
+            // A single sheet is thin but does not have zero thickness.
             Some(HeightSlab { low, high: high.max(low * (1.0 + 1e-4) + 1e-4 * grid.cell) })
         };
         let slabs: Vec<_> =
             (0..columns * rows).map(|index| slab(index).unwrap_or(HeightSlab::EMPTY)).collect();
-        // Reversed, so that each map gets its memory back.
+        // Reversed, so that each map reuses its own memory.
         self.map_pool.extend([highest.map, lowest.map]);
         Ok(Some(GroundOcclusion::compute(grid, &slabs, context.threads)))
     }
 
-    /// Renders the surfaces nearest to the ground, or the farthest.
+    /// Renders the surfaces nearest to the ground or farthest from it.
     fn render_heights(
         &mut self,
         context: &RenderContext<'_>,
@@ -91,12 +92,12 @@ impl ShadowMapRenderer {
     }
 }
 
-/// The grid of an area, with `cells` square cells along its longer side; `None` if the area is too
-/// large or small for `f32`.
+/// Returns the grid of an area, with `cells` square cells along its longer side, or `None` if the
+/// area is too large or too small for `f32`.
 fn occlusion_grid(area: OcclusionArea, cells: u32) -> Option<GroundGrid> {
     let (low, extent) = (area.low.raw(), area.high.raw() - area.low.raw());
     let cell = extent.x.max(extent.z) / f64::from(cells);
-    // Frames have at least 16 pixels per side.
+    // A frame has at least 16 pixels per side.
     let count = |side: f64| ((side / cell).ceil() as usize).clamp(16, cells as usize);
     let (cell_f32, fade) = (cell as f32, area.margin as f32);
     let corner = [low.x as f32, low.z as f32];
@@ -105,11 +106,11 @@ fn occlusion_grid(area: OcclusionArea, cells: u32) -> Option<GroundGrid> {
     is_usable.then_some(GroundGrid { corner, cell: cell_f32, size, fade })
 }
 
-/// The orthographic camera over a grid, looking from the first to the second height.
+/// Returns the orthographic camera over a grid, looking from the first to the second height.
 fn height_camera(area: OcclusionArea, grid: GroundGrid, heights: [f64; 2]) -> Option<LightCamera> {
     let [near, far] = heights;
     let gaze = if near < far { Vector::Y } else { -Vector::Y };
-    // Straight up and down: x to the right, z up or down in the picture.
+    // The camera looks straight up or down: x is to the right, and z is up or down in the picture.
     let basis = Basis::from_gaze_or_fallback(gaze, Vector::Y).ok()?;
     let cell = f64::from(grid.cell);
     let [half_x, half_z] = grid.size.map(|count| 0.5 * count as f64 * cell);

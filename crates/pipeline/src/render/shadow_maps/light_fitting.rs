@@ -1,14 +1,15 @@
-//! Shadow map fitting: the camera for a light, with a view volume as small as possible, so that
+//! Shadow map fitting: finds a camera for a light with the smallest possible view volume, so that
 //! texels are small.
 //!
 //! ```text
-//!   sun ─►│ ┌──────────────┐ │     near and far plane enclose the whole scene, since casters
-//!         │ │    ┌───────┐ │ │     between the light and the view count;
+//!   sun ─►│ ┌──────────────┐ │     the near and far planes enclose the whole scene, because
+//!         │ │    ┌───────┐ │ │     casters between the light and the view matter;
 //!   light │ │    │ view  │ │ │     the window encloses only the part in the camera's view.
 //!   rays  │ │    └───────┘ │ │
 //!        near     scene     far
 //! ```
-//! A spot's volume is its cone, or, if smaller, the part of the cone that contains the scene.
+//! The volume of a spot light is its cone, or the part of the cone that contains the scene if that
+//! is smaller.
 
 use camera::{Basis, Camera, ViewProjection};
 use glam::{DVec3, Vec3};
@@ -18,16 +19,16 @@ use projection::{Convention, Frustum, Orthographic, Window};
 use scene::Scene;
 use shade::{Light, Shadow};
 
-/// The camera for a light, fitted to the scene.
+/// A light's camera, fitted to the scene.
 #[derive(Debug)]
 pub(super) struct LightCamera {
     /// Camera and projection of the light.
     pub(super) view_projection: ViewProjection,
     /// Width and height of the shadow map in texels.
     pub(super) size: [u32; 2],
-    /// The center of the scene in the world, as the origin of f32 coordinates.
+    /// The center of the scene in the world, used as the origin of f32 coordinates.
     pub(super) center: DVec3,
-    /// The width of the penumbra in texels per unit of depth between caster and receiver; see
+    /// The penumbra width in texels per unit of depth between caster and receiver; see
     /// [`ShadowMap::set_penumbra`](shade::ShadowMap::set_penumbra).
     pub(super) penumbra: f64,
     /// For a perspective map, the limit of its depth at infinite distance; `None` if depth is
@@ -35,14 +36,14 @@ pub(super) struct LightCamera {
     pub(super) depth_at_infinity: Option<f64>,
 }
 
-/// The tangent of the widest half angle of a spot's map. Beyond it everything is lit.
+/// The tangent of the maximum half angle of a spot light's map. Everything beyond it is lit.
 const MAX_SPOT_SLOPE: f64 = 8.0;
 /// Number of empty texels around the casters, for filtering across the border.
 pub(super) const BORDER_TEXELS: f64 = 3.0;
 
 impl LightCamera {
-    /// Fits a camera to a light that casts shadows; `None` for lights without direction, and if the
-    /// light reaches no triangle.
+    /// Fits a camera to a light that casts shadows. Returns `None` for lights without a direction
+    /// and if the light reaches no triangle.
     pub(super) fn fit_to_light(scene: &Scene, light: &Light, shadow: Shadow) -> Option<Self> {
         match *light {
             Light::Sun { to_light: towards, .. } => {
@@ -51,7 +52,7 @@ impl LightCamera {
             Light::Spot { position, axis, cosines, .. } => {
                 fit_spot(scene, position.map(f64::from), axis.map(f64::from), cosines[1], shadow)
             }
-            // A point light has six cameras, from `cube_fitting`.
+            // A point light has six cameras; see `cube_fitting`.
             Light::Point { .. } | Light::Ambient { .. } => None,
         }
     }
@@ -67,7 +68,7 @@ pub(super) struct ViewBounds {
 }
 
 impl ViewBounds {
-    /// The box of no points: any point extends it.
+    /// The empty box, which any point extends.
     pub(super) const EMPTY: Self =
         Self { min: DVec3::splat(f64::INFINITY), max: DVec3::splat(f64::NEG_INFINITY) };
 
@@ -79,7 +80,7 @@ impl ViewBounds {
         }
     }
 
-    /// The center of the box.
+    /// Returns the center of the box.
     fn center(self) -> DVec3 {
         0.5 * (self.min + self.max)
     }
@@ -91,13 +92,13 @@ struct FittedWindow {
     window: Window,
     /// Width and height in texels, at least 16.
     size: [u32; 2],
-    /// The side of a texel in units of the window.
+    /// The side length of a texel in window units.
     texel: f64,
 }
 
 impl FittedWindow {
-    /// The window around x and y of the bounds, with a border; its longer side has `resolution`
-    /// texels and a length of at least `min_side`.
+    /// Returns the window around the x and y bounds, with a border. Its longer side has
+    /// `resolution` texels and is at least `min_side` long.
     fn around(bounds: ViewBounds, min_side: f64, resolution: u32) -> Option<Self> {
         let (width, height) = (bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
         let longest = width.max(height).max(min_side);
@@ -114,7 +115,7 @@ impl FittedWindow {
     }
 }
 
-/// Calls `each` with every vertex of the models, in a light's view space.
+/// Calls `each` with every vertex of the models in a light's view space.
 fn for_each_vertex(models: &[ModelInstance], camera: Camera, mut each: impl FnMut(DVec3)) {
     let world_to_view = camera.world_to_view();
     for ModelInstance { model, model_to_world } in models {
@@ -130,7 +131,7 @@ fn for_each_vertex(models: &[ModelInstance], camera: Camera, mut each: impl FnMu
 
 /// Fits an orthographic camera to a directional light that travels along `travel`.
 ///
-/// The size in texels follows the shape of the window: texels are square, and the longer side has
+/// Texels are square, so the size in texels follows the shape of the window. The longer side has
 /// the requested resolution.
 fn fit_directional(scene: &Scene, travel: [f64; 3], shadow: Shadow) -> Option<LightCamera> {
     let gaze = Vector::<World>::from(travel);
@@ -141,20 +142,20 @@ fn fit_directional(scene: &Scene, travel: [f64; 3], shadow: Shadow) -> Option<Li
     if scene_bounds.min.x > scene_bounds.max.x {
         return None;
     }
-    // Above 0 even for a flat scene, or the near and far planes would coincide.
+    // Must be positive even for a flat scene; otherwise the near and far planes would coincide.
     let depth = (scene_bounds.max.z - scene_bounds.min.z)
         .max(1e-9 * scene_bounds.min.abs().max_element())
         .max(1e-30);
     let mut visible_bounds = scene_bounds;
     if let Some(view) = view_volume_bounds(scene, camera) {
-        // A margin for soft shadows: their casters may be just outside the view.
+        // The margin is for soft shadows, whose casters may be just outside the view.
         let blur_margin = depth * (0.5 * f64::from(shadow.softness)).min(0.5);
         visible_bounds.min = scene_bounds.min.max(view.min - blur_margin).min(scene_bounds.max);
         visible_bounds.max = scene_bounds.max.min(view.max + blur_margin).max(scene_bounds.min);
     }
     let fitted = FittedWindow::around(visible_bounds, 1e-6 * depth, shadow.resolution)?;
     let center = visible_bounds.center();
-    // A margin of 1 % keeps the outermost casters inside despite rounding.
+    // A margin of 1% keeps the outermost casters inside despite rounding.
     let (near, far) = (-scene_bounds.max.z - 0.01 * depth, -scene_bounds.min.z + 0.01 * depth);
     let light_volume = Orthographic::from_window(fitted.window, near, far).ok()?;
     let slope = libm::tan(0.5 * f64::from(shadow.softness));
@@ -170,8 +171,8 @@ fn fit_directional(scene: &Scene, travel: [f64; 3], shadow: Shadow) -> Option<Li
     })
 }
 
-/// The bounding box of the scene camera's view volume in a light's view space; `None` if the volume
-/// is infinite.
+/// Returns the bounding box of the scene camera's view volume in a light's view space, or `None` if
+/// the volume is infinite.
 fn view_volume_bounds(scene: &Scene, camera: Camera) -> Option<ViewBounds> {
     let world_to_view = camera.world_to_view();
     let mut bounds = ViewBounds::EMPTY;
@@ -181,7 +182,8 @@ fn view_volume_bounds(scene: &Scene, camera: Camera) -> Option<ViewBounds> {
     Some(bounds)
 }
 
-/// The corners of the scene camera's view volume in the world; `None` if it is infinite.
+/// Returns the corners of the scene camera's view volume in the world, or `None` if the volume is
+/// infinite.
 pub(super) fn view_volume_corners(scene: &Scene) -> Option<[DVec3; 8]> {
     let clip_to_world = scene.view_projection.world_to_clip().raw().inverse();
     let corners = std::array::from_fn(|corner| {
@@ -198,7 +200,7 @@ fn view_to_world_point(camera: Camera, point: DVec3) -> DVec3 {
     camera.eye().raw() + offset.raw()
 }
 
-/// Fits a perspective camera to a spot light; `cosine` is the cosine of its outer half angle.
+/// Fits a perspective camera to a spot light. `cosine` is the cosine of its outer half angle.
 fn fit_spot(
     scene: &Scene,
     position: [f64; 3],
@@ -223,7 +225,7 @@ fn fit_spot(
     if !(farthest > 0.0 && farthest.is_finite()) {
         return None;
     }
-    // Triangles that begin behind the light may be anywhere in its cone.
+    // A triangle that begins behind the light may be anywhere in its cone.
     let (mut min, mut max) = (DVec3::splat(-max_slope), DVec3::splat(max_slope));
     if nearest > 0.0 {
         min = slopes.min.max(min).min(max);

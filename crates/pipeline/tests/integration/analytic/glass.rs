@@ -1,8 +1,8 @@
-//! Smooth thin glass, and the tint of all glass: products of transmittances, Beer's law, alpha.
+//! Smooth thin glass, and the tint of any glass: products of transmittances, Beer's law and alpha.
 
 use super::*;
 
-/// Glass without mirror reflection, with additional members in its volume extension.
+/// Returns glass without mirror reflection, with additional members in its volume extension.
 fn glass_material(color: [f64; 3], volume: &str) -> String {
     let [r, g, b] = color;
     format!(
@@ -14,8 +14,9 @@ fn glass_material(color: [f64; 3], volume: &str) -> String {
 }
 
 #[test]
-fn glass_tints_what_is_behind_it_by_channels() {
-    // Over white, the product of all transmittances, in any order; over colors, times those too.
+fn glass_tints_its_background_per_channel() {
+    // Over white, the result is the product of all transmittances in any order. Over a color, it is
+    // multiplied by that color.
     let colors = [[0.9, 0.3, 0.2], [0.5, 0.8, 1.0], [0.7, 0.7, 0.7]];
     let mut expected = [1.0; 3];
     for color in colors {
@@ -33,13 +34,13 @@ fn glass_tints_what_is_behind_it_by_channels() {
         parts.push(square_part(-0.5, &opaque));
         let middle = render_parts(&parts, rest).pixel(20, 20).unwrap();
         let expected = [0, 1, 2].map(|k: usize| expected[k] * behind[k]);
-        assert_near(middle, expected, &format!("{order:?} over a colour"));
+        assert_near(middle, expected, &format!("{order:?} over a color"));
     }
 }
 
 #[test]
-fn bodies_of_glass_tint_by_their_thickness_in_the_world() {
-    // Beer's law: the attenuation color to the power of thickness over distance, times the base
+fn glass_volumes_tint_by_their_world_space_thickness() {
+    // Beer's law: the attenuation color raised to the power thickness / distance, times the base
     // color.
     let volume =
         r#""thicknessFactor":0.5,"attenuationDistance":0.8,"attenuationColor":[0.9,0.5,0.1]"#;
@@ -55,8 +56,8 @@ fn bodies_of_glass_tint_by_their_thickness_in_the_world() {
 }
 
 #[test]
-fn glass_that_is_partly_there_lets_the_rest_pass_untinted() {
-    // KHR_materials_transmission: alpha is coverage; the uncovered part shows the background
+fn partly_covering_glass_tints_only_the_covered_part() {
+    // In KHR_materials_transmission alpha is coverage, and the uncovered part shows the background
     // unchanged.
     let material = glass_material([0.9, 0.3, 0.2], "")
         .replace(r#"{"extensions""#, r#"{"alphaMode":"BLEND","extensions""#);
@@ -64,7 +65,7 @@ fn glass_that_is_partly_there_lets_the_rest_pass_untinted() {
     let rest = r##"lights: [], image: (size: (40, 40), background: Color("#fff"))"##;
     let found = render_parts(&[square_part(0.0, &material)], rest).pixel(20, 20).unwrap();
     assert_near(found, [0.9, 0.3, 0.2].map(|c| 0.4 + 0.6 * c), "coverage 0.6");
-    // Over a transparent background there is one alpha: the alpha of an equally bright gray.
+    // Over a transparent background there is a single alpha, from a gray of the same brightness.
     let rest = "lights: [], image: (size: (40, 40))";
     let found = render_parts(&[square_part(0.0, &glass_material([0.9, 0.3, 0.2], ""))], rest)
         .pixel(20, 20)

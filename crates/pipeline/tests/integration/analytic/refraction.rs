@@ -3,7 +3,7 @@
 use super::*;
 use homog::PixelRect;
 
-/// Glass of this roughness without mirror reflection, with additional extensions.
+/// Returns glass of this roughness without mirror reflection, with additional extensions.
 fn bending_glass(roughness: f64, color: [f64; 3], extensions: &str) -> String {
     let [r, g, b] = color;
     format!(
@@ -23,7 +23,7 @@ fn thick_glass(ior: f64, thickness: f64, dispersion: f64) -> String {
     bending_glass(0.0, [1.0; 3], &extensions)
 }
 
-/// An opaque surface whose color is shown unchanged.
+/// Returns an opaque material whose color is shown unchanged.
 fn opaque_material([r, g, b]: [f64; 3]) -> String {
     format!(
         r#"{{"extensions":{{"KHR_materials_unlit":{{}}}},
@@ -31,7 +31,7 @@ fn opaque_material([r, g, b]: [f64; 3]) -> String {
     )
 }
 
-/// A rectangle far behind the glass, white from x = 0 to the right.
+/// Returns a white rectangle far behind the glass, from x = 0 to the right.
 fn white_half() -> TestPart {
     let mut part = square_part(-2.0, &opaque_material([1.0; 3]));
     for [x, y, _] in &mut part.positions {
@@ -40,7 +40,7 @@ fn white_half() -> TestPart {
     part
 }
 
-/// The square tilted by 45 degrees about y: its normal leans to the left.
+/// Returns the square tilted by 45 degrees about y, with its normal leaning to the left.
 fn tilted_square(material: &str) -> TestPart {
     let mut part = square_part(0.0, material);
     for [x, _, z] in &mut part.positions {
@@ -51,14 +51,15 @@ fn tilted_square(material: &str) -> TestPart {
     part
 }
 
-/// Black on the left and white on the right, seen through a part; `side` pixels correspond to 2.2
-/// units.
+/// Renders a background that is black on the left and white on the right, seen through a part.
+/// `side` pixels correspond to 2.2 units.
 fn render_edge(part: TestPart, side: u32) -> Picture {
     let image = format!(r##"size: ({side}, {side}), background: Color("#000"), samples: 4"##);
     render_parts(&[part, white_half()], &format!("lights: [], image: ({image})"))
 }
 
-/// The column, in pixels from the left, at which a channel of the middle row exceeds a threshold.
+/// Returns the column, in pixels from the left, at which a channel of the middle row exceeds a
+/// threshold.
 fn rising_column(picture: &Picture, channel: usize, threshold: f64) -> f64 {
     let light = |x: u32| {
         let pixel = picture.pixel(x, picture.height / 2).expect("a pixel");
@@ -71,7 +72,8 @@ fn rising_column(picture: &Picture, channel: usize, threshold: f64) -> f64 {
     f64::from(x) - 0.5 + (threshold - before) / (after - before)
 }
 
-/// The number of columns by which Snell's law shifts the background seen through the tilted square.
+/// Returns the number of columns by which Snell's law shifts the background seen through the tilted
+/// square.
 fn expected_shift(ior: f64, thickness: f64, side: u32) -> f64 {
     let incident = PI / 4.0;
     let refracted = libm::asin(libm::sin(incident) / ior);
@@ -79,29 +81,32 @@ fn expected_shift(ior: f64, thickness: f64, side: u32) -> f64 {
 }
 
 #[test]
-fn thick_glass_displaces_an_edge_by_the_law_of_snell() {
+fn thick_glass_shifts_an_edge_by_snells_law() {
     for (ior, thickness) in [(1.33, 0.6), (1.5, 0.3), (1.5, 0.6), (2.4, 0.6)] {
         let picture = render_edge(tilted_square(&thick_glass(ior, thickness, 0.0)), 200);
         let shift = 100.0 - rising_column(&picture, 1, 0.5);
         let expected = expected_shift(ior, thickness, 200);
-        assert!((shift - expected).abs() < 1.0, "{ior} {thickness}: {shift}, not {expected}");
+        assert!(
+            (shift - expected).abs() < 1.0,
+            "{ior} {thickness}: shift {shift}, expected {expected}"
+        );
     }
 }
 
 #[test]
-fn dispersion_refracts_blue_more_than_green_and_green_more_than_red() {
+fn dispersion_refracts_blue_most_and_red_least() {
     let picture = render_edge(tilted_square(&thick_glass(1.5, 0.6, 10.0)), 200);
     let shifts = [0, 1, 2].map(|channel| 100.0 - rising_column(&picture, channel, 0.5));
     assert!(shifts[0] + 1.0 < shifts[1] && shifts[1] + 1.0 < shifts[2], "{shifts:?}");
-    // Half of the spread: a fortieth of (n − 1) for each unit of dispersion.
+    // Half of the spread is (n − 1) / 40 per unit of dispersion.
     for (shift, ior) in shifts.into_iter().zip([1.375, 1.5, 1.625]) {
         let expected = expected_shift(ior, 0.6, 200);
-        assert!((shift - expected).abs() < 1.0, "{ior}: {shift}, not {expected}");
+        assert!((shift - expected).abs() < 1.0, "{ior}: shift {shift}, expected {expected}");
     }
 }
 
-/// The number of columns over which an edge behind glass of this roughness rises from one quarter
-/// to three quarters.
+/// Returns the number of columns over which an edge behind glass of this roughness rises from one
+/// quarter to three quarters.
 fn edge_width(roughness: f64, side: u32) -> f64 {
     let glass = bending_glass(roughness, [1.0; 3], "");
     let picture = render_edge(square_part(0.0, &glass), side);
@@ -109,20 +114,20 @@ fn edge_width(roughness: f64, side: u32) -> f64 {
 }
 
 #[test]
-fn rough_glass_blurs_an_edge_the_more_the_rougher_it_is() {
+fn rougher_glass_blurs_an_edge_more() {
     let mut last = edge_width(0.0, 200);
     for roughness in [0.1, 0.2, 0.35, 0.5, 0.6] {
         let width = edge_width(roughness, 200);
         assert!(width > 1.1 * last, "{roughness}: {width} after {last}");
         last = width;
     }
-    // The blur is a constant fraction of the picture at every size.
+    // The blur is the same fraction of the picture at every size.
     let (small, large) = (edge_width(0.5, 150), edge_width(0.5, 600));
     assert!((large / small / 4.0 - 1.0).abs() < 0.2, "{small} {large}");
 }
 
 #[test]
-fn rough_and_thick_glass_in_white_surroundings_neither_loses_nor_makes_light() {
+fn rough_and_thick_glass_in_white_surroundings_conserves_light() {
     let volume = r#""KHR_materials_volume":{"thicknessFactor":0.7},"#;
     for (roughness, volume, background) in [
         (0.2, "", "Environment()"),
@@ -152,7 +157,7 @@ fn rough_and_thick_glass_in_white_surroundings_neither_loses_nor_makes_light() {
 }
 
 #[test]
-fn panes_before_rough_glass_are_blended_over_it_and_those_behind_it_are_lost() {
+fn panes_in_front_of_rough_glass_are_blended_and_panes_behind_it_are_lost() {
     let (green, tint) = ([0.2, 0.9, 0.4], [0.9, 0.5, 0.7]);
     let glass = bending_glass(0.4, tint, "");
     let pane = |z: f32| square_part(z, &pane_material(PANES[0]));
@@ -170,14 +175,13 @@ fn panes_before_rough_glass_are_blended_over_it_and_those_behind_it_are_lost() {
 }
 
 #[test]
-fn a_transparent_background_is_as_transparent_behind_rough_glass() {
+fn transparent_backgrounds_stay_transparent_behind_rough_glass() {
     let tint = [0.9, 0.3, 0.2];
     let parts = || [square_part(0.0, &bending_glass(0.5, tint, ""))];
     let found = render_parts(&parts(), "lights: [], image: (size: (40, 40))");
     let gray = 0.2126 * tint[0] + 0.7152 * tint[1] + 0.0722 * tint[2];
     assert_eq!(found.pixel(20, 20), Some([0, 0, 0, (255.0 * (1.0 - gray) + 0.5) as u8]));
-    // In front of a color, and of an image with that color, the tint is colored under every tone
-    // mapping.
+    // In front of a color, or an image of that color, the tint is colored under every tone mapping.
     for background in ["Color(\"#fff\")", "Gradient(colors: [\"#fff\", \"#fff\"])"] {
         let image = format!("size: (40, 40), background: {background}, tone_mapping: Aces");
         let found = render_parts(&parts(), &format!("lights: [], image: ({image})"));
@@ -186,7 +190,7 @@ fn a_transparent_background_is_as_transparent_behind_rough_glass() {
 }
 
 #[test]
-fn regions_of_pictures_with_rough_and_thick_glass_unite_for_any_number_of_threads() {
+fn regions_with_rough_and_thick_glass_match_for_any_thread_count() {
     let volume = r#","KHR_materials_volume":{"thicknessFactor":1},
         "KHR_materials_dispersion":{"dispersion":4}"#;
     let parts = [
@@ -194,7 +198,7 @@ fn regions_of_pictures_with_rough_and_thick_glass_unite_for_any_number_of_thread
         square_part(1.2, &bending_glass(0.6, [0.5, 1.0, 0.9], "")),
         white_half(),
     ];
-    // The longer one exceeds the maximum framebuffer.
+    // The longer side exceeds the maximum framebuffer size.
     for (width, height) in [(150, 90), (5000, 30)] {
         let rest = format!(
             "environment: Sky(), ambient_occlusion: (radius: 0.5), ground: Shadow(),

@@ -1,4 +1,4 @@
-//! Scene passes, compared with unprojection, `pixel`, the picture's alpha, and each other.
+//! Scene passes compared with unprojection, pixel inspection, the picture's alpha and each other.
 
 use super::load_scene;
 use homog::PixelRect;
@@ -18,7 +18,7 @@ fn small_scene(name: &str, samples: u32) -> Scene {
 }
 
 #[test]
-fn places_are_the_unprojections_of_pixels_and_depths() {
+fn positions_match_unprojected_depths() {
     for name in SCENES {
         let scene = small_scene(name, 4);
         let whole = scene.image.pixel_rect();
@@ -26,16 +26,16 @@ fn places_are_the_unprojections_of_pixels_and_depths() {
         let buffers =
             render_passes(&scene, whole, &wanted, 2, &Timings::default()).expect("passes");
         let clip_to_world =
-            scene.view_projection.world_to_clip().inverse().expect("a map with an inverse");
+            scene.view_projection.world_to_clip().inverse().expect("an invertible transform");
         let viewport = Viewport::image_for(160, 120, ClipRange::CHAPTER).expect("a viewport");
         let unprojector = viewport.unprojector(clip_to_world);
         let world_to_view = scene.view_projection.camera.world_to_view();
         let mut seen = 0;
         for (x, y) in (0..120).flat_map(|y| (0..160).map(move |x| (x, y))) {
             let at = |n: usize| buffers[n].float_values(x, y).expect("a pixel");
-            let &[depth] = at(1) else { panic!("one number") };
+            let &[depth] = at(1) else { panic!("expected one value") };
             // At triangle borders the center may be outside by the 1/256 pixel that corners are
-            // moved; lines and points extend beyond themselves.
+            // moved. Fragments of lines and points extend beyond the primitives.
             if depth.is_infinite() || at(3).iter().any(|weight| *weight <= 1e-6) {
                 continue;
             }
@@ -55,12 +55,12 @@ fn places_are_the_unprojections_of_pixels_and_depths() {
             let eye = world_to_view.transform_point(found).raw().length();
             assert!((eye - distance).abs() < 3e-6 * distance);
         }
-        assert!(seen > 500, "{name} shows something: {seen}");
+        assert!(seen > 500, "{name} shows too few pixels: {seen}");
     }
 }
 
 #[test]
-fn numbers_are_those_that_pixels_are_explained_by() {
+fn ids_match_pixel_inspection() {
     for name in ["teapot", "crates", "mexican_hat", "primitives", "room"] {
         let scene = small_scene(name, 1);
         let whole = scene.image.pixel_rect();
@@ -96,7 +96,7 @@ fn numbers_are_those_that_pixels_are_explained_by() {
 }
 
 #[test]
-fn coverage_is_the_alpha_of_what_is_opaque() {
+fn coverage_matches_the_alpha_of_opaque_surfaces() {
     for (name, samples) in [("teapot", 1), ("crates", 4), ("mexican_hat", 16), ("lights", 8)] {
         let mut scene = small_scene(name, samples);
         (scene.image.background, scene.image.environment_blur) = ([0.0; 4], None);
@@ -116,7 +116,7 @@ fn coverage_is_the_alpha_of_what_is_opaque() {
 }
 
 #[test]
-fn panes_are_counted_and_the_nearest_of_them_is_what_is_seen() {
+fn overdraw_counts_panes_and_ids_show_the_nearest() {
     let scene = small_scene("panes", 1);
     let whole = scene.image.pixel_rect();
     let wanted = [Pass::Overdraw, Pass::Depth, Pass::Id];
@@ -126,16 +126,16 @@ fn panes_are_counted_and_the_nearest_of_them_is_what_is_seen() {
         let told = inspect_pixel(&scene, x, y).expect("a picture").expect("a pixel");
         let shown = told.fragments.iter().filter(|seen| seen.source.is_some()).count() as u32;
         let count = buffers[0].integer_value(x, y).expect("a pixel");
-        // Surfaces hidden behind something solid are also counted.
+        // Surfaces hidden behind opaque surfaces are also counted.
         assert!(count >= shown, "({x}, {y}): {count} of {shown}");
         assert_eq!(count == 0, buffers[2].integer_value(x, y) == Some(0));
         most = most.max(count);
     }
-    assert!(most >= 3, "panes overlap: {most}");
+    assert!(most >= 3, "panes should overlap: {most}");
 }
 
 #[test]
-fn regions_of_passes_unite() {
+fn regions_of_passes_match_the_whole() {
     let scene = small_scene("panes", 4);
     let whole = scene.image.pixel_rect();
     let all = render_passes(&scene, whole, &Pass::ALL, 2, &Timings::default()).expect("passes");

@@ -1,4 +1,4 @@
-//! Passes of a plane, each pixel compared with the ray that meets it.
+//! Passes of a plane, with each pixel compared with the intersection of its ray and the plane.
 
 use base64::Engine;
 use homog::PixelRect;
@@ -14,8 +14,8 @@ const GAZE: [f64; 3] = [0.1, -0.35, -1.0];
 /// Half of the plane's side.
 const PLANE_EXTENT: f32 = 60.0;
 
-/// A square on the ground made of two triangles; its texture coordinates are a hundredth of x and
-/// z.
+/// Builds a square on the ground from two triangles. Its texture coordinates are a hundredth of x
+/// and z.
 fn plane_glb() -> Vec<u8> {
     let corners = [
         [-PLANE_EXTENT, 0.0, -PLANE_EXTENT],
@@ -69,21 +69,22 @@ fn normalize(v: [f64; 3]) -> [f64; 3] {
     v.map(|c| c / dot(v, v).sqrt())
 }
 
-/// The camera's right, up and backward axes.
+/// Returns the camera's right, up and backward axes.
 fn camera_axes() -> [[f64; 3]; 3] {
     let back = normalize(GAZE.map(|c| -c));
     let right = normalize(cross([0.0, 1.0, 0.0], back));
     [right, cross(back, right), back]
 }
 
-/// The depth and position of the plane at a pixel; `None` if it is not visible there.
+/// Returns the depth and position of the plane at a pixel, or `None` if the plane is not visible
+/// there.
 fn intersect_plane(x: u32, y: u32, width: u32, height: u32) -> Option<(f64, [f64; 3])> {
     let [right, up, back] = camera_axes();
     let half = libm::tan(25.0_f64.to_radians());
     let sx = (2.0 * (f64::from(x) + 0.5) / f64::from(width) - 1.0) * half * f64::from(width)
         / f64::from(height);
     let sy = (1.0 - 2.0 * (f64::from(y) + 0.5) / f64::from(height)) * half;
-    // One unit ahead along the view axis.
+    // One unit forward along the view axis.
     let way: [f64; 3] = std::array::from_fn(|k| right[k] * sx + up[k] * sy - back[k]);
     let depth = -EYE_POSITION[1] / way[1];
     let place: [f64; 3] = std::array::from_fn(|k| EYE_POSITION[k] + way[k] * depth);
@@ -91,7 +92,7 @@ fn intersect_plane(x: u32, y: u32, width: u32, height: u32) -> Option<(f64, [f64
     (depth > 0.1 && within(place[0]) && within(place[2])).then_some((depth, place))
 }
 
-/// Whether a pixel is near the border of the plane in the picture, where it is not compared.
+/// Whether a pixel is near the border of the plane, where pixels are not compared.
 fn is_near_border(x: u32, y: u32, width: u32, height: u32) -> bool {
     let around = [(0, 0), (2, 0), (0, 2), (2, 2)];
     let met: Vec<bool> = around
@@ -106,7 +107,7 @@ fn is_near_border(x: u32, y: u32, width: u32, height: u32) -> bool {
 
 fn assert_pass_values(buffers: &[PassBuffer], region: PixelRect, size: [u32; 2]) -> usize {
     let [depth, distance, position, normal, view_normal, uv, barycentric, id] = buffers else {
-        panic!("eight passes");
+        panic!("expected eight passes");
     };
     let mut seen = 0;
     for (x, y) in (0..region.height).flat_map(|y| (0..region.width).map(move |x| (x, y))) {
@@ -124,8 +125,8 @@ fn assert_pass_values(buffers: &[PassBuffer], region: PixelRect, size: [u32; 2])
             continue;
         };
         seen += 1;
-        // On the diagonal the snapped triangle may extend 1/256 pixel beyond the true one; the
-        // position is then on the diagonal.
+        // On the diagonal the snapped triangle may extend 1/256 pixel beyond the exact triangle.
+        // The position is then on the diagonal.
         let weights = at(barycentric);
         let inner = weights.iter().all(|w| *w > 0.0);
         let tolerance = if inner { 2e-6 } else { 2e-4 };
@@ -168,7 +169,7 @@ const CHECKED_PASSES: [Pass; 8] = [
 ];
 
 #[test]
-fn passes_of_a_plane_are_what_rays_meet() {
+fn passes_of_a_plane_match_ray_intersections() {
     let scene = plane_scene(320, 200);
     let whole = scene.image.pixel_rect();
     let buffers =
@@ -177,7 +178,7 @@ fn passes_of_a_plane_are_what_rays_meet() {
 }
 
 #[test]
-fn they_are_so_beyond_the_first_sheet_of_a_giant_picture_too() {
+fn passes_match_ray_intersections_beyond_the_first_image_tile() {
     let size = [40_000, 20_000];
     let scene = plane_scene(size[0], size[1]);
     for [x, y] in [[16_284, 16_300], [20_000, 13_000], [35_000, 19_000]] {

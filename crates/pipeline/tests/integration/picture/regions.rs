@@ -1,5 +1,5 @@
-//! Regions, bands and sheets: parts match the whole picture bit for bit, and 16 bits refine the 8
-//! bits.
+//! Regions, bands and image tiles: parts match the whole picture bit for bit, and 16-bit values
+//! round to the 8-bit values.
 
 use super::load_scene;
 use homog::PixelRect;
@@ -9,7 +9,8 @@ use pipeline::scene::{ResolveOptions, parse_scene};
 use pipeline::{FrameChannel, Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
 use std::path::Path;
 
-/// Scenes with thin lines, layers, a background environment, overlays, text and line drawings.
+/// Scenes with thin lines, translucent layers, a background environment, overlays, text and line
+/// drawings.
 const SCENES: [&str; 7] =
     ["floor", "panes", "primitives", "finishes", "two_point", "technical", "view_volume"];
 
@@ -37,7 +38,7 @@ fn assert_same_as_part<C: FrameChannel + std::fmt::Debug>(
 }
 
 #[test]
-fn regions_and_bands_are_parts_of_the_whole() {
+fn regions_and_bands_match_the_whole_picture() {
     for name in SCENES {
         let scene = load_scene(name, |file| {
             file.image.size = (330, 210);
@@ -60,22 +61,25 @@ fn regions_and_bands_are_parts_of_the_whole() {
     }
 }
 
-/// Checks that the nearest 8-bit codes match the picture, except for the rounding of drawings over
-/// it.
+/// Checks that rounding to the nearest 8-bit codes gives the picture, except where lines are drawn
+/// over it.
 fn assert_sixteen_bits_agree(whole: &Picture, deep: &Picture<u16>, name: &str) {
     let mut drawn = 0;
     for (flat, deep) in whole.pixels.iter().zip(&deep.pixels) {
         let far = (0..4).any(|k| (f64::from(deep[k]) / 257.0 - f64::from(flat[k])).abs() > 0.503);
-        // The little color that a nearly transparent pixel keeps cannot be recovered from 8 bits.
+        // The color of a nearly transparent pixel cannot be recovered from 8 bits.
         drawn += usize::from(far && flat[3] > 8);
         let near = (0..4).all(|k| (f64::from(deep[k]) / 257.0 - f64::from(flat[k])).abs() <= 4.01);
         assert!(near || flat[3] < 160, "{name}: {flat:?} {deep:?}");
     }
-    assert!(drawn * 20 < whole.pixels.len(), "{name}: {drawn} pixels are not the nearest");
+    assert!(
+        drawn * 20 < whole.pixels.len(),
+        "{name}: {drawn} pixels are not rounded to the nearest code"
+    );
 }
 
 #[test]
-fn without_drawings_sixteen_bits_round_to_eight() {
+fn sixteen_bits_round_to_eight_without_drawn_lines() {
     for name in ["floor", "panes", "crates", "finishes"] {
         let scene = load_scene(name, |file| file.image.size = (200, 130));
         let all = scene.image.pixel_rect();
@@ -91,8 +95,8 @@ fn without_drawings_sixteen_bits_round_to_eight() {
 }
 
 #[test]
-fn files_do_not_depend_on_the_bands_they_are_written_in() {
-    // Opaque, transparent, and transparent but covered from side to side.
+fn files_do_not_depend_on_the_band_height() {
+    // Opaque, transparent, and transparent but fully covered.
     for (background, covered) in [(1.0, false), (0.0, false), (0.0, true)] {
         let mut scene = load_scene("spheres", |file| file.image.size = (333, 210));
         scene.image.background = [background; 4];
@@ -116,7 +120,7 @@ fn files_do_not_depend_on_the_bands_they_are_written_in() {
 }
 
 #[test]
-fn regions_of_a_giant_picture_fit_together_across_its_tiles() {
+fn regions_of_a_giant_picture_match_across_image_tiles() {
     for name in ["floor", "finishes", "two_point"] {
         let scene = load_scene(name, |file| {
             file.image.size = (20_000, 20_000);
@@ -136,9 +140,9 @@ fn regions_of_a_giant_picture_fit_together_across_its_tiles() {
     }
 }
 
-/// Textures, glass, soft and sharp shadows, a ground that catches them, occlusion, an environment,
-/// an overlay, and a view with a separate camera: every feature that depends on more than one
-/// pixel, in a tall picture.
+/// Every feature that depends on more than one pixel, in a tall picture: textures, glass, soft and
+/// sharp shadows, a ground that catches them, occlusion, an environment, an overlay, and a view
+/// with a separate camera.
 const EVERYTHING_SCENE: &str = r#"Scene(
     models: [
         (path: "models/table.glb"),
@@ -169,7 +173,7 @@ const EVERYTHING_SCENE: &str = r#"Scene(
 )"#;
 
 #[test]
-fn shadows_and_occlusion_are_those_of_the_whole_in_every_part() {
+fn shadows_and_occlusion_match_the_whole_picture_in_every_region() {
     let scene_of = |text: String| {
         let file = parse_scene("made.ron", &text).expect("a scene");
         let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
@@ -186,7 +190,7 @@ fn shadows_and_occlusion_are_those_of_the_whole_in_every_part() {
         let without = render(&without, 2).expect("a picture");
         let pairs = whole.pixels.chunks(90).zip(without.pixels.chunks(90));
         let rows = pairs.filter(|(with, without)| with != without).count();
-        assert!(rows > 400, "{plain} is seen in {rows} rows");
+        assert!(rows > 400, "{plain} is visible in only {rows} rows");
     }
     let all = scene.image.pixel_rect();
     let (textures, mut renderer) = (Textures::for_scene(&scene), Renderer::default());
@@ -205,6 +209,6 @@ fn shadows_and_occlusion_are_those_of_the_whole_in_every_part() {
         assert_same_as_part(&whole, &render_region(&scene, part), part, "alone");
         let mut region = Picture::default();
         prepared.render_region(part, &mut region).expect("a region");
-        assert_same_as_part(&whole, &region, part, "after others");
+        assert_same_as_part(&whole, &region, part, "after other regions");
     }
 }

@@ -1,4 +1,4 @@
-//! Styles: pixels compared with the formula of each, using the passes.
+//! Styles: the passes and each style's formula predict the pixels.
 
 use super::load_scene;
 use model::Colormap;
@@ -59,7 +59,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 #[test]
-fn normals_are_the_codes_of_the_pass() {
+fn normals_match_the_pass() {
     let scene = styled_scene("teapot", Style::Normals);
     let (picture, told) =
         (render_scene(&scene), render_wanted_passes(&scene, &[Pass::Id, Pass::Normal]));
@@ -69,8 +69,7 @@ fn normals_are_the_codes_of_the_pass() {
         let pixel = picture.pixel(x, y).expect("a pixel");
         for k in 0..3 {
             let expected = 255.0 * (0.5 * normal[k] + 0.5);
-            // Shading uses the corners as snapped to 1/256 pixel, which matters for small
-            // triangles.
+            // Shading uses corners snapped to 1/256 pixel, which matters for small triangles.
             let off = (f64::from(pixel[k]) - expected).abs();
             assert!(off < 6.0, "({x}, {y}) {pixel:?} {normal:?}");
             far += usize::from(off > 1.0);
@@ -80,7 +79,7 @@ fn normals_are_the_codes_of_the_pass() {
 }
 
 #[test]
-fn depth_is_linear_between_the_ends_of_the_models() {
+fn depth_is_linear_from_the_nearest_to_the_farthest_vertex() {
     let scene = styled_scene("teapot", Style::Depth(None));
     let (picture, told) =
         (render_scene(&scene), render_wanted_passes(&scene, &[Pass::Id, Pass::Depth]));
@@ -98,7 +97,7 @@ fn depth_is_linear_between_the_ends_of_the_models() {
 }
 
 #[test]
-fn depth_in_a_colormap_has_its_last_color_at_the_nearest_vertex() {
+fn colormapped_depth_has_the_last_color_at_the_nearest_vertex() {
     let colormap = Colormap::Turbo;
     let scene = styled_scene("teapot", Style::Depth(Some(colormap)));
     let (picture, told) =
@@ -119,7 +118,7 @@ fn depth_in_a_colormap_has_its_last_color_at_the_nearest_vertex() {
     assert!(seen > 3000, "{seen}");
 }
 
-/// The light that a white Lambertian surface reflects from suns and ambient light.
+/// Returns the light that a white Lambertian surface reflects from suns and ambient light.
 fn expected_light(scene: &Scene, normal: [f64; 3]) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for light in &scene.lights {
@@ -128,7 +127,7 @@ fn expected_light(scene: &Scene, normal: [f64; 3]) -> [f64; 3] {
                 (dot(normal, towards.map(f64::from)).max(0.0), *lux)
             }
             Light::Ambient { lux } => (1.0, *lux),
-            _ => panic!("the scene has suns only"),
+            _ => panic!("the scene has only suns"),
         };
         for k in 0..3 {
             sum[k] += f64::from(lux[k]) * cosine / PI;
@@ -138,7 +137,7 @@ fn expected_light(scene: &Scene, normal: [f64; 3]) -> [f64; 3] {
 }
 
 #[test]
-fn clay_is_matt_in_the_light_of_the_scene() {
+fn clay_is_matte_in_the_light_of_the_scene() {
     let mut scene = styled_scene("teapot", Style::Clay);
     scene.environment = None;
     let (picture, told) =
@@ -158,7 +157,7 @@ fn clay_is_matt_in_the_light_of_the_scene() {
 
 #[test]
 fn gouraud_is_clay_at_the_vertices_and_even_on_flat_faces() {
-    // On a crate all normals of a face are equal: its light is even, as on every matte surface in
+    // All normals of a crate's face are equal, so its light is even, as on every matte surface in
     // the sun.
     let (gouraud, clay) =
         (styled_scene("crates", Style::Gouraud), styled_scene("crates", Style::Clay));
@@ -175,11 +174,11 @@ fn gouraud_is_clay_at_the_vertices_and_even_on_flat_faces() {
         }
     });
     assert!(seen > 2000 && faces.len() >= 3, "{seen} {}", faces.len());
-    assert_ne!(gouraud, clay, "wood is not clay");
+    assert_ne!(gouraud, clay, "wood must differ from clay");
 }
 
 #[test]
-fn parts_have_one_colour_each() {
+fn each_part_has_one_color() {
     let scene = styled_scene("teapot", Style::Ids);
     let picture = render_scene(&scene);
     let told = render_wanted_passes(&scene, &[Pass::Id, Pass::Node]);
@@ -199,7 +198,7 @@ fn parts_have_one_colour_each() {
 }
 
 #[test]
-fn checkers_change_where_texture_coordinates_pass_an_eighth() {
+fn checkers_change_at_every_eighth_of_the_texture_coordinates() {
     let scene = styled_scene("crates", Style::UvChecker);
     let picture = render_scene(&scene);
     let told = render_wanted_passes(&scene, &[Pass::Id, Pass::Uv, Pass::Normal]);
@@ -207,7 +206,7 @@ fn checkers_change_where_texture_coordinates_pass_an_eighth() {
     for_each_covered_pixel(&told[0], |x, y| {
         let [u, v]: [f64; 2] = float_values(&told[1], x, y);
         let place = [u, v].map(|c| c * 8.0);
-        // Away from the borders of squares.
+        // Skips the borders of squares.
         if place.iter().any(|c| (c - libm::round(*c)).abs() < 0.1) {
             return;
         }
@@ -221,7 +220,7 @@ fn checkers_change_where_texture_coordinates_pass_an_eighth() {
         sums[odd][1] += 1.0;
     });
     let [even, odd] = sums.map(|[sum, count]| sum / count);
-    assert!(odd < 0.85 * even, "odd squares are darker: {odd} {even}");
+    assert!(odd < 0.85 * even, "odd squares must be darker: {odd} {even}");
 }
 
 #[test]
@@ -254,23 +253,27 @@ fn toons_have_few_tones_and_dark_outlines() {
 }
 
 #[test]
-fn glass_shows_what_is_behind_and_backs_too() {
+fn x_ray_shows_hidden_surfaces_and_back_faces() {
     let mut glass = styled_scene("spheres", Style::XRay);
     glass.image.background = [0.0; 4];
     let picture = render_scene(&glass);
     let told = render_wanted_passes(&glass, &[Pass::Id, Pass::ViewNormal, Pass::Distance]);
     let seen = for_each_covered_pixel(&told[0], |x, y| {
         let [.., alpha] = picture.pixel(x, y).expect("a pixel");
-        // At least two layers, front and back, of 7 to 80 percent.
+        // At least two layers, front and back, with an opacity of 7% to 80%.
         assert!(alpha > 30 && alpha < 255, "({x}, {y}): {alpha}");
     });
     assert!(seen > 500);
 }
 
 #[test]
-fn matcaps_depend_on_the_normal_towards_the_viewer_alone() {
+fn matcaps_depend_only_on_view_space_normals() {
     let scene = styled_scene("spheres", Style::Matcap);
     let mut dark = scene.clone();
     (dark.lights, dark.environment) = (Vec::new(), None);
-    assert_eq!(render_scene(&scene), render_scene(&dark), "the light of the scene does not count");
+    assert_eq!(
+        render_scene(&scene),
+        render_scene(&dark),
+        "the lights of the scene must not matter"
+    );
 }
