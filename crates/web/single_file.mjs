@@ -1,7 +1,7 @@
 // Writes the explorer as one HTML file: `node single_file.mjs SITE OUT.html`.
 //
-// SITE is what `cargo xtask web` has written. Scripts, styles, the engine and the models are inside, compressed; the page
-// unpacks them before its modules run, so that it works from a memory stick or a mail as well.
+// SITE is the output of `cargo xtask web`. The file contains compressed scripts, the engine and the models, which the page
+// unpacks before its modules run. It therefore works from a USB stick or an email.
 
 import { createHash } from 'node:crypto';
 import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
@@ -14,17 +14,17 @@ const INLINE = ['style.css', 'icon.svg'];
 
 const read = (name) => readFileSync(join(site, name), 'utf8');
 
-/** The files of the site, by paths from it. */
+/** The files of the site, as paths relative to it. */
 const files = readdirSync(site, { recursive: true, withFileTypes: true })
   .filter((entry) => entry.isFile())
   .map((entry) => join(entry.parentPath ?? entry.path, entry.name).slice(join(site, '/').length).replaceAll('\\', '/'))
   .filter((name) => !PAGES.includes(name))
   .sort();
 
-/** Names of the modules that a text imports. */
+/** Returns the names of the modules that a source text imports. */
 const importsOf = (text) => [...text.matchAll(/from '\.\/([^']+)'/g)].map(([, name]) => name);
 
-/** Modules, each after those that it imports. */
+/** Sorts modules so that each one follows the modules that it imports. */
 function inOrder(names, order = []) {
   for (const name of names) {
     if (order.includes(name)) continue;
@@ -34,14 +34,14 @@ function inOrder(names, order = []) {
   return order;
 }
 
-/** Runs in the page: unpacks the files, and starts the page. */
+/** Runs in the page: unpacks the files and starts the page. */
 async function start() {
   const types = { js: 'text/javascript', wasm: 'application/wasm' };
   const unpack = (text) => {
     const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
     return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip')));
   };
-  // What the worker reads: browsers keep `blob:` addresses of a page without a server from its worker.
+  // For the worker: if a page has no server, its worker cannot read `blob:` addresses.
   const dataUrl = (blob) =>
     new Promise((resolve, reject) => {
       const reader = new FileReader();
@@ -64,16 +64,16 @@ async function start() {
     globalThis.explorerFiles = files;
     await import(files['main.js']);
   } catch (error) {
-    document.getElementById('notice-message').textContent = `The page cannot start: ${error.message}.`;
-    document.getElementById('notice-help').textContent = 'Use a browser of 2023 or later.';
+    document.getElementById('notice-message').textContent = `The page could not start: ${error.message}.`;
+    document.getElementById('notice-help').textContent = 'Use a browser from 2023 or later.';
     document.getElementById('notice').hidden = false;
   }
 }
 
-/** Replaces the one occurrence of a part of the page. */
+/** Replaces a part of the page that must occur exactly once. */
 function replaceOnce(text, part, replacement) {
   const [before, after, ...others] = text.split(part);
-  if (after === undefined || others.length > 0) throw new Error(`index.html must have ${part} once`);
+  if (after === undefined || others.length > 0) throw new Error(`index.html must contain ${part} exactly once`);
   return before + replacement + after;
 }
 

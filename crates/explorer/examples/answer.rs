@@ -1,9 +1,9 @@
-//! Answers a request with the models in a folder, and writes the answer to standard output.
+//! Answers a request with the models in a folder and writes the answer to standard output.
 //!
 //! ```sh
 //! cargo run -p alberti-explorer --example answer -- scenes 'what=world&lesson=frustum&format=png' > world.png
 //! ```
-//! Further requests are answered too; the times are written to standard error.
+//! It also answers further requests. The times go to standard error.
 
 use explorer::Explorer;
 use std::error::Error;
@@ -13,7 +13,7 @@ use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
-    let folder = arguments.next().ok_or("give a folder that holds `models`, and a request")?;
+    let folder = arguments.next().ok_or("usage: answer FOLDER REQUEST..., where FOLDER contains `models`")?;
     let mut explorer = Explorer::new();
     for entry in std::fs::read_dir(Path::new(&folder).join("models"))? {
         let path = entry?.path();

@@ -1,12 +1,12 @@
-// The page's side of the worker: questions, answers, and a new worker where one has died.
+// The page's connection to the worker: requests, answers, and a new worker when one dies.
 
 import { resourceUrl, server } from './resources.js';
 import { currentLanguage } from './texts.js';
 
-/** Milliseconds after which a worker that says nothing counts as dead; reading a large model takes long. */
+/** Milliseconds after which a silent worker is considered dead. Reading a large model takes a long time. */
 const TIME_LIMIT = 120_000;
 
-/** An error that can be shown: a sentence, what to do, and a code for programs. */
+/** An error to show: a message, a remedy and a code for programs. */
 export class EngineError extends Error {
   /** @param {{code?: string|null, message: string, help?: string}} parts */
   constructor({ code, message, help }) {
@@ -16,19 +16,19 @@ export class EngineError extends Error {
   }
 }
 
-/** Asks the worker; starts another one if it dies. */
+/** Sends requests to the worker, and replaces the worker if it dies. */
 export class EngineClient {
-  /** @param {boolean} native whether the server computes */
+  /** @param {boolean} native whether the server does the computation */
   constructor(native) {
     this.native = native;
     this.waiting = new Map();
-    /** Files of the user by their names, for a worker that is started again. @type {Map<string, Blob>} */
+    /** The user's files by name, for a restarted worker. @type {Map<string, Blob>} */
     this.files = new Map();
     this.lastId = 0;
     this.ready = null;
   }
 
-  /** Starts the worker, or gives the one that runs. */
+  /** Starts the worker, or returns the running worker. */
   start() {
     this.ready ??= this.startWorker();
     return this.ready;
@@ -36,13 +36,13 @@ export class EngineClient {
 
   async startWorker() {
     try {
-      await 0; // `start` returns first.
-      // No module: Chromium refuses those of a page in one file that has no server.
+      await 0; // Lets `start` return first.
+      // Not a module, because Chromium rejects modules of a single-file page without a server.
       this.worker = new Worker(resourceUrl('worker.js'));
       this.worker.onmessage = ({ data }) => this.settle(data);
       this.worker.onerror = (event) => {
         event.preventDefault();
-        this.stop(event.message || 'the worker could not be started');
+        this.stop(event.message || 'the worker did not start');
       };
       await this.post({ start: { native: this.native, files: globalThis.explorerFiles, base: document.baseURI } });
       if (!this.native) {
@@ -55,18 +55,18 @@ export class EngineClient {
     }
   }
 
-  /** The answer to a question. @returns {Promise<{contentType: string, bytes: Uint8Array}>} */
+  /** Answers a request. @returns {Promise<{contentType: string, bytes: Uint8Array}>} */
   async ask(query) {
     await this.start();
     return this.post({ query: `${query}&lang=${currentLanguage()}` });
   }
 
-  /** The answer to a question, as an object. @param {string} query */
+  /** Answers a request as an object. @param {string} query */
   async askJson(query) {
     return JSON.parse(new TextDecoder().decode((await this.ask(query)).bytes));
   }
 
-  /** Gives the engine a file of the user. @param {string} name @param {Blob} blob */
+  /** Passes one of the user's files to the engine. @param {string} name @param {Blob} blob */
   async addFile(name, blob) {
     await this.start();
     await this.postFile(name, blob);
@@ -81,7 +81,7 @@ export class EngineClient {
   post(message, transfer = []) {
     const id = (this.lastId += 1);
     return new Promise((resolve, reject) => {
-      const timer = setTimeout(() => this.stop('it has not answered for two minutes'), TIME_LIMIT);
+      const timer = setTimeout(() => this.stop('no answer for two minutes'), TIME_LIMIT);
       this.waiting.set(id, { resolve, reject, timer });
       this.worker.postMessage({ id, ...message }, transfer);
     });
@@ -100,7 +100,7 @@ export class EngineClient {
     else waiting.resolve({ contentType, bytes });
   }
 
-  /** Ends the worker; the next question starts another one. */
+  /** Stops the worker; the next request starts a new worker. */
   stop(reason) {
     this.worker?.terminate();
     this.ready = null;

@@ -1,13 +1,13 @@
-// The controls of a lesson's parameters: native inputs, each with a label, its unit and its limits.
+// Controls for a lesson's parameters: native inputs with labels, units and limits.
 
 import { element, formatNumber } from './dom.js';
 
 /**
- * Fills the form with the parameters of a lesson.
+ * Fills the form with a lesson's parameters.
  * @param {HTMLFormElement} form
  * @param {object[]} parameters as the engine lists them
  * @param {{value: (key: string) => string, change: (key: string, value: string) => void, word: (texts: object) => string}} page
- * @returns {() => void} sets the controls to the state
+ * @returns {() => void} updates the controls from the state
  */
 export function buildControls(form, parameters, page) {
   const controls = parameters.map((parameter) =>

@@ -1,6 +1,6 @@
-// Elements of the page, and numbers as they are read.
+// DOM elements and number formatting.
 
-/** An element with attributes and children. @param {string} name */
+/** Creates an element with attributes and children. @param {string} name */
 export function element(name, attributes = {}, ...children) {
   const created = document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) created.setAttribute(key, String(value));
@@ -8,14 +8,14 @@ export function element(name, attributes = {}, ...children) {
   return created;
 }
 
-/** An element of MathML. @param {string} name */
+/** Creates a MathML element. @param {string} name */
 export function math(name, ...children) {
   const created = document.createElementNS('http://www.w3.org/1998/Math/MathML', name);
   created.append(...children);
   return created;
 }
 
-/** A number with five significant digits at most and a true minus sign. @param {number} value */
+/** Formats a number with at most five significant digits and a true minus sign. @param {number} value */
 export function formatNumber(value) {
   if (typeof value !== 'number') return String(value);
   if (Math.abs(value) < 5e-13) return '0';
@@ -24,5 +24,5 @@ export function formatNumber(value) {
   return text.replaceAll('-', '−');
 }
 
-/** The element with an id. @param {string} id @returns {any} */
+/** Returns the element with an id. @param {string} id @returns {any} */
 export const byId = (id) => document.getElementById(id);

@@ -1,4 +1,4 @@
-// The engine of `alberti explore --native`: the server computes, by `GET compute?QUERY`.
+// The engine of `alberti explore --native`: the server computes the answer to `GET compute?QUERY`.
 
 /** @param {(path: string) => string} urlOf */
 export async function startEngine(urlOf) {
@@ -9,7 +9,7 @@ export async function startEngine(urlOf) {
       try {
         response = await fetch(`${address}?${query}`);
       } catch {
-        throw { code: 'no-server', message: 'The server does not answer.', help: 'Start `alberti explore` again.' };
+        throw { code: 'no-server', message: 'The server does not respond.', help: 'Start `alberti explore` again.' };
       }
       const contentType = response.headers.get('content-type');
       if (contentType === 'application/problem+json') throw await response.json();
@@ -22,8 +22,8 @@ export async function startEngine(urlOf) {
     addFile(name) {
       throw {
         code: 'native-files',
-        message: `The server reads no files from the browser, so ${name} cannot be opened here.`,
-        help: 'Start it with the model: `alberti explore --native MODEL`, or open the page without `?native`.',
+        message: `The server does not accept files from the browser, so ${name} cannot be opened here.`,
+        help: 'Run `alberti explore --native MODEL`, or open the page without `?native`.',
       };
     },
   };

@@ -5,8 +5,8 @@ export async function startEngine(urlOf) {
   if (typeof WebAssembly !== 'object') {
     throw {
       code: 'no-webassembly',
-      message: 'This browser has no WebAssembly, which the page computes with.',
-      help: 'Use another browser, or run `alberti explore --native` and open its address.',
+      message: 'This page needs WebAssembly, which this browser does not support.',
+      help: 'Use a different browser, or run `alberti explore --native` and open the address it prints.',
     };
   }
   const module = await import(urlOf('web.js'));
@@ -31,9 +31,9 @@ export async function startEngine(urlOf) {
   };
 }
 
-/** The bytes of a model of the lessons. */
+/** Returns the bytes of a lesson's model. */
 async function readModel(url, name) {
   const response = await fetch(url).catch(() => null);
   if (response?.ok) return new Uint8Array(await response.arrayBuffer());
-  throw { code: 'no-model', message: `The model ${name} of this lesson cannot be read.`, help: 'Reload the page, or choose another lesson.' };
+  throw { code: 'no-model', message: `Cannot read ${name}, the model of this lesson.`, help: 'Reload the page or choose another lesson.' };
 }

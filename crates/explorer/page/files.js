@@ -1,29 +1,29 @@
-// Files in and out: models from the user, text to the clipboard, pictures to the disk.
+// File input and output: models from the user, text to the clipboard, pictures to disk.
 
 import { byId } from './dom.js';
 
-/** Endings of files that are models by themselves. */
+/** Extensions of model files. */
 const MODEL = /\.(glb|gltf|stl|obj|ply|3mf)$/i;
-/** Bytes of all files together that a page tries to read. */
+/** Maximum total size in bytes of the files that a page tries to read. */
 const MAX_BYTES = 512 * 2 ** 20;
 
-/** Whether a file is a model by itself. @param {string} name */
+/** Whether a file is a model. @param {string} name */
 export const isModel = (name) => MODEL.test(name);
 
-/** Whether it is a scene. @param {string} name */
+/** Whether a file is a scene. @param {string} name */
 export const isScene = (name) => /\.ron$/i.test(name);
 
-/** The scene or model among files. @param {File[]} files */
+/** Finds the scene or model among files. @param {File[]} files */
 export function findModel(files) {
   const bytes = files.reduce((sum, file) => sum + file.size, 0);
   return { model: files.find(({ name }) => isScene(name)) ?? files.find(({ name }) => isModel(name)), isHuge: bytes > MAX_BYTES, megabytes: MAX_BYTES / 2 ** 20 };
 }
 
-/** How models name other files: glTF, scenes, OBJ and MTL. */
+/** References to other files in glTF, scenes, OBJ and MTL. */
 const REFERENCES = /(?:"uri"|\bpath)\s*:\s*"([^"]+)"|^\s*(?:mtllib|map_\w+|bump|norm|disp)\s.*?(\S+)\s*$/gm;
 
 /**
- * Files with the names that models give them: a browser drops the folders of `textures/wood.png`.
+ * Returns files under the names that models use for them, because a browser drops the folder of `textures/wood.png`.
  * @param {File[]} files @returns {Promise<[string, File][]>}
  */
 export async function namedFiles(files) {
@@ -46,7 +46,7 @@ function decode(uri) {
   }
 }
 
-/** Calls back with the files that are dropped onto the page. @param {(files: File[]) => void} open */
+/** Calls back with files that are dropped on the page. @param {(files: File[]) => void} open */
 export function acceptDrops(open) {
   addEventListener('dragover', (event) => {
     event.preventDefault();
@@ -63,7 +63,7 @@ export function acceptDrops(open) {
   });
 }
 
-/** Copies text; where the browser does not allow it, shows it to be copied by hand. Whether it was copied. */
+/** Copies text, or shows it for manual copying if the browser does not allow access to the clipboard. Returns whether it was copied. */
 export async function copyText(words) {
   try {
     await navigator.clipboard.writeText(words);

@@ -1,4 +1,4 @@
-// The page of the explorer: lessons, controls and panes around one engine in a worker.
+// The explorer page: lessons, controls and panes around one engine in a worker.
 
 import { EngineClient } from './client.js';
 import { buildControls } from './controls.js';
@@ -16,11 +16,11 @@ const panes = new Panes(client, { query: () => state.query(), showState, fail: s
 let state = new State('');
 /** @type {any[]} */
 let lessons = [];
-/** Styles of scene files. @type {string[]} */
+/** Scene file styles. @type {string[]} */
 let styles = [];
 /** @type {any} */
 let lesson = null;
-/** The last answer of the engine about the state. @type {any} */
+/** The engine's last answer to `what=state`. @type {any} */
 let shown = null;
 let updateControls = () => {};
 
@@ -45,7 +45,7 @@ async function start() {
   addEventListener('hashchange', () => openLink(location.hash.slice(1)));
 }
 
-/** Opens a link. A malformed one is reported and opens the lesson with its defaults. */
+/** Opens a link. A malformed link is reported, and its lesson opens with default values. */
 async function openLink(link) {
   if (lesson && new State(link).query() === state.query()) return;
   hideNotice();
@@ -64,7 +64,7 @@ async function openLink(link) {
   showLesson();
 }
 
-/** The lesson of the state: its words, controls and panes. */
+/** Shows the text, controls and panes of the current lesson. */
 function showLesson() {
   const chosen = lessons.find(({ id }) => id === state.get('lesson')) ?? lessons[0];
   const isNew = chosen !== lesson;
@@ -89,24 +89,24 @@ function showLesson() {
   stateChanged();
 }
 
-/** The value of a parameter: of the state, or its default. */
+/** Returns the value of a parameter from the state, or its default. */
 function valueOf(key) {
   return state.get(key) ?? String(lesson.parameters.find((one) => one.key === key)?.default ?? '');
 }
 
-/** The choice of a style, which every lesson has. */
+/** Returns the style parameter, which every lesson has. */
 function styleParameter() {
   const choices = styles.map((style) => ({ value: style, label: style }));
   return { key: 'style', kind: 'choice', label: text('style'), choices: [{ value: '', label: text('styleDefault') }, ...choices] };
 }
 
-/** A control was moved; an empty value is that of the lesson. */
+/** Changes the state after a control was moved. An empty value restores the lesson's default. */
 function changeState(key, value) {
   state.set(key, value);
   stateChanged();
 }
 
-/** Something has changed: controls, link, and the panes named, or all. */
+/** Updates the controls, the link and the named panes, or all panes, after a change. */
 function stateChanged(names) {
   delete document.body.dataset.settled;
   updateControls();
@@ -116,7 +116,7 @@ function stateChanged(names) {
   panes.change(names);
 }
 
-/** All panes show the state: the link is written, and its consequence said. */
+/** Updates the link and announces the consequences once all panes show the state. */
 function settled() {
   const hash = `#${state.query()}`;
   if (location.hash !== hash) history.replaceState(null, '', hash);
@@ -128,7 +128,7 @@ function settled() {
   document.body.dataset.settled = state.query();
 }
 
-/** Words and numbers of the state. */
+/** Shows the text and numbers of the state. */
 function showState(answer) {
   shown = answer;
   hideNotice('engine');
@@ -140,7 +140,7 @@ function showState(answer) {
   showDepthTable(answer.depth_table);
 }
 
-/** Distances, depths, and the least step of distance that the buffer resolves. */
+/** Shows distances, depths, and the smallest step in distance that the buffer resolves. */
 function showDepthTable(table) {
   byId('depth-details').hidden = !table;
   if (!table) return;
@@ -149,7 +149,7 @@ function showDepthTable(table) {
   byId('depth-table').replaceChildren(plainTable(columns, rows));
 }
 
-/** The coordinates of the pinned point in every space, its outcode, and on demand every step. */
+/** Shows the coordinates of the pinned point in every space, its outcode and, on demand, every step. */
 function showJourney({ journey, outcode }) {
   const heads = [text('space'), 'x', 'y', 'z', 'w'];
   byId('journey').replaceChildren(journeyTable(journey.spaces, word, heads));
@@ -160,7 +160,7 @@ function showJourney({ journey, outcode }) {
   byId('steps').replaceChildren(...stepsWithMatrices(journey.steps, word));
 }
 
-/** What the colors of the triangles mean, with their numbers. */
+/** Shows the meaning of the triangle colors, with triangle counts. */
 function showLegend({ colors, facts }) {
   for (const legend of document.querySelectorAll('.legend')) {
     const names = ['inside', 'clipped', 'outside'].filter((name) => colors?.[name] && name in facts);
@@ -203,7 +203,7 @@ function updatePin() {
   });
 }
 
-/** What is at a pixel and why; a surface there is pinned. */
+/** Explains a pixel, and pins the surface there. */
 async function pick(pixel) {
   try {
     const query = `${state.query()}&what=pick&pixel=${pixel.join(',')}&size=${SIZE.join('x')}`;
@@ -258,7 +258,7 @@ async function copy(words) {
   if (await copyText(words)) byId('status').textContent = text('copied');
 }
 
-/** Asks for a file and saves it. */
+/** Requests a file and saves it. */
 async function save(what, name, type) {
   try {
     const { bytes } = await client.ask(`${state.query()}&what=${what}&size=${SIZE.join('x')}`);
@@ -269,7 +269,7 @@ async function save(what, name, type) {
   }
 }
 
-/** Opens a model of the user with the files it refers to. @param {File[]} files */
+/** Opens one of the user's models with the files it refers to. @param {File[]} files */
 async function openFiles(files) {
   const { model, isHuge, megabytes } = findModel(files);
   if (!model) return showNotice(text('noModel'), text('noModelHelp'));
@@ -277,7 +277,7 @@ async function openFiles(files) {
   const link = `v=1&lesson=${isScene(model.name) ? 'scene' : 'model'}&model=${encodeURIComponent(model.name)}`;
   try {
     for (const [name, file] of await namedFiles(files)) await client.addFile(name, file);
-    // A broken model changes nothing.
+    // A broken model must not change anything.
     await client.ask(`${link}&what=state`);
     await openLink(link);
   } catch (error) {
@@ -341,7 +341,7 @@ function hideNotice(kind) {
   if (kind === undefined || byId('notice').dataset.kind === kind) byId('notice').hidden = true;
 }
 
-/** An error of the engine, or of the worker. */
+/** Shows an error from the engine or the worker. */
 function showError(error) {
   if (shown === null) panes.clear();
   if (error.code === 'worker-died') showNotice(text('died', error.message), text('diedHelp'), 'engine');

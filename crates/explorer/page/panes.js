@@ -1,20 +1,20 @@
-// The panes that show pictures: their requests, the order, and how pictures reach the canvas.
+// The panes that show pictures: the order of their requests, and drawing to the canvas.
 //
-// A change marks every pane as old. One question is asked at a time, about the newest state: the picture first, then one other
-// pane, then the picture again if it has changed. First with one sample a pixel; once nothing has changed for a moment, with
-// four, in bands of rows, which the next change abandons.
+// A change marks every pane as outdated. One request is sent at a time, for the newest state: first the picture, then one other
+// pane, then the picture again if it has changed. Pictures first have one sample per pixel. When nothing has changed for a
+// moment, they are refined to four samples, in bands of rows. The next change abandons the refinement.
 
 import { byId } from './dom.js';
 
 /** Width and height of all pictures in pixels. */
 export const SIZE = [640, 400];
 const [WIDTH, HEIGHT] = SIZE;
-/** Rows of a band of four samples a pixel. */
+/** Rows in a band with four samples per pixel. */
 const BAND = 80;
-/** Milliseconds without a change after which pictures are refined. */
+/** Milliseconds without a change before pictures are refined. */
 const REST = 150;
 
-/** What is left to do for a pane. */
+/** The remaining work for a pane. */
 const Work = { none: 0, fine: 1, coarse: 2 };
 
 /** Keeps the panes up to date. */
@@ -36,20 +36,20 @@ export class Panes {
     this.frameTimes = [];
   }
 
-  /** Shows these panes; `state` is the one of words and numbers. @param {string[]} names */
+  /** Shows these panes. `state` is the pane of text and numbers. @param {string[]} names */
   select(names) {
     this.panes = ['picture', 'state', 'world', 'volume', 'depth']
       .filter((what) => what === 'state' || names.includes(what))
       .map((what) => ({ what, work: Work.coarse, row: 0, turn: 0 }));
   }
 
-  /** Clears the panes, which show another lesson. */
+  /** Clears the panes, which still show another lesson. */
   clear() {
     for (const name of ['picture', 'world', 'volume']) byId(name).getContext('2d').clearRect(0, 0, WIDTH, HEIGHT);
     byId('depth').removeAttribute('src');
   }
 
-  /** Everything, or the named panes, is old. @param {string[]} [names] */
+  /** Marks all panes, or the named panes, as outdated. @param {string[]} [names] */
   change(names) {
     this.epoch += 1;
     this.failed = false;
@@ -69,7 +69,7 @@ export class Panes {
     this.run();
   }
 
-  /** The pane that is asked about next. */
+  /** Returns the next pane to request. */
   next() {
     const coarse = this.panes.filter((pane) => pane.work === Work.coarse);
     const picture = coarse.find((pane) => pane.what === 'picture');
@@ -89,7 +89,7 @@ export class Panes {
       try {
         await this.refresh(pane);
       } catch (error) {
-        // The newest state is tried, unless it is this one.
+        // Retries with the newest state unless that is the failed state.
         if (epoch === this.epoch) {
           this.failed = true;
           this.page.fail(error);
@@ -100,7 +100,7 @@ export class Panes {
     if (!this.failed && this.panes.every((pane) => pane.work === Work.none)) this.page.settled();
   }
 
-  /** One question about a pane, and its answer onto the page. */
+  /** Sends one request for a pane and shows the answer. */
   async refresh(pane) {
     const { what } = pane;
     const base = `${this.page.query()}&what=${what}`;
@@ -128,13 +128,13 @@ export class Panes {
   }
 }
 
-/** Puts rows of RGBA onto a canvas. */
+/** Draws rows of RGBA on a canvas. */
 function drawRows(canvas, bytes, row) {
   const pixels = new Uint8ClampedArray(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   canvas.getContext('2d').putImageData(new ImageData(pixels, WIDTH), 0, row);
 }
 
-/** Shows a drawing as an image, where no script in it would run. */
+/** Shows a drawing as an image, so that no script in it can run. */
 function showSvg(image, { bytes }) {
   const url = URL.createObjectURL(new Blob([bytes], { type: 'image/svg+xml' }));
   const old = image.src;
@@ -142,13 +142,13 @@ function showSvg(image, { bytes }) {
   if (old.startsWith('blob:')) image.decode().catch(() => {}).then(() => URL.revokeObjectURL(old));
 }
 
-/** Degrees for a pixel of a drag, and for an arrow key. */
+/** Degrees per dragged pixel and per arrow key. */
 const DRAG = 0.4;
 const STEP = 5;
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 /**
- * Lets a canvas be orbited, by dragging and by the arrow keys.
+ * Makes a canvas orbit by dragging and with the arrow keys.
  * @param {HTMLCanvasElement} canvas
  * @param {{angles: () => number[], turn: (angles: number[]) => void}} orbit angles in degrees: azimuth, elevation
  */
@@ -174,7 +174,7 @@ export function makeOrbit(canvas, orbit) {
 }
 
 /**
- * Lets a pixel be picked, by a click or by a cursor that the arrow keys move.
+ * Picks a pixel by a click, or by a cursor that the arrow keys move.
  * @param {HTMLCanvasElement} canvas
  * @param {HTMLElement} cursor
  * @param {{move: (pixel: number[]) => void, pick: (pixel: number[]) => void}} page

@@ -1,21 +1,21 @@
-// What the user prefers: language and theme; and where pictures are computed.
+// User preferences (language and theme) and the choice of where pictures are computed.
 
 import { byId } from './dom.js';
 import { server } from './resources.js';
 import { LANGUAGES, currentLanguage, setLanguage } from './texts.js';
 
-/** Whether the server computes: asked by `?native`, or because there is no WebAssembly. */
+/** Whether the server computes pictures, because of `?native` or because WebAssembly is missing. */
 export function chooseNative() {
   if (!server.native) return false;
   return new URLSearchParams(location.search).has('native') || !server.wasm || typeof WebAssembly !== 'object';
 }
 
-/** Remembers a choice, where the browser allows it. */
+/** Remembers a choice if the browser allows it. */
 const remember = (key, value) => {
   try {
     localStorage.setItem(key, value);
   } catch {
-    // Private windows may refuse; the choice then holds for this page.
+    // Private windows may not allow it. The choice then applies only to this page.
   }
 };
 
@@ -27,7 +27,7 @@ const recall = (key) => {
   }
 };
 
-/** Sets language and theme, and their switches. @param {() => void} languageChanged */
+/** Sets the language and theme, and initializes their selectors. @param {() => void} languageChanged */
 export function preferences(languageChanged) {
   const ofLink = new URLSearchParams(location.hash.slice(1)).get('lang');
   const ofBrowser = navigator.languages.map((one) => one.slice(0, 2)).find((one) => LANGUAGES.includes(one));

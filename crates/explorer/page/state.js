@@ -1,13 +1,13 @@
-// The state of the page: a query string, in the link, in questions and in the history of undo.
+// The page state: a query string, used in the link, in requests and in the undo history.
 
 /** Version of the links. */
 const VERSION = '1';
-/** Milliseconds within which changes of the same key count as one step of undo. */
+/** Milliseconds within which changes to the same key count as one undo step. */
 const ONE_STEP = 1000;
 
-/** Keys and values in order; `lesson` and the parameters of the lesson are among them. */
+/** Keys and values in order, including `lesson` and its parameters. */
 export class State {
-  /** @param {string} query as after `#` */
+  /** @param {string} query the part after `#` */
   constructor(query) {
     this.values = new Map(new URLSearchParams(query));
     this.values.delete('lang');
@@ -17,19 +17,19 @@ export class State {
     this.lastChange = { key: '', time: -Infinity };
   }
 
-  /** The value of a key, if it is set. @param {string} key */
+  /** Returns the value of a key, if it is set. @param {string} key */
   get(key) {
     return this.values.get(key);
   }
 
-  /** The query string, `v` and `lesson` first. */
+  /** Returns the query string, beginning with `v` and `lesson`. */
   query() {
     const first = ['v', 'lesson'].filter((key) => this.values.has(key));
     const rest = [...this.values.keys()].filter((key) => !first.includes(key));
     return [...first, ...rest].map((key) => `${key}=${escapeValue(this.values.get(key))}`).join('&');
   }
 
-  /** Changes a value, as one step of undo with other changes of it shortly before. */
+  /** Changes a value. Changes to the same key in quick succession are one undo step. */
   set(key, value) {
     const { timeStamp: time } = new Event('change');
     if (this.lastChange.key !== key || time - this.lastChange.time > ONE_STEP) this.remember();
@@ -38,7 +38,7 @@ export class State {
     else this.values.set(key, value);
   }
 
-  /** Takes all values from another query, as one step of undo. */
+  /** Takes all values from another query, as one undo step. */
   replace(query) {
     this.remember();
     this.lastChange = { key: '', time: -Infinity };
@@ -54,7 +54,7 @@ export class State {
     this.values = new State(query).values;
   }
 
-  /** Goes a step back, or forth; whether there was one. */
+  /** Goes one step back. Returns whether there was a step. */
   undo() {
     return this.step(this.past, this.future);
   }
@@ -73,5 +73,5 @@ export class State {
   }
 }
 
-/** Percent-encoding that leaves the commas of vectors readable. */
+/** Percent-encodes a value, except for commas and slashes, so that vectors and paths stay readable. */
 const escapeValue = (value) => encodeURIComponent(value).replaceAll('%2C', ',').replaceAll('%2F', '/');

@@ -1,11 +1,11 @@
-// Explanations as headings, matrices in MathML and tables of coordinates.
+// Renders explanations as headings, MathML matrices and coordinate tables.
 //
-// A step is `{id, title, formula, items: [{id, name, value}]}`; a value is a number, a vector, `{rows}` or words.
+// A step is `{id, title, formula, items: [{id, name, value}]}`; a value is a number, a vector, `{rows}` or text.
 
 import { element, formatNumber, math } from './dom.js';
 import { term } from './texts.js';
 
-/** Steps, for the matrix pane. @param {object[]} steps @param {(value: any) => string} word */
+/** Renders steps for the matrix pane. @param {object[]} steps @param {(value: any) => string} word */
 export function stepsWithMatrices(steps, word) {
   return steps.map((step) =>
     element('div', { class: 'step', 'data-step': step.id }, heading(step, word), matrices(step, word), valueList(step, word)),
@@ -16,7 +16,7 @@ function heading({ title, formula }, word) {
   return element('h4', {}, term(word(title)), ' ', element('span', { class: 'formula' }, formula ?? ''));
 }
 
-/** The matrices of a step, side by side. */
+/** Renders the matrices of a step side by side. */
 function matrices({ items }, word) {
   const shown = items.filter(({ value }) => value?.rows);
   const figures = shown.map(({ id, name, value }) =>
@@ -25,7 +25,7 @@ function matrices({ items }, word) {
   return element('div', { class: 'factors' }, ...figures);
 }
 
-/** A matrix in brackets. @param {number[][]} rows */
+/** Renders a matrix in brackets. @param {number[][]} rows */
 export function matrix(rows) {
   const table = math('mtable', ...rows.map((row) => math('mtr', ...row.map((entry) => math('mtd', numberOf(entry))))));
   return math('math', math('mrow', math('mo', '['), table, math('mo', ']')));
@@ -33,7 +33,7 @@ export function matrix(rows) {
 
 const numberOf = (value) => math('mn', formatNumber(value));
 
-/** What is no matrix: names and values. */
+/** Renders all values except matrices, with their names. */
 function valueList({ items }, word) {
   const others = items.filter(({ value }) => !value?.rows);
   const entries = others.flatMap(({ id, name, value }) => [
@@ -43,14 +43,14 @@ function valueList({ items }, word) {
   return entries.length > 0 ? element('dl', {}, ...entries) : '';
 }
 
-/** A value in words. */
+/** Formats a value as text. */
 export function valueText(value, word) {
   if (typeof value === 'number') return formatNumber(value);
   if (Array.isArray(value)) return value.every((one) => typeof one === 'number') ? `(${value.map(formatNumber).join(', ')})` : value.map((one) => valueText(one, word)).join(', ');
   return value === null || value === undefined ? '' : word(value);
 }
 
-/** Coordinates of a point: a row for each space. @param {object[]} spaces @param {string[]} heads */
+/** Renders the coordinates of a point, with a row for each space. @param {object[]} spaces @param {string[]} heads */
 export function journeyTable(spaces, word, heads) {
   const row = ({ space, label, value }) => {
     const cells = ['x', 'y', 'z', 'w'].map((axis, i) =>
@@ -62,7 +62,7 @@ export function journeyTable(spaces, word, heads) {
   return element('table', { class: 'journey' }, element('thead', {}, head), element('tbody', {}, ...spaces.map(row)));
 }
 
-/** A table of numbers. @param {string[]} columns @param {number[][]} rows */
+/** Renders a table of numbers. @param {string[]} columns @param {number[][]} rows */
 export function plainTable(columns, rows) {
   const head = element('tr', {}, ...columns.map((text) => element('th', { scope: 'col' }, text)));
   const body = rows.map((row) => element('tr', {}, ...row.map((value) => element('td', {}, formatNumber(value)))));

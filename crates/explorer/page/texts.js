@@ -1,4 +1,4 @@
-// The words of the page itself, in English and Chinese. Words about a lesson come from the engine.
+// The text of the page itself, in English and Chinese. Text about a lesson comes from the engine.
 
 const TEXTS = {
   explorer: ['explorer', '观察流水线'],
@@ -8,7 +8,7 @@ const TEXTS = {
   next: ['Next lesson', '下一课'],
   language: ['Language', '语言'],
   theme: ['Theme', '外观'],
-  themeAuto: ['As the system', '跟随系统'],
+  themeAuto: ['System', '跟随系统'],
   themeLight: ['Light', '浅色'],
   themeDark: ['Dark', '深色'],
   loading: ['Loading …', '正在加载……'],
@@ -16,72 +16,72 @@ const TEXTS = {
   reset: ['Reset', '重置'],
   undo: ['Undo', '撤销'],
   redo: ['Redo', '重做'],
-  consequences: ['What follows', '结果'],
+  consequences: ['Consequences', '结果'],
   takeAway: ['Copy and save', '复制与保存'],
   copyLink: ['Copy link', '复制链接'],
   copyCommand: ['Copy as command', '复制为命令'],
   copyScene: ['Copy as scene file', '复制为场景文件'],
   savePicture: ['Save picture (PNG)', '保存图像 (PNG)'],
   saveDrawing: ['Save drawing (SVG)', '保存线图 (SVG)'],
-  openModel: ['Open a model or a scene', '打开模型或场景'],
+  openModel: ['Open a model or scene', '打开模型或场景'],
   dropHint: [
-    'Or drop files on the page: glTF, STL, OBJ, PLY, 3MF. A .gltf needs its .bin and textures with it. Files stay in the browser.',
+    'Or drop files on the page: glTF, STL, OBJ, PLY, 3MF. Add the .bin and textures of a .gltf. Files never leave the browser.',
     '也可将文件拖到页面上：glTF、STL、OBJ、PLY、3MF。.gltf 需同时选中其 .bin 与纹理。文件不会离开浏览器。',
   ],
   picture: ['Picture', '图像'],
-  pictureLabel: ['Picture of the camera', '相机所见的图像'],
+  pictureLabel: ['Picture from the camera', '相机所见的图像'],
   pictureHint: [
-    'Click a pixel to pin the point there; or move the cursor by the arrow keys (finer with Shift) and press Enter.',
+    'Click a pixel to pin the point there, or move the cursor with the arrow keys (finer with Shift) and press Enter.',
     '点击像素即可固定该处的点；也可用方向键移动光标（按住 Shift 更细），再按 Enter。',
   ],
   world: ['World, with the view volume', '世界与视见体'],
-  worldLabel: ['The world from outside, with eye and view volume', '从外部看世界：视点与视见体'],
+  worldLabel: ['The world from outside, with the eye and the view volume', '从外部看世界：视点与视见体'],
   volume: ['Canonical view volume', '规范视见体'],
   volumeLabel: ['The canonical view volume after the divide', '透视除法之后的规范视见体'],
   orbitHint: ['Drag to orbit, or use the arrow keys.', '拖动或用方向键可环绕观察。'],
   depth: ['Depth', '深度'],
-  depthLabel: ['Depth in the depth buffer against distance from the eye', '深度缓冲中的深度与到视点距离的关系'],
-  depthTable: ['Table of depths', '深度表'],
+  depthLabel: ['Depth buffer value against distance from the eye', '深度缓冲中的深度与到视点距离的关系'],
+  depthTable: ['Depth table', '深度表'],
   distance: ['distance', '距离'],
-  depthStep: ['least step, {0} bits', '最小可分辨间隔（{0} 位）'],
-  journey: ['Journey of the pinned point', '固定点的变换历程'],
+  depthStep: ['smallest step, {0} bits', '最小可分辨间隔（{0} 位）'],
+  journey: ['Pinned point in every space', '固定点的变换历程'],
   pinLabel: ['Pinned point', '固定点'],
   space: ['space', '空间'],
-  pick: ['What is at the pixel', '该像素处有什么'],
+  pick: ['Surfaces at the pixel', '该像素处有什么'],
   matrix: ['Matrices', '矩阵'],
   close: ['Close', '关闭'],
   copied: ['Copied.', '已复制。'],
-  saved: ['Saved as {0}.', '已保存为 {0}。'],
+  saved: ['Saved {0}.', '已保存为 {0}。'],
   copyByHand: ['Copy this text', '请复制以下文字'],
   cursorAt: ['pixel {0}, {1}', '像素 {0}, {1}'],
   footer: [
-    'Everything here is computed by Alberti, by the same code as the program: a saved picture has the same bytes.',
+    'Alberti computes everything on this page with the code of the program, so a saved picture has the same bytes.',
     '此处一切均由 Alberti 计算，与命令行程序使用同一代码：保存的图像逐字节相同。',
   ],
   native: ['Computed by the server.', '由服务器计算。'],
   noModel: ['None of these files is a model.', '这些文件中没有模型。'],
   noModelHelp: ['Choose a .glb, .gltf, .stl, .obj, .ply, .3mf or .ron file.', '请选择 .glb、.gltf、.stl、.obj、.ply、.3mf 或 .ron 文件。'],
   hugeModel: ['{0} is larger than {1} MB.', '{0} 大于 {1} MB。'],
-  hugeModelHelp: ['Use the program: `alberti explore --native MODEL`.', '请使用程序：`alberti explore --native MODEL`。'],
+  hugeModelHelp: ['Run the program instead: `alberti explore --native MODEL`.', '请使用程序：`alberti explore --native MODEL`。'],
   died: ['The computation stopped: {0}', '计算中止：{0}'],
   diedHelp: [
-    'It is started again with the next change. If it was short of memory, undo the change or choose a smaller model.',
+    'It restarts with the next change. If it ran out of memory, undo the change or choose a smaller model.',
     '下一次更改时将重新启动。若内存不足，请撤销更改或选择较小的模型。',
   ],
   notStarted: ['The page cannot compute: {0}', '页面无法计算：{0}'],
   notStartedHelp: [
-    'Reload the page. If that does not help, use another browser, or run `alberti explore --native`.',
+    'Reload the page. If that does not help, use a different browser or run `alberti explore --native`.',
     '请重新加载页面。若仍不行，请换用其他浏览器，或运行 `alberti explore --native`。',
   ],
-  badLinkHelp: ['The lesson is shown with its defaults.', '本课以默认值显示。'],
+  badLinkHelp: ['The lesson opens with its default values.', '本课以默认值显示。'],
   style: ['Style', '样式'],
-  styleDefault: ['as the lesson', '按本课'],
-  allSteps: ['Every step, with its formulas', '每一步及其公式'],
+  styleDefault: ['lesson default', '按本课'],
+  allSteps: ['Every step with its formulas', '每一步及其公式'],
   inside: ['inside', '在内'],
   clipped: ['clipped', '被裁剪'],
   outside: ['outside', '在外'],
-  outcodeInside: ['Outcode {0}: inside of all six planes.', '区域码 {0}：在六个平面之内。'],
-  outcodeOutside: ['Outcode {0}: outside of {1}.', '区域码 {0}：在 {1} 之外。'],
+  outcodeInside: ['Outcode {0}: inside all six planes.', '区域码 {0}：在六个平面之内。'],
+  outcodeOutside: ['Outcode {0}: outside {1}.', '区域码 {0}：在 {1} 之外。'],
   sources: {
     learnwebgl: ['Learn WebGL', 'Learn WebGL'],
     chapter: ['The chapter on viewing', '教科书“观察”一章'],
@@ -90,7 +90,7 @@ const TEXTS = {
   },
 };
 
-/** Headings and names of explanations, which the engine gives in English. */
+/** Headings and names in explanations, which the engine returns in English. */
 const TERMS = {
   'Camera: from the world to view space': '相机：从世界坐标到观察坐标',
   'Projection: from view to clip space': '投影：从观察坐标到裁剪坐标',
@@ -120,12 +120,12 @@ const TERMS = {
   pixel: '像素',
 };
 
-/** The languages of the page. */
+/** The page's languages. */
 export const LANGUAGES = ['en', 'zh'];
 
 let language = 'en';
 
-/** Chooses the language of all words. @param {string} chosen */
+/** Sets the language of all text. @param {string} chosen */
 export function setLanguage(chosen) {
   language = LANGUAGES.includes(chosen) ? chosen : 'en';
   document.documentElement.lang = language === 'zh' ? 'zh-CN' : 'en';
@@ -133,28 +133,28 @@ export function setLanguage(chosen) {
 
 export const currentLanguage = () => language;
 
-/** Words of the page, with values in place of `{0}`, `{1}`. @param {string} key */
+/** Returns a text of the page with values in place of `{0}` and `{1}`. @param {string} key */
 export function text(key, ...values) {
   const words = TEXTS[key][LANGUAGES.indexOf(language)];
   return values.reduce((all, value, i) => all.replace(`{${i}}`, value), words);
 }
 
-/** The name of a source of lessons. @param {string} source */
+/** Returns the name of a lesson source. @param {string} source */
 export const sourceName = (source) => TEXTS.sources[source]?.[LANGUAGES.indexOf(language)] ?? source;
 
-/** Words of the engine, which may be in both languages or in one. @param {any} words */
+/** Returns text from the engine, which may be in both languages or only one. @param {any} words */
 export const word = (words) => (words && typeof words === 'object' ? (words[language] ?? words.en ?? '') : String(words ?? ''));
 
-/** A message as a sentence: programs write them without capital and period. @param {string} message */
+/** Turns a message into a sentence, because programs write messages without a capital letter and period. @param {string} message */
 export function sentence(message) {
   const words = /^[a-z]+[ ,]/.test(message) ? message[0].toUpperCase() + message.slice(1) : message;
   return words === '' || /[.!?。！？]$/.test(words) ? words : `${words}${language === 'zh' ? '。' : '.'}`;
 }
 
-/** A heading or a name of an explanation. @param {string} english */
+/** Translates a heading or name of an explanation. @param {string} english */
 export const term = (english) => (language === 'zh' ? (TERMS[english] ?? english) : english);
 
-/** Writes the words into all elements that name one. */
+/** Fills in the text of all elements with `data-text` or `data-label`. */
 export function applyTexts() {
   for (const one of document.querySelectorAll('[data-text]')) one.textContent = text(one.dataset.text);
   for (const one of document.querySelectorAll('[data-label]')) one.setAttribute('aria-label', text(one.dataset.label));

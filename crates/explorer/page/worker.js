@@ -1,11 +1,11 @@
-// The worker that computes, so that the page never waits: one engine behind messages.
+// The worker that runs the engine, so that the page never blocks. It communicates by messages.
 //
-// `{id, start: {native, files, base}}`, `{id, file: {name, bytes}}` and `{id, query}` are answered by `{id, contentType, bytes}`
-// or `{id, error: {code, message, help}}`. Without a code of the engine's it is lost.
+// `{id, start: {native, files, base}}`, `{id, file: {name, bytes}}` and `{id, query}` are answered with `{id, contentType,
+// bytes}` or `{id, error: {code, message, help}}`. An error without a code means that the engine is lost.
 
 let engine = null;
 
-/** Chooses the engine: the server's, or WebAssembly. */
+/** Starts the engine, either on the server or in WebAssembly. */
 async function startEngine({ native, files, base }) {
   const urlOf = (path) => files?.[path] ?? new URL(path, base).href;
   const { startEngine: start } = await import(urlOf(native ? 'engine_native.js' : 'engine_wasm.js'));
@@ -17,7 +17,7 @@ async function answerMessage({ start, file, query }) {
   return file ? engine.addFile(file.name, file.bytes) : engine.answer(query);
 }
 
-// One message after the other: the engine keeps models and scenes between them.
+// Messages are processed one at a time, because the engine keeps models and scenes between them.
 let previous = Promise.resolve();
 addEventListener('message', ({ data }) => {
   previous = previous.then(() => answerMessage(data)).then(
@@ -29,7 +29,7 @@ addEventListener('message', ({ data }) => {
   );
 });
 
-/** The three parts of an error of the engine; any other error has no code. */
+/** Returns the three parts of an engine error. Other errors have no code. */
 function describeError(error) {
   const { code, message, help } = error ?? {};
   return { code: typeof code === 'string' ? code : null, message: String(message ?? error), help: help ?? '' };

@@ -1,19 +1,19 @@
-//! The explorer in a browser: the engine of the page as a JavaScript class.
+//! The engine of the explorer page as a JavaScript class.
 //!
-//! This crate contains only bindings: results and messages come from the crate `explorer`.
-//! `cargo xtask web` compiles it to WebAssembly and writes the JavaScript around it.
+//! This crate contains only bindings; results and messages come from the crate `explorer`. `cargo
+//! xtask web` compiles it to WebAssembly and generates the JavaScript for it.
 
 use explorer::ExplorerError;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-/// An explorer, with the files added to it.
+/// An explorer and the files added to it.
 #[wasm_bindgen]
 #[derive(Debug, Default)]
 pub struct Explorer(explorer::Explorer);
 
 #[wasm_bindgen]
 impl Explorer {
-    /// An explorer without files.
+    /// Creates an explorer without files.
     #[wasm_bindgen(constructor)]
     #[must_use]
     pub fn new() -> Self {
@@ -23,12 +23,12 @@ impl Explorer {
     /// Adds a file from which models can be loaded, or replaces the file of that name.
     ///
     /// # Errors
-    /// An object `{code, message, help}`: the name points outside the folder of files.
+    /// An object `{code, message, help}`, if the name points outside the folder of files.
     pub fn add_file(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), JsValue> {
         self.0.add_file(name, bytes).map_err(|error| error_object(&error))
     }
 
-    /// Answers a request, a query string, with an object `{content_type, bytes}`.
+    /// Answers a request (a query string) with an object `{content_type, bytes}`.
     ///
     /// # Errors
     /// An object `{code, message, help}`.
@@ -49,7 +49,7 @@ fn error_object(error: &ExplorerError) -> JsValue {
     object.into()
 }
 
-/// Plain JavaScript objects, which a worker can send to its page.
+/// Plain JavaScript objects, which the worker can send to the page.
 #[wasm_bindgen]
 extern "C" {
     type Object;
@@ -60,7 +60,7 @@ extern "C" {
     #[wasm_bindgen(js_namespace = Reflect, js_name = set)]
     fn set_text(object: &Object, name: &str, value: &str) -> bool;
 
-    /// The bytes are copied into a JavaScript array.
+    /// Copies the bytes into a JavaScript array.
     #[wasm_bindgen(js_namespace = Reflect, js_name = set)]
     fn set_bytes(object: &Object, name: &str, value: Vec<u8>) -> bool;
 }

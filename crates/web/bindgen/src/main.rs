@@ -1,5 +1,5 @@
-//! `web-bindgen MODULE.wasm FOLDER`: writes `web.js` and `web_bg.wasm`, the module with its
-//! JavaScript bindings, into a folder.
+//! `web-bindgen MODULE.wasm FOLDER` writes the module and its JavaScript bindings, `web_bg.wasm`
+//! and `web.js`, to a folder.
 
 use std::error::Error;
 use wasm_bindgen_cli_support::Bindgen;
