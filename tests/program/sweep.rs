@@ -121,7 +121,7 @@ fn parameters_that_do_not_apply_are_reported() {
             "20",
             "40",
             &["--projection", "isometric"],
-            "take a perspective or an orthographic",
+            "use a perspective or an orthographic",
         ),
         (
             "dolly",

@@ -6,7 +6,7 @@ use crate::lessons::LESSONS;
 use crate::request::DEFAULT_SIZE;
 use serde_json::{Value as Json, json};
 
-/// All lessons, in the order of the page.
+/// Returns all lessons as JSON, in page order.
 pub(crate) fn catalogue_json() -> Json {
     json!({
         "version": 1,

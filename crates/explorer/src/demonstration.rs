@@ -1,14 +1,14 @@
-//! Demonstrations of the viewing pipeline for lessons, computed by its own stages.
+//! Demonstrations of the viewing pipeline for lessons, computed by the stages of the pipeline.
 //! | subject | start with |
 //! | --- | --- |
 //! | one subject in every projection of the textbooks | [`projection_panels`] |
-//! | one camera or lens parameter, step by step | [`Sweep`] |
-//! | depth and its resolution against distance (C48, C68) | [`DepthTable`] |
+//! | one camera or lens parameter, varied in steps | [`Sweep`] |
+//! | depth and depth resolution against distance (C48, C68) | [`DepthTable`] |
 //! | wrap-around at w = 0: why clipping comes before the divide (C36) | [`wraparound_panels`] |
 //!
 //! Each returns [`Panels`](drawing::Panels) or a [`Page`](drawing::Page), which can be written as
-//! SVG, PDF or PNG; panels can also be written as an HTML page. None depends on the number of
-//! threads.
+//! SVG, PDF or PNG. Panels can also be written as an HTML page. The number of threads does not
+//! change the results.
 
 mod depth_chart;
 mod depth_table;
@@ -27,26 +27,26 @@ pub use wraparound::wraparound_panels;
 use pipeline::render::RenderError;
 use scene::ResolveError;
 
-/// A demonstration that cannot be computed.
+/// The reason why a demonstration cannot be computed.
 ///
-/// Each variant carries the error of the stage that failed, or the parameter and the reason, so
+/// Each variant contains the error of the stage that failed, or the parameter and the reason, so
 /// that the message can suggest a remedy.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum DemonstrationError {
-    /// The scene cannot be resolved with a projection.
+    /// The scene cannot be resolved with this projection.
     #[error(transparent)]
     Resolve(#[from] ResolveError),
     /// A panel cannot be drawn.
     #[error(transparent)]
     Render(#[from] RenderError),
-    /// A camera is impossible.
+    /// A camera is invalid.
     #[error(transparent)]
     Camera(#[from] camera::CameraError),
-    /// A projection is impossible.
+    /// A projection is invalid.
     #[error(transparent)]
     Projection(#[from] projection::ProjectionError),
-    /// The scene's projection does not have the parameter.
+    /// The scene's projection does not have this parameter.
     #[error("`{vary}` cannot be varied: {reason}")]
     UnsupportedParameter {
         /// The parameter.

@@ -1,4 +1,4 @@
-//! The depth table as a page: charts of depth and of resolution against distance, and the rows.
+//! The depth table as a page: charts of depth and resolution against distance, and the table rows.
 //!
 //! ```text
 //!  ┌ heading ────────────────────────────┐
@@ -24,7 +24,7 @@ const REVERSED_INK: Ink = [179, 38, 30];
 
 /// The page in millimeters: A4 landscape, or longer for long tables.
 const PAGE_SIZE: DVec2 = DVec2::new(297.0, 210.0);
-/// Width and height of each chart in millimeters.
+/// The width and height of each chart in millimeters.
 const CHART_SIZE: DVec2 = DVec2::new(150.0, 66.0);
 /// The upper left corner of the depth chart.
 const UPPER_CHART_CORNER: DVec2 = DVec2::new(24.0, 38.0);
@@ -33,26 +33,26 @@ const LOWER_CHART_CORNER: DVec2 = DVec2::new(24.0, 126.0);
 /// The upper left corner of the table.
 const TABLE_CORNER: DVec2 = DVec2::new(184.0, 36.0);
 
-/// The right ends of the table's columns in millimeters from its left; cells are right-aligned, so
-/// that a column's decimal points nearly line up.
+/// The right edges of the table columns, in millimeters from the left edge of the table. Cells are
+/// right-aligned, so the decimal points in a column nearly line up.
 const COLUMN_ENDS: [f64; 5] = [18.0, 38.0, 59.0, 80.0, 105.0];
 
-/// Letter height of the heading in millimeters.
+/// The text height of the heading in millimeters.
 const HEADING_HEIGHT: f64 = 4.5;
-/// Letter height of notes and table in millimeters.
+/// The text height of the notes and the table in millimeters.
 const LETTER_HEIGHT: f64 = 2.3;
-/// Line spacing of the table in letter heights.
+/// The line spacing of the table, as a multiple of the text height.
 const LINE_SPACING: f64 = 2.1;
 
-/// Samples of a curve: more than a printer resolves, and enough for every tooth of the
-/// floating-point resolution.
+/// The number of samples in a curve: more than a printer resolves, and enough for every tooth of
+/// the floating-point resolution.
 const CURVE_SAMPLES: u32 = 800;
 
 impl DepthTable {
-    /// Draws curves and table on a page, with this distance spacing.
+    /// Draws the curves and the table on a page, with this distance spacing.
     ///
-    /// The charts have their own samples; `rows` appear only in the table. Each table line takes
-    /// 4.83 mm, so 31 rows fit on A4; for more, the page grows downward.
+    /// The charts are sampled separately; `rows` appear only in the table. Each table line takes
+    /// 4.83 mm, so 31 rows fit on A4. With more rows the page grows downward.
     #[must_use]
     pub fn to_page(&self, rows: &[DepthRow], distances: Spacing) -> Page {
         let table_end = TABLE_CORNER.y + (rows.len() + 2) as f64 * LETTER_HEIGHT * LINE_SPACING;
@@ -67,11 +67,11 @@ impl DepthTable {
         page
     }
 
-    /// The two charts: depth and resolution against distance.
+    /// Returns the two charts: depth and resolution against distance.
     ///
     /// The depth axis is linear and contains [0, 1], or [−1, 1] for OpenGL's range. A tick marks
-    /// the distance 2FN/(F + N) at which half of the range is used up. Normal curves are solid and
-    /// reversed ones dashed, to be readable without color.
+    /// the distance 2FN/(F + N), up to which half of the range is used. Normal curves are solid and
+    /// reversed curves are dashed, so that the charts are readable without color.
     fn build_charts(&self, spacing: Spacing) -> [Chart; 2] {
         let samples = self.sample_rows(spacing);
         let [from, to] = self.distance_range();
@@ -123,11 +123,11 @@ impl DepthTable {
         ]
     }
 
-    /// Densely sampled rows, evenly spaced on the distance axis.
+    /// Returns densely sampled rows, evenly spaced on the distance axis.
     ///
     /// D(s) = N (E / N)^(s / samples) on a logarithmic axis, N + (E − N) s / samples on a linear
-    /// one. The first and the last sample are the planes themselves, without the rounding of `exp`.
-    /// Distances whose depth cannot be represented are dropped.
+    /// axis. The first and last samples are exactly the planes, without the rounding error of
+    /// `exp`. Distances whose depth cannot be represented are dropped.
     fn sample_rows(&self, spacing: Spacing) -> Vec<DepthRow> {
         let [near, end] = self.distance_range();
         let ratio = libm::log(end) - libm::log(near);
@@ -146,7 +146,7 @@ impl DepthTable {
     }
 }
 
-/// The word for the spacing of an axis.
+/// Returns the word for the spacing of an axis.
 const fn spacing_name(spacing: Spacing) -> &'static str {
     match spacing {
         Spacing::Linear => "linear",
@@ -154,11 +154,13 @@ const fn spacing_name(spacing: Spacing) -> &'static str {
     }
 }
 
-/// The range of the resolution axis, finest to coarsest. Near depth 0, floating-point resolution
-/// becomes arbitrarily fine; the finest fiftieth is omitted to keep the rest readable.
+/// Returns the range of the resolution axis, from finest to coarsest. Near depth 0, floating-point
+/// resolution becomes arbitrarily fine, so the finest fiftieth is omitted to keep the rest
+/// readable.
 ///
 /// Fixed point has a constant step in depth, so all of its samples count. The last sample is
-/// excluded, since there is no step at the far plane. Sorting makes this O(n log n) in the samples.
+/// excluded, because there is no step at the far plane. Sorting makes this O(n log n) in the number
+/// of samples.
 fn step_range(samples: &[DepthRow], format: DepthFormat) -> [f64; 2] {
     let left_out = if format == DepthFormat::Float32 { 50 } else { usize::MAX };
     let before_last = samples.len().saturating_sub(1);
@@ -168,22 +170,22 @@ fn step_range(samples: &[DepthRow], format: DepthFormat) -> [f64; 2] {
     let (Some(&finest), Some(&coarsest)) = (steps.get(steps.len() / left_out), steps.last()) else {
         return [0.5, 2.0];
     };
-    // A margin, in case all steps are equal.
+    // The margin is needed if all steps are equal.
     if coarsest > finest * 2.0 { [finest, coarsest] } else { [finest * 0.5, finest * 4.0] }
 }
 
-/// The part of a curve that is not below a value, without the last sample: there is no step at the
-/// far plane.
+/// Returns the part of a curve that is not below a value, without the last sample, because there is
+/// no step at the far plane.
 fn drop_steps_below(mut curve: Curve, least: f64) -> Curve {
     curve.points.pop();
     curve.points.retain(|[_, step]| *step >= least);
     curve
 }
 
-/// Title and notes at the top of the page.
+/// Returns the title and notes at the top of the page.
 ///
 /// Text is drawn with a stroke font, so the page needs no font file. The notes are one line,
-/// compressed to 270 mm if they are longer.
+/// compressed to 270 mm if necessary.
 fn heading_layer(title: &str, notes: &[String]) -> Layer {
     let mut layer = Layer::new("heading", "heading", Pen::solid(LETTER_HEIGHT * 0.1, INK));
     let left = UPPER_CHART_CORNER.x - 12.0;
@@ -194,10 +196,10 @@ fn heading_layer(title: &str, notes: &[String]) -> Layer {
     layer
 }
 
-/// The rows as text, with right-aligned columns.
+/// Returns the rows as text, with right-aligned columns.
 ///
-/// One group for each row, whose id is `row-0`, `row-1`, …; row 0 has the column names and a gap of
-/// 1.5 mm below it.
+/// Each row is a group with the id `row-0`, `row-1`, … Row 0 contains the column names and has a
+/// gap of 1.5 mm below it.
 fn table_layer(cells: &[[String; 5]]) -> Layer {
     let mut layer = Layer::new("table", "table", Pen::solid(LETTER_HEIGHT * 0.1, INK));
     for (number, row) in cells.iter().enumerate() {
@@ -222,7 +224,7 @@ mod tests {
 
     /// The drawn curve matches the formula, F(D − N)/((F − N)D), to a micrometer on the page.
     #[test]
-    fn the_curve_is_drawn_where_the_formula_says() {
+    fn drawn_curves_match_the_formula() {
         let table = DepthTable::new(2.0, 40.0, Convention::WEBGPU, DepthFormat::Float32);
         let page = table.expect("a table").to_page(&[], Spacing::Logarithmic);
         let layer = page.layers.iter().find(|layer| layer.id == "depth-normal").expect("a curve");
@@ -237,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn axes_say_what_they_are_and_how_they_are_spaced() {
+    fn axis_titles_name_quantity_and_spacing() {
         let table = DepthTable::new(2.0, 40.0, Convention::WEBGPU, DepthFormat::Float32);
         let table = table.expect("a table");
         for (spacing, words) in
@@ -254,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn every_range_and_format_has_a_page() {
+    fn every_depth_range_and_format_can_be_drawn() {
         for (near, far) in [(1e-3, f64::INFINITY), (1.0, 1.000_001), (1e-6, 1e9)] {
             for format in
                 [DepthFormat::Float32, DepthFormat::FixedPoint(1), DepthFormat::FixedPoint(64)]

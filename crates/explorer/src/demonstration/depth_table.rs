@@ -1,16 +1,16 @@
-//! The depth table: distance against depth after the divide, and depth resolution (C48, C68; ZP-1).
+//! The depth table: depth after the divide against distance, and depth resolution (C48, C68; ZP-1).
 //!
-//! A perspective keeps lines straight at the price of depth: half of the range is used for the
-//! distances from N to 2FN/(F + N). Stored depth is rounded, so far away many distances share one
-//! value. Floating-point numbers are finest near 0; with the far plane there (*reversed depth*)
-//! both effects cancel.
+//! A perspective keeps lines straight at the expense of depth: half of the range is used for
+//! distances from N to 2FN/(F + N). Stored depth is rounded, so many large distances share one
+//! value. Floating-point numbers are finest near 0. If the far plane has depth 0 (*reversed
+//! depth*), the two effects cancel.
 //!
 //! ```text
 //!  depth(D) = F (D − N) / ((F − N) D)        for the range [0, 1] from near N to far F
 //!  resolution of b-bit fixed point: ΔD ≈ D² (F − N) / (F N) / (2^b − 1)
 //! ```
-//! The resolution grows with the square of the distance: doubling N halves it, while F beyond a few
-//! hundred N hardly matters.
+//! The smallest resolved step grows with the square of the distance. Doubling N halves it, while F
+//! hardly matters beyond a few hundred N.
 
 use super::number_format::format_short;
 use projection::{Convention, DepthCurve, DepthFormat, ProjectionError, chapter};
@@ -18,28 +18,28 @@ use std::fmt::Write as _;
 
 /// The number of rows in a table with default distances.
 ///
-/// Enough to see the shape of the curve, and short enough for a terminal.
+/// Enough to show the shape of the curve, and few enough for a terminal.
 const DEFAULT_ROWS: u32 = 16;
 
 /// The last distance of a table with an infinite far plane, as a multiple of the near distance.
 const INFINITE_FAR_RATIO: f64 = 1e4;
 
-/// Depth against distance, in normal and in reversed depth.
+/// Depth against distance, in normal and reversed depth.
 ///
 /// The convention is not stored: the two curves contain its depth range in both directions.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct DepthTable {
-    /// Distance of the near plane.
+    /// The distance of the near plane.
     near: f64,
-    /// Distance of the far plane, or infinity.
+    /// The distance of the far plane, or infinity.
     far: f64,
     /// The storage format, which determines the resolution.
     format: DepthFormat,
-    /// Depth as a function of distance: normal, reversed.
+    /// Depth as a function of distance: normal, then reversed.
     curves: [DepthCurve; 2],
 }
 
-/// One distance with its depths and resolutions: normal first, then reversed.
+/// One distance with its depths and resolutions: normal, then reversed.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct DepthRow {
     /// Distance from the eye along the line of sight.
@@ -57,10 +57,10 @@ impl DepthTable {
     /// the same range reversed. `far` may be infinite.
     ///
     /// # Errors
-    /// Unless 0 < near < far, and the format has 1 to 64 bits.
+    /// Unless 0 < near < far and the format has 1 to 64 bits.
     ///
     /// One row is computed as a test, so that planes too close together for f64 are rejected here
-    /// and not in the middle of a table.
+    /// and not halfway through a table.
     pub fn new(
         near: f64,
         far: f64,
@@ -74,30 +74,32 @@ impl DepthTable {
         Ok(table)
     }
 
-    /// The curves of normal and reversed depth.
+    /// Returns the curves of normal and reversed depth.
     #[must_use]
     pub const fn curves(&self) -> [DepthCurve; 2] {
         self.curves
     }
 
-    /// The storage format of depths.
+    /// Returns the storage format of depths.
     #[must_use]
     pub const fn depth_format(&self) -> DepthFormat {
         self.format
     }
 
-    /// The distances of the near and far plane; ten thousand near distances for an infinite far
-    /// plane.
+    /// Returns the distances of the near and far planes. An infinite far plane counts as ten
+    /// thousand near distances.
     #[must_use]
     pub fn distance_range(&self) -> [f64; 2] {
         let end = if self.far.is_finite() { self.far } else { self.near * INFINITE_FAR_RATIO };
         [self.near, end]
     }
 
-    /// Sixteen distances from near to far in equal ratios, the inner ones rounded to three digits.
+    /// Returns sixteen distances from near to far in equal ratios. The inner distances are rounded
+    /// to three digits.
     ///
-    /// Dᵢ = N (E / N)^(i / 15). Rounding can move a distance past a plane or onto its neighbor when
-    /// the planes are close; such distances are dropped, so there may be fewer than sixteen.
+    /// Dᵢ = N (E / N)^(i / 15). If the planes are close together, rounding can move a distance past
+    /// a plane or onto its neighbor. Such distances are dropped, so there may be fewer than
+    /// sixteen.
     #[must_use]
     pub fn default_distances(&self) -> Vec<f64> {
         let [near, end] = self.distance_range();
@@ -113,11 +115,11 @@ impl DepthTable {
         all
     }
 
-    /// The depths and resolutions at a distance.
+    /// Returns the depths and resolutions at a distance.
     ///
     /// # Errors
     /// If the distance is not positive and finite, or its depth cannot be distinguished from the
-    /// next.
+    /// next depth.
     pub fn row_at(&self, distance: f64) -> Result<DepthRow, ProjectionError> {
         let step = |curve: DepthCurve| curve.resolution(distance, self.format);
         let steps = [step(self.curves[0])?, step(self.curves[1])?];
@@ -126,8 +128,9 @@ impl DepthTable {
         Ok(DepthRow { distance, depths: [depth(self.curves[0])?, depth(self.curves[1])?], steps })
     }
 
-    /// Notes on the whole table: the planes and format, the distance at which half of the range is
-    /// used up, and the distance N + F − NF/D to which the chapter's P moves the midpoint (C48).
+    /// Returns notes on the whole table: the planes and format, the distance up to which half of
+    /// the range is used, and the distance N + F − NF/D to which the chapter's P moves the midpoint
+    /// (C48).
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         let format = match self.format {
@@ -138,17 +141,17 @@ impl DepthTable {
         let planes = [self.near, self.far].map(|distance| format_short(distance, 6));
         let mut notes = vec![
             format!("near {}, far {}, {format}; distances in scene units", planes[0], planes[1]),
-            format!("half of the range is spent at 2FN/(F+N) = {half_range_distance}"),
+            format!("half of the range is used up to 2FN/(F+N) = {half_range_distance}"),
         ];
         notes.extend(self.moved_midpoint().map(|[middle, moved]| {
             let [middle, moved] = [middle, moved].map(|distance| format_short(distance, 5));
-            format!("P keeps both planes and moves the middle from {middle} to {moved}")
+            format!("P keeps both planes and moves the midpoint from {middle} to {moved}")
         }));
         notes
     }
 
-    /// The midpoint between the planes, and the distance to which the chapter's P moves it before
-    /// scaling; `None` for an infinite far plane.
+    /// Returns the midpoint between the planes and the distance to which the chapter's P moves it
+    /// before scaling, or `None` for an infinite far plane.
     ///
     /// The chapter's P has the rows (n, 0, 0, 0), (0, n, 0, 0), (0, 0, n + f, −fn), (0, 0, 1, 0):
     /// it maps z to n + f − fn/z, which leaves n and f in place and moves everything between them
@@ -163,8 +166,8 @@ impl DepthTable {
 
     /// Formats rows as plain text with aligned columns.
     ///
-    /// Notes first, one per line, then a blank line and the right-aligned table. All cells are
-    /// ASCII, so the byte length is the width.
+    /// The notes come first, one per line, then a blank line and the right-aligned table. All cells
+    /// are ASCII, so the byte length is the width.
     #[must_use]
     pub fn to_text(&self, rows: &[DepthRow]) -> String {
         let cells = self.table_cells(rows);
@@ -182,7 +185,7 @@ impl DepthTable {
 
     /// Formats rows as a Markdown table.
     ///
-    /// The notes are a sentence above the table; the table's second line right-aligns all columns.
+    /// The notes form a sentence above the table. The table's second line right-aligns all columns.
     #[must_use]
     pub fn to_markdown(&self, rows: &[DepthRow]) -> String {
         let mut text = self.notes().join("; ") + ".\n\n";
@@ -195,11 +198,11 @@ impl DepthTable {
         text
     }
 
-    /// The cells of a table, column names first. At the far plane there is no step, because no
-    /// depth is farther.
+    /// Returns the cells of a table, column names first. There is no step at the far plane, because
+    /// no depth is farther.
     ///
-    /// Depths have four decimals, distances six and steps three significant digits. Adding 0 turns
-    /// −0, which would look like a negative depth, into 0.
+    /// Depths have four decimals, distances have six significant digits, and steps have three.
+    /// Adding 0 turns −0, which would look like a negative depth, into 0.
     pub(super) fn table_cells(&self, rows: &[DepthRow]) -> Vec<[String; 5]> {
         let names = ["distance", "depth", "reversed", "step", "step reversed"].map(str::to_owned);
         let fixed = |depth: f64| format!("{:.4}", depth + 0.0);
@@ -213,9 +216,9 @@ impl DepthTable {
         std::iter::once(names).chain(rows.iter().map(row)).collect()
     }
 
-    /// Formats rows as JSON with all digits, for programs: a list of numbers per column.
+    /// Formats rows as JSON with all digits, for programs. Each column is a list of numbers.
     ///
-    /// The keys match the CSV columns, with `notes` for the sentences above the table.
+    /// The keys match the CSV columns; `notes` contains the sentences above the table.
     #[must_use]
     pub fn to_json(&self, rows: &[DepthRow]) -> String {
         let column = |of: fn(&DepthRow) -> f64| -> Vec<f64> { rows.iter().map(of).collect() };
@@ -230,11 +233,10 @@ impl DepthTable {
         format!("{json:#}\n")
     }
 
-    /// Formats rows as CSV with all digits, for programs: a line of names, then a line per
-    /// distance.
+    /// Formats rows as CSV with all digits, for programs: a header line, then a line per distance.
     ///
-    /// Decimals are the shortest that parse to the same f64. Here the step at the far plane is also
-    /// a number, not a dash.
+    /// Numbers have the fewest digits that parse to the same f64. The step at the far plane is a
+    /// number here, not a dash.
     #[must_use]
     pub fn to_csv(&self, rows: &[DepthRow]) -> String {
         let mut text = "distance,depth,reversed_depth,step,reversed_step\n".to_owned();
@@ -255,7 +257,7 @@ mod tests {
 
     /// C68: near 2, far 40, as the lesson prints it.
     #[test]
-    fn the_lessons_table_comes_out() {
+    fn the_table_matches_the_lesson() {
         let table = table(2.0, 40.0, Convention::OPENGL, DepthFormat::FixedPoint(24));
         for (distance, printed) in
             [(2.0, "-1.0000"), (3.0, "-0.2982"), (4.0, "0.0526"), (40.0, "1.0000")]
@@ -271,7 +273,7 @@ mod tests {
 
     /// C48: n = −1, f = −3, z = −2 maps to −2.5.
     #[test]
-    fn the_middle_moves_away_from_the_eye() {
+    fn the_midpoint_moves_away_from_the_eye() {
         let one_to_three = table(1.0, 3.0, Convention::CHAPTER, DepthFormat::Float32);
         assert_eq!(one_to_three.moved_midpoint(), Some([2.0, 2.5]));
         let open = table(1.0, f64::INFINITY, Convention::WEBGPU, DepthFormat::Float32);
@@ -279,7 +281,7 @@ mod tests {
         assert_eq!((open.notes().len(), open.distance_range()), (2, [1.0, 1e4]));
     }
 
-    /// ZP-1: a step of fixed depth is D²(F−N)/(FN) of the range.
+    /// ZP-1: a fixed step in depth is a distance of D²(F−N)/(FN) times its fraction of the range.
     #[test]
     fn steps_grow_with_the_square_of_the_distance() {
         let table = table(0.1, 1000.0, Convention::WEBGPU, DepthFormat::FixedPoint(24));
@@ -288,14 +290,14 @@ mod tests {
             let expected = distance * distance * 999.9 / 100.0 / 16_777_215.0;
             assert!(row.steps.iter().all(|step| (step / expected - 1.0).abs() < 1e-9), "{row:?}");
         }
-        // Floating point: far away, reversed depth is finer by orders of magnitude.
+        // With floating point, reversed depth is finer by orders of magnitude at large distances.
         let float = DepthTable { format: DepthFormat::Float32, ..table };
         let row = float.row_at(950.0).expect("a row");
         assert!(row.steps[0] > 0.5 && row.steps[1] < 1e-5, "{row:?}");
     }
 
     #[test]
-    fn distances_lead_from_near_to_far() {
+    fn default_distances_run_from_near_to_far() {
         for (near, far) in [(0.1, 1000.0), (2.0, 40.0), (1.0, 1.001), (3.0, f64::INFINITY)] {
             let table = table(near, far, Convention::WEBGPU, DepthFormat::Float32);
             let distances = table.default_distances();
@@ -305,7 +307,7 @@ mod tests {
     }
 
     #[test]
-    fn tables_are_written_for_people_and_for_programs() {
+    fn tables_have_readable_and_machine_readable_formats() {
         let table = table(1.0, 4.0, Convention::WEBGPU, DepthFormat::FixedPoint(8));
         let rows: Vec<DepthRow> = [1.0, 2.0].iter().filter_map(|&d| table.row_at(d).ok()).collect();
         assert_eq!(rows.len(), 2);

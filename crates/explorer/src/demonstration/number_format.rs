@@ -1,13 +1,13 @@
 //! Number formatting for captions and tables.
 //!
-//! Captions should be short and identical on every machine: the digits come from Rust's correctly
-//! rounded formatting, never from a logarithm.
+//! Captions should be short and identical on every machine, so the digits come from Rust's
+//! correctly rounded formatting, never from a logarithm.
 
-/// Formats a number with at most `digits` significant digits, without trailing zeros; very small
-/// and very large numbers get an exponent.
+/// Formats a number with at most `digits` significant digits and no trailing zeros. Very small and
+/// very large numbers get an exponent.
 ///
 /// Decimal notation is used from 1e-4 up to but not including 1e6, scientific notation otherwise.
-/// Positive infinity, as for far planes, is `infinite`; −∞ and NaN print as in Rust.
+/// Positive infinity, which a far plane may have, is `infinite`. −∞ and NaN print as in Rust.
 pub(super) fn format_short(x: f64, digits: usize) -> String {
     if !x.is_finite() {
         return if x > 0.0 { "infinite".to_owned() } else { format!("{x}") };
@@ -28,7 +28,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_as_short_as_they_can_be() {
+    fn numbers_are_formatted_as_short_as_possible() {
         let cases = [
             (1.0 / 3.0, "0.3333"),
             (9.999_96, "10"),

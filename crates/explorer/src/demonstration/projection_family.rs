@@ -1,7 +1,9 @@
-//! The family of planar projections: one subject in each, with class, formulas and measurements.
+//! The family of planar projections: one subject in each projection, with class, formulas and
+//! measurements.
 //!
-//! The measurements come from the matrix, not from the name: the lengths and directions of the axes
-//! in a parallel projection (C76, C77), and the vanishing points of a perspective (C80, C81).
+//! The measurements come from the matrix, not from the name. They are the lengths and directions of
+//! the axes in a parallel projection (C76, C77) and the vanishing points of a perspective (C80,
+//! C81).
 //!
 //! ```text
 //!  planar ─┬─ parallel ─┬─ orthographic: multiview, isometric, dimetric, trimetric
@@ -24,23 +26,24 @@ use projection::{
 use scene::{Origin, Scene};
 use scene_file::file::{CameraFile, ProjectionFile, SceneFile};
 
-/// The lines at the head of the page: two sentences.
+/// The text at the top of the page.
 const INTRODUCTION: [&str; 4] = [
     "Each panel shows the same models in one projection, with its class, the ids of its formulas",
-    "(`alberti reference OB-1` prints one) and the first of them in full. Parallel projections give",
-    "the drawn length of a unit of each axis, in scene units, and its direction from the right;",
-    "perspectives the vertical field of view, and vanishing points in half heights from the center.",
+    "(look them up with `alberti reference OB-1`) and the first formula. Parallel projections list",
+    "the drawn length and direction of one unit along each axis, with 0° to the right; perspectives",
+    "list the vertical field of view, and the vanishing points in half heights from the center.",
 ];
 
-/// The world axes by name, as unit vectors; their images give foreshortening and vanishing points.
+/// The named world axes as unit vectors. Their images give foreshortening and vanishing points.
 const AXES: [(&str, Vector<World>); 3] = [("x", Vector::X), ("y", Vector::Y), ("z", Vector::Z)];
 
-/// A projection with its name.
+/// A named projection.
 #[derive(Clone, PartialEq, Debug)]
 pub struct NamedProjection {
-    /// The name in lowercase with hyphens. It becomes the panel's id and, with blanks, its title.
+    /// The name in lowercase with hyphens. It is the panel's id and, with spaces instead of
+    /// hyphens, its title.
     pub name: String,
-    /// The projection as a scene file describes it.
+    /// The projection as described in a scene file.
     pub projection: ProjectionFile,
 }
 
@@ -48,10 +51,10 @@ pub struct NamedProjection {
 /// The number of threads does not change the panels.
 ///
 /// # Errors
-/// If the scene cannot be resolved, there is nothing to draw, or the picture has no pixels.
+/// If the scene cannot be resolved, is empty, or the picture has no pixels.
 ///
-/// The background is opaque white, as on paper. Panels keep the order of `members`; the title names
-/// the models. The scene is resolved and drawn once for each projection.
+/// The background is opaque white, like paper. Panels are in the order of `members`, and the title
+/// names the models. The scene is resolved and drawn once for each projection.
 pub fn projection_panels(
     origin: &Origin,
     file: &SceneFile,
@@ -76,11 +79,11 @@ pub fn projection_panels(
     Ok(Panels::new(title, panels).with_introduction(introduction))
 }
 
-/// The notes of a panel: class, formulas, measurements.
+/// Returns the notes of a panel: class, formulas and measurements.
 ///
-/// A parallel projection gets the lengths and directions of the axes, a perspective its angle and
-/// vanishing points. Parallel means that w does not change along any axis, which the matrix shows
-/// even if its decomposition fails.
+/// A parallel projection gets the lengths and directions of the axes; a perspective gets its angle
+/// and vanishing points. A projection is parallel if w does not change along any axis, which can be
+/// read from the matrix even if its decomposition fails.
 fn projection_notes(
     projection: &ProjectionFile,
     view_projection: &ViewProjection,
@@ -109,7 +112,7 @@ fn projection_notes(
     notes
 }
 
-/// The first equation among some formulas, in characters of the stroke font.
+/// Returns the first equation among some formulas, in characters of the stroke font.
 fn formula_in_full(ids: &str) -> Option<String> {
     let (id, equation) = ids.split(", ").find_map(|id| {
         let equation = find_formula(id)?.equations().collect::<Vec<_>>().join(", ");
@@ -120,7 +123,8 @@ fn formula_in_full(ids: &str) -> Option<String> {
     Some(format!("{id}: {spelled}"))
 }
 
-/// The classes from below the root to this one, such as `parallel, oblique, cavalier`.
+/// Returns the path of classes from below the root to this class, such as `parallel, oblique,
+/// cavalier`.
 ///
 /// The root, which all classes share, is omitted.
 fn class_path(class: ProjectionClass) -> String {
@@ -130,12 +134,12 @@ fn class_path(class: ProjectionClass) -> String {
     names.join(", ")
 }
 
-/// The class of a projection: from its name, or for perspectives from the number of vanishing
-/// points.
+/// Returns the class of a projection, from its name or, for perspectives, from the number of
+/// vanishing points.
 ///
-/// The parallel kinds in a scene file already are class names. The class of a perspective depends
-/// on its camera: turning the camera turns a one-point into a two-point perspective with the same
-/// lens.
+/// Parallel projections in a scene file already have the name of their class. The class of a
+/// perspective depends on the camera: turning the camera changes a one-point perspective into a
+/// two-point perspective with the same lens.
 fn classify_projection(
     projection: &ProjectionFile,
     map: Projective<World, Clip>,
@@ -161,9 +165,9 @@ fn classify_projection(
     }
 }
 
-/// The formula ids of the projection's class, then of its matrix, without duplicates.
+/// Returns the formula ids of the projection's class and then of its matrix, without duplicates.
 ///
-/// A linear search removes the duplicates, because there are only a few ids.
+/// A linear search is enough to remove duplicates, because there are only a few ids.
 fn formula_list(class: ProjectionClass, view_projection: &ViewProjection) -> String {
     let named = match class {
         ProjectionClass::Multiview => "MV-1",
@@ -183,7 +187,7 @@ fn formula_list(class: ProjectionClass, view_projection: &ViewProjection) -> Str
     all.join(", ")
 }
 
-/// The window of a projection, in units that depend on its kind.
+/// The window of a projection, in units that depend on the kind of projection.
 enum ViewWindow {
     /// In units of the picture plane.
     Parallel(Window),
@@ -191,7 +195,8 @@ enum ViewWindow {
     Perspective(Window),
 }
 
-/// The window of a decomposed projection; `None` if its matrix does not determine one.
+/// Returns the window of a decomposed projection, or `None` if its matrix does not determine a
+/// window.
 ///
 /// A frustum is measured by slopes (x and y per unit of distance), which do not depend on the
 /// position of its near plane.
@@ -205,13 +210,14 @@ fn view_window(kind: &Decomposed) -> Option<ViewWindow> {
     })
 }
 
-/// Length and direction of each axis unit in the picture, counterclockwise from the right.
+/// Returns the length and direction of each axis unit in the picture, counterclockwise from the
+/// right.
 ///
 /// `pixels` is the length of a unit of the picture plane. If the matrix does not determine it, the
-/// longest axis counts as drawn to full scale, as in the plan of a military projection.
+/// longest axis is assumed to be at full scale, as in the plan of a military projection.
 ///
-/// The image of an axis d is the vector M (d, 0), scaled from NDC to pixels. Its length over the
-/// length of a unit is the foreshortening ratio: √(2/3) = 0.816 for isometric, 1 and ½ for the
+/// The image of an axis d is the vector M (d, 0), scaled from NDC to pixels. Its length divided by
+/// the length of a unit is the foreshortening ratio: √(2/3) = 0.816 for isometric, 1 and ½ for the
 /// receding axes of cavalier and cabinet. An axis shorter than 1e-9 is seen end-on.
 fn describe_axes(map: Projective<World, Clip>, size: DVec2, pixels: Option<f64>) -> String {
     let images = AXES.map(|(name, axis)| {
@@ -237,18 +243,18 @@ fn describe_axes(map: Projective<World, Clip>, size: DVec2, pixels: Option<f64>)
     drawn.join(" · ")
 }
 
-/// The vertical field of view of a perspective.
+/// Returns the vertical field of view of a perspective.
 ///
-/// atan(top) − atan(bottom), which is also correct for windows off the line of sight.
+/// The result is atan(top) − atan(bottom), which is also correct for windows off the line of sight.
 fn describe_opening_angle(slopes: Window) -> String {
     let degrees = (libm::atan(slopes.top()) - libm::atan(slopes.bottom())).to_degrees();
     format!("{}° high · ", format_short(degrees, 3))
 }
 
-/// The vanishing points of the axes, in half heights of the picture from its center.
+/// Returns the vanishing points of the axes, in half heights of the picture from its center.
 ///
 /// Axes parallel to the picture plane have their vanishing point at infinity and are omitted. Both
-/// axes have the same unit: x is multiplied by the aspect ratio.
+/// coordinates have the same unit, because x is multiplied by the aspect ratio.
 fn describe_vanishing_points(map: Projective<World, Clip>, size: DVec2) -> String {
     let Ok(points) = principal_vanishing_points(map) else { return String::new() };
     let aspect = size.x / size.y;
@@ -272,10 +278,10 @@ mod tests {
         panels.panels[0].notes.clone()
     }
 
-    /// √(2/3) in isometric; √(8)/3 and √(2)/3 in the dimetric of 42° and 7°; depth at full and half
-    /// length; a plan with heights.
+    /// √(2/3) in isometric, √(8)/3 and √(2)/3 in the dimetric projection with 42° and 7°, depth at
+    /// full and half length in cavalier and cabinet, and an undistorted plan in military.
     #[test]
-    fn parallel_projections_draw_the_axes_as_the_textbooks_say() {
+    fn parallel_projections_foreshorten_axes_as_in_the_textbooks() {
         let cases = [
             (
                 ProjectionFile::Isometric,
@@ -306,7 +312,7 @@ mod tests {
     }
 
     #[test]
-    fn perspectives_are_named_by_how_many_axes_vanish() {
+    fn perspectives_are_named_after_their_vanishing_points() {
         let cases = [
             (ProjectionFile::one_point(), "perspective, one-point", "z to (0.35, 0.45)"),
             (

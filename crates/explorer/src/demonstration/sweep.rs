@@ -1,8 +1,8 @@
-//! Sweeps: one camera or lens parameter from one value to another, with a picture for each step
-//! (C62, C64, C94).
+//! Sweeps: one camera or lens parameter varied from one value to another, with a picture for each
+//! step (C62, C64, C94).
 //!
 //! Everything else stays as in the scene. The near and far planes are refitted only if the
-//! parameter moves the camera, since they could cut off the subject.
+//! parameter moves the camera, because the subject could then be clipped.
 //!
 //! ```text
 //!  fov, lens       tan(fov / 2) = window height / (2 · near)      a smaller angle enlarges
@@ -25,29 +25,30 @@ use scene::Scene;
 use std::fmt;
 use step::SweepBase;
 
-/// The gap between a picture and its view volume below, in millimeters.
+/// The gap between a picture and the view volume below it, in millimeters.
 const PANEL_GAP: f64 = 4.0;
 
 /// The parameter of a sweep.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum SweepParameter {
-    /// Vertical field of view in degrees, from a fixed eye: small angles magnify.
+    /// Vertical field of view in degrees, from a fixed eye. Small angles magnify.
     Fov,
-    /// Window height of a parallel projection, with a fixed aspect ratio: small windows magnify.
+    /// Window height of a parallel projection, with a fixed aspect ratio. Small windows magnify.
     Height,
-    /// Aspect ratio of the window; it distorts unless it matches the picture's.
+    /// Aspect ratio of the window. It distorts unless it matches the aspect ratio of the picture.
     Aspect,
-    /// Distance of the near plane with a fixed angle: it only clips.
+    /// Distance of the near plane with a fixed angle, which only affects clipping.
     Near,
-    /// Distance of the far plane: it only clips.
+    /// Distance of the far plane, which only affects clipping.
     Far,
-    /// Distance of the near plane with a fixed window on it (`glFrustum`): the angle changes.
+    /// Distance of the near plane with a fixed window on it (`glFrustum`), which changes the angle.
     Lens,
     /// Shift of the window to the right, in half widths: a lens shift.
     Shift,
     /// Distance of the eye from the center of the models along the line of sight.
     Distance,
-    /// Distance of the eye with the angle adapted so that the center keeps its size: a dolly zoom.
+    /// Distance of the eye, with the angle adapted so that the center keeps its size (a dolly
+    /// zoom).
     Dolly,
     /// Rotation of the camera about the vertical axis through the center of the models, in degrees,
     /// counterclockwise seen from above.
@@ -55,20 +56,20 @@ pub enum SweepParameter {
 }
 
 /// A parameter with its range of values, in the parameter's unit: degrees for angles, world units
-/// for distances and heights, plain ratios for the others.
+/// for distances and heights, and plain ratios otherwise.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Sweep {
     /// The parameter.
     pub parameter: SweepParameter,
     /// The first value.
     ///
-    /// If it is greater than the last value, the sweep runs downward.
+    /// If it is greater than the last value, the sweep is descending.
     pub from: f64,
     /// The last value.
     pub to: f64,
     /// The number of pictures, at least 1.
     pub steps: u32,
-    /// Whether a second picture below each one shows its view volume around the models.
+    /// Whether a second picture, below each picture, shows the view volume around the models.
     pub volumes: bool,
 }
 
@@ -87,7 +88,7 @@ impl SweepParameter {
         Self::Angle,
     ];
 
-    /// The name on the command line.
+    /// Returns the name on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -104,23 +105,23 @@ impl SweepParameter {
         }
     }
 
-    /// The effect on the picture, in the words of the lessons.
+    /// Returns the effect on the picture, as stated in the lessons.
     ///
-    /// It is the title of the whole page, after the name of the parameter.
+    /// It follows the name of the parameter in the page title.
     const fn caption(self) -> &'static str {
         match self {
             Self::Fov => "a smaller angle enlarges",
-            Self::Height => "a smaller window enlarges, wherever the eye is",
-            Self::Aspect => "an aspect that is not the picture's distorts",
-            Self::Near => "the near plane only cuts off",
-            Self::Far => "the far plane only cuts off",
-            Self::Lens => "the distance of a window of fixed size is the angle",
+            Self::Height => "a smaller window enlarges, regardless of the eye",
+            Self::Aspect => "an aspect ratio that differs from the picture's distorts",
+            Self::Near => "the near plane only clips",
+            Self::Far => "the far plane only clips",
+            Self::Lens => "the distance of a fixed-size window sets the angle",
             Self::Shift => {
-                "a window beside the line of sight moves the picture and keeps its shapes"
+                "a shifted window moves the picture without distorting it"
             }
-            Self::Distance => "nearer is larger, and steeper in perspective",
-            Self::Dolly => "distance against angle: the middle keeps its size, all else does not",
-            Self::Angle => "around the models",
+            Self::Distance => "a closer eye enlarges and steepens the perspective",
+            Self::Dolly => "distance and angle balance: only the center keeps its size",
+            Self::Angle => "the camera orbits the models",
         }
     }
 }
@@ -132,7 +133,7 @@ impl fmt::Display for SweepParameter {
 }
 
 impl Sweep {
-    /// The values, evenly spaced; the first and the last are exact.
+    /// Returns the values, evenly spaced. The first and last values are exact.
     #[must_use]
     pub fn parameter_values(&self) -> Vec<f64> {
         let last = self.steps.max(1) - 1;
@@ -144,10 +145,10 @@ impl Sweep {
         (0..=last).map(value).collect()
     }
 
-    /// Camera and projection for each value, with a note.
+    /// Returns the camera and projection for each value, with a note.
     ///
     /// # Errors
-    /// If the scene's projection has no such parameter, or a value is out of range.
+    /// If the scene's projection does not have the parameter, or a value is out of range.
     pub fn view_projections(
         &self,
         scene: &Scene,
@@ -164,7 +165,7 @@ impl Sweep {
     /// # Errors
     /// As [`view_projections`](Self::view_projections), or if a picture has no pixels.
     ///
-    /// The panels have the ids `step-1`, `step-2`, … They are drawn one by one, each with all
+    /// The panels have the ids `step-1`, `step-2`, … They are drawn one at a time, each with all
     /// threads. One observer is fitted to all steps, so that the view volumes can be compared
     /// between panels.
     pub fn draw_panels(&self, scene: &Scene, threads: usize) -> Result<Panels, DemonstrationError> {
@@ -195,10 +196,10 @@ impl Sweep {
     }
 }
 
-/// A picture with its view volume below it, seen by an observer from the side.
+/// Draws a picture and, below it, its view volume as seen by an observer from the side.
 ///
-/// The scene is drawn a second time with the volume of its camera as an overlay, from the
-/// observer's view. Ids of layers are prefixed with `view-` and `volume-`, so that they stay unique
+/// The scene is drawn a second time from the observer's viewpoint, with the view volume of its
+/// camera as an overlay. Layer ids are prefixed with `view-` and `volume-`, so that they are unique
 /// on the common page.
 fn add_volume_panel(
     view: Panel,
@@ -218,11 +219,12 @@ fn add_volume_panel(
     Ok(Panel { page, ..view })
 }
 
-/// A trimetric view that shows the models, all eyes and all near windows; `None` without models.
+/// Returns a trimetric view that shows the models, all eyes and all near windows, or `None` if
+/// there are no models.
 ///
 /// The near windows are the corners (±1, ±1, +1) of the canonical volume, mapped back to the world.
-/// Far windows are not included: they would shrink the models to a few pixels. The margin is 8 % on
-/// each side.
+/// Far windows are not included, because they would shrink the models to a few pixels. The margin
+/// is 8% on each side.
 fn observer_view(scene: &Scene, views: &[(ViewProjection, String)]) -> Option<ViewProjection> {
     let mut points = scene.world_points();
     for (view_projection, _) in views {

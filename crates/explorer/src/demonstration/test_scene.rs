@@ -1,13 +1,13 @@
-//! The test scene of the demonstrations.
+//! The test scene for the demonstrations.
 
 use scene::{Origin, ResolveOptions, Scene};
 use scene_file::SceneFile;
 use std::path::Path;
 
-/// The lessons' house with default settings, at a small size.
+/// Returns the lessons' house with default settings, at a small size.
 ///
-/// 320 × 240 pixels with hidden lines removed: fast in a debug build, and independent of materials
-/// and light.
+/// It has 320 × 240 pixels and hidden lines removed, which is fast in a debug build and independent
+/// of materials and light.
 pub(super) fn house_scene() -> (Origin, SceneFile, Scene) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/models/house.glb");
     let (origin, mut file) = Origin::from_model_path(&path);

@@ -1,5 +1,5 @@
-//! Wrap-around at w = 0: a floor that runs from in front of the eye to behind it, divided without
-//! clipping and clipped first (C36).
+//! Wrap-around at w = 0: a floor that extends from in front of the eye to behind it, once divided
+//! without clipping and once clipped first (C36).
 //!
 //! ```text
 //!    from the side                  divided at once            clipped first
@@ -8,9 +8,10 @@
 //!    ahead        w = 0  behind       ╳   upside down,           /     \
 //!                                    ╱ ╲  in the sky            /       \
 //! ```
-//! The image of a point at z = −ε is far below, at z = +ε far above. The image of the segment
-//! between them passes through infinity, and the line that connects the images of its ends is the
-//! part that does not belong to it. Clipping against the near plane before the divide leaves w > 0.
+//! The image of a point at z = −ε is far below, and at z = +ε far above. The image of the segment
+//! between them passes through infinity, so the line that connects the images of its ends is
+//! exactly the part outside the true image. Clipping against the near plane before the divide
+//! leaves only w > 0.
 
 use super::DemonstrationError;
 use super::number_format::format_short;
@@ -29,36 +30,36 @@ const RED: Ink = [179, 38, 30];
 /// The color of boards behind the eye.
 const BLUE: Ink = [26, 86, 176];
 
-/// Width and height of each picture in millimeters.
+/// The width and height of each picture in millimeters.
 const PICTURE_SIZE: DVec2 = DVec2::new(88.0, 66.0);
-/// Letter height in millimeters.
+/// The text height in millimeters.
 const LETTER_HEIGHT: f64 = 2.2;
-/// Line width of boards in millimeters.
+/// The line width of boards in millimeters.
 const STROKE_WIDTH: f64 = 0.35;
 
 /// The eye's height above the floor.
 const EYE_HEIGHT: f64 = 1.6;
-/// Distance of the near plane.
+/// The distance of the near plane.
 const NEAR: f64 = 0.5;
-/// Distance of the far plane.
+/// The distance of the far plane.
 const FAR: f64 = 40.0;
 
-/// The z at which rows of boards begin and end, from far in front of the eye to behind it. The
-/// third row crosses the plane of the eye, z = 0.
+/// The z coordinates at which rows of boards begin and end, from far in front of the eye to behind
+/// it. The third row crosses the plane of the eye, z = 0.
 const BOARD_ENDS: [f64; 5] = [-15.0, -9.0, -3.0, 3.0, 9.0];
-/// The x of the borders between boards.
+/// The x coordinates of the borders between boards.
 const BOARD_BORDERS: [f64; 5] = [-2.0, -1.0, 0.0, 1.0, 2.0];
 
-/// The layers of boards by their position relative to the eye: id, title, color.
+/// The layers of boards by position relative to the eye: id, title and color.
 const BOARD_KINDS: [(&str, &str, Ink); 3] = [
-    ("ahead", "boards ahead of the eye", INK),
+    ("ahead", "boards in front of the eye", INK),
     ("crossing", "boards that cross the plane of the eye", RED),
     ("behind", "boards behind the eye", BLUE),
 ];
 
 /// A board of the floor: the index of its layer and its corners.
 ///
-/// It is in the floor plane y = 0 and measures 1 × 6 world units.
+/// It is in the plane y = 0 and measures 1 × 6 world units.
 struct Board {
     /// Index into [`BOARD_KINDS`].
     kind: usize,
@@ -66,13 +67,13 @@ struct Board {
     corners: [Point<World>; 4],
 }
 
-/// Draws the floor from the side, divided without clipping, and clipped first.
+/// Draws the floor three times: from the side, divided without clipping, and clipped first.
 ///
 /// # Errors
-/// None in practice: camera and projection are constants.
+/// None in practice, because the camera and projection are constants.
 ///
-/// The page depends only on the constants in this file. The notes state the numbers behind the
-/// picture: w and image of two pairs of points, and the number of boards left after clipping.
+/// The page depends only on the constants in this file. The notes state w and the images of two
+/// pairs of points, and the number of boards left after clipping.
 pub fn wraparound_panels() -> Result<Panels, DemonstrationError> {
     let world_to_clip = world_to_clip()?;
     let boards = floor_boards();
@@ -81,13 +82,13 @@ pub fn wraparound_panels() -> Result<Panels, DemonstrationError> {
         divided_panel(&boards, world_to_clip),
         clipped_panel(&boards, world_to_clip),
     ];
-    Ok(Panels::new("Clip before the divide: a floor that runs past the eye", panels))
+    Ok(Panels::new("Clip before the divide: a floor that extends behind the eye", panels))
 }
 
-/// World to the chapter's canonical volume (PE-3), looking along −z.
+/// Returns the transform from the world to the chapter's canonical volume (PE-3), looking along −z.
 ///
-/// A vertical field of view of 60° from the eye's height. w = −z for the points of the floor, so
-/// the sign of z tells front from back.
+/// The vertical field of view is 60°. For points on the floor w = −z, so the sign of z
+/// distinguishes front from back.
 fn world_to_clip() -> Result<Projective<World, Clip>, DemonstrationError> {
     let eye = Point::new(0.0, EYE_HEIGHT, 0.0);
     let camera = Camera::look_to(eye, -Vector::Z, Vector::Y)?;
@@ -100,10 +101,10 @@ fn world_to_clip() -> Result<Projective<World, Clip>, DemonstrationError> {
     Ok(camera.world_to_view().then_project(lens.view_to_clip(Convention::CHAPTER)))
 }
 
-/// The boards of the floor, row by row.
+/// Returns the boards of the floor, row by row.
 ///
-/// Four rows of four boards. A row is in front if it ends at z < 0 and behind if it begins at z ≥
-/// 0; otherwise it crosses the plane of the eye.
+/// There are four rows of four boards. A row is in front if it ends at z < 0 and behind if it
+/// begins at z ≥ 0; otherwise it crosses the plane of the eye.
 fn floor_boards() -> Vec<Board> {
     let mut boards = Vec::new();
     for end in BOARD_ENDS.windows(2) {
@@ -125,11 +126,12 @@ fn floor_boards() -> Vec<Board> {
     boards
 }
 
-/// The scene from the side, looking left: the visible part is to the left of the eye.
+/// Draws the scene from the side. The camera looks to the left, so the visible part is left of the
+/// eye.
 ///
-/// An orthographic view along −x at 3.2 mm per world unit, drawn directly on the page, not through
-/// the pipeline. Dashed lines are the plane of the eye and the near plane; thin lines show the
-/// field of view of 60°.
+/// This is an orthographic view along −x at 3.2 mm per world unit, drawn directly on the page and
+/// not through the pipeline. Dashed lines show the plane of the eye and the near plane; thin lines
+/// show the field of view of 60°.
 fn side_panel(boards: &[Board]) -> Panel {
     let position = |z: f64, y: f64| DVec2::new(56.0 + z * 3.2, 40.0 - y * 3.2);
     let line = |a: [f64; 2], b: [f64; 2]| {
@@ -156,7 +158,7 @@ fn side_panel(boards: &[Board]) -> Panel {
         [-1.0, 1.0].map(|side| line([0.0, EYE_HEIGHT], [-10.0, EYE_HEIGHT + side * 10.0 * slope]));
     let angle = stroke_layer(
         "angle",
-        "what is seen",
+        "field of view",
         [110, 116, 124],
         angle.into_iter().flatten().collect(),
     );
@@ -168,17 +170,17 @@ fn side_panel(boards: &[Board]) -> Panel {
     page.layers.extend([plane, with_thin_pen(angle), with_thin_pen(words)]);
     let notes = vec![
         format!("eye at height {EYE_HEIGHT}, looking along -z; near plane at {NEAR}"),
-        "black: ahead; red: through the plane of the eye; blue: behind it".to_owned(),
+        "black: in front of the eye; red: crossing the plane of the eye; blue: behind it".to_owned(),
     ];
     let (id, title) = ("side".to_owned(), "from the side".to_owned());
     Panel { id, title, notes, page }
 }
 
-/// The perspective divide without clipping: the images of the corners, connected.
+/// Draws the perspective divide without clipping: the connected images of the corners.
 ///
-/// This is the mistake that the lesson shows: the segment between the images of two corners with w
-/// of different signs is the complement of the true image. The drawing is cut at the border of the
-/// picture only afterward, which cannot repair it.
+/// This is the mistake that the lesson demonstrates: if w has different signs at two corners, the
+/// segment between their images is the complement of the true image. The drawing is clipped to the
+/// picture only afterward, which cannot correct it.
 fn divided_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
     let outline = |board: &Board| -> Vec<Polyline> {
         let images = board.corners.map(|corner| map.transform_point(corner).divide());
@@ -190,14 +192,14 @@ fn divided_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
         format!("(1, 0, -3) {}; (1, 0, 3) {}", image(1.0, -3.0), image(1.0, 3.0)),
         format!("(1, 0, -0.01) {}; (1, 0, 0.01) {}", image(1.0, -0.01), image(1.0, 0.01)),
     ];
-    boards_panel("divided", "divided at once", notes, boards, outline)
+    boards_panel("divided", "divided without clipping", notes, boards, outline)
 }
 
-/// Clipping against the view volume, then the divide.
+/// Draws the boards clipped against the view volume and then divided.
 ///
 /// Polygon clipping in homogeneous space (Sutherland and Hodgman, 1974; CL-3). Every remaining
-/// vertex has w ≥ near; the smallest w is printed. Boards behind the eye vanish; crossing boards
-/// keep their front part.
+/// vertex has w ≥ near, and the smallest w is printed. Boards behind the eye disappear, and
+/// crossing boards keep their front part.
 fn clipped_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
     let ring = |board: &Board| {
         clip_convex(&board.corners.map(|corner| map.transform_point(corner)), &Volume::CHAPTER)
@@ -216,15 +218,15 @@ fn clipped_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
         format!("{left} of {} {}", boards_of_kind.count(), BOARD_KINDS[kind].0)
     };
     let notes = vec![
-        format!("left are {}, {}, {}", count(0), count(1), count(2)),
-        format!("the least w that is divided by is {}", format_short(least, 4)),
+        format!("remaining boards: {}, {}, {}", count(0), count(1), count(2)),
+        format!("the smallest divisor w is {}", format_short(least, 4)),
     ];
     boards_panel("clipped", "clipped first", notes, boards, outline)
 }
 
-/// A picture of the outlines of the boards.
+/// Returns a picture of the board outlines.
 ///
-/// Each kind of board with at least one line has a layer; empty layers are dropped.
+/// Each kind of board has a layer; empty layers are dropped.
 fn boards_panel(
     id: &str,
     title: &str,
@@ -242,11 +244,12 @@ fn boards_panel(
     Panel { id: id.to_owned(), title: title.to_owned(), notes, page }
 }
 
-/// The part of a line between two images inside the picture.
+/// Returns the part of a line between two images that is inside the picture.
 ///
-/// Reuses homogeneous segment clipping with w = 1 and z = 0. `None` if the line misses the picture.
+/// It reuses homogeneous segment clipping with w = 1 and z = 0. The result is `None` if the line
+/// misses the picture.
 fn clip_to_picture([a, b]: [Point<Ndc>; 2]) -> Option<Polyline> {
-    // Already divided: w is 1, and depth is irrelevant.
+    // Already divided, so w is 1 and depth is irrelevant.
     let flat = |p: Point<Ndc>| HPoint::<Clip>::new(p.x(), p.y(), 0.0, 1.0);
     let visible = clip_segment(flat(a), flat(b), &Volume::CHAPTER)?;
     Polyline::through_points(
@@ -255,14 +258,14 @@ fn clip_to_picture([a, b]: [Point<Ndc>; 2]) -> Option<Polyline> {
     )
 }
 
-/// NDC to millimeters on the page, y down.
+/// Converts NDC to millimeters on the page, with y down.
 fn to_page(image: Point<Ndc>) -> DVec2 {
     (DVec2::new(image.x(), -image.y()) + 1.0) * 0.5 * PICTURE_SIZE
 }
 
-/// The w and the image of a point, in words.
+/// Describes w and the image of a point.
 ///
-/// Image coordinates are NDC; they may be far outside [−1, 1].
+/// Image coordinates are NDC and may be far outside [−1, 1].
 fn describe_image(map: Projective<World, Clip>, point: Point<World>) -> String {
     let clip = map.transform_point(point);
     let Some(image) = clip.divide() else { return "has no image".to_owned() };
@@ -270,24 +273,24 @@ fn describe_image(map: Projective<World, Clip>, point: Point<World>) -> String {
     format!("has w = {w}, maps to ({x}, {y})")
 }
 
-/// Text as strokes.
+/// Returns text as strokes.
 fn label_strokes(words: &str, at: DVec2, align: TextAlign) -> Vec<Polyline> {
     Label::new(words, at, LETTER_HEIGHT).with_align(align).strokes()
 }
 
-/// A group that holds strokes only.
+/// Returns a group that contains only strokes.
 fn stroke_group(strokes: Vec<Polyline>) -> Group {
     Group { strokes, ..Group::default() }
 }
 
-/// A layer of strokes with the pen of the boards.
+/// Returns a layer of strokes with the pen of the boards.
 fn stroke_layer(id: &str, title: &str, ink: Ink, strokes: Vec<Polyline>) -> Layer {
     let mut layer = Layer::new(id, title, Pen::solid(STROKE_WIDTH, ink));
     layer.groups.push(stroke_group(strokes));
     layer
 }
 
-/// The layer with the pen width for text.
+/// Returns a layer with the pen width for text.
 fn with_thin_pen(mut layer: Layer) -> Layer {
     layer.pen.width = LETTER_HEIGHT * 0.1;
     layer
@@ -304,10 +307,10 @@ mod tests {
         lines.flat_map(|line| &line.points).map(|position| to_millimeters(*position).y).collect()
     }
 
-    /// The floor is below the horizon, which is the middle of the picture: none of it may be drawn
-    /// above.
+    /// The floor is below the horizon, which is in the middle of the picture, so no part of it may
+    /// appear above the horizon.
     #[test]
-    fn only_what_is_clipped_first_stays_below_the_horizon() {
+    fn only_boards_clipped_first_stay_below_the_horizon() {
         let panels = wraparound_panels().expect("the panels").panels;
         let [_, divided, clipped] = &panels[..] else { unreachable!("three panels") };
         let horizon = PICTURE_SIZE.y * 0.5;
@@ -316,18 +319,18 @@ mod tests {
             assert!(!heights.is_empty() && heights.iter().all(|y| *y > horizon), "{layer}");
         }
         assert!(stroke_heights(clipped, "behind").is_empty());
-        // The crossing boards are torn: they have ends above and below.
+        // The crossing boards are torn: they have ends above and below the horizon.
         let torn = stroke_heights(divided, "crossing");
         assert!(torn.iter().any(|y| *y > horizon) && torn.iter().any(|y| *y < horizon));
         let behind = stroke_heights(divided, "behind");
         assert!(!behind.is_empty() && behind.iter().all(|y| *y < horizon));
-        // The front boards come out the same.
+        // The boards in front are the same in both.
         assert!(stroke_heights(divided, "ahead").iter().all(|y| *y > horizon));
     }
 
-    /// z = ±ε maps to ∓∞: x/w and y/w for w = ∓z, with the cotangent of 30° across and upward.
+    /// z = ±ε maps to ∓∞: x/w and y/w for w = ∓z, with the cotangent of 30° in x and y.
     #[test]
-    fn the_numbers_are_those_of_the_formula() {
+    fn notes_match_the_formula() {
         let panels = wraparound_panels().expect("the panels").panels;
         let cot = libm::sqrt(3.0);
         let (x, y) = (cot / (PICTURE_SIZE.x / PICTURE_SIZE.y), -EYE_HEIGHT * cot);
@@ -346,8 +349,8 @@ mod tests {
                 "{actual}: {ahead}, {behind}"
             );
         }
-        // The lower border of the picture cuts them at y = −w.
-        let least = format!("the least w that is divided by is {}", format_short(-y, 4));
+        // The lower border of the picture clips the boards at y = −w.
+        let least = format!("the smallest divisor w is {}", format_short(-y, 4));
         assert_eq!(panels[2].notes[1], least);
     }
 }

@@ -1,8 +1,8 @@
 //! One step of a sweep: the scene's camera and projection with one parameter changed.
 //!
-//! The scene's projection is first decomposed into a frustum or an orthographic box, then one of
-//! its numbers is replaced. Parameters that a projection lacks (the height of a perspective, the
-//! angle of a parallel projection) are rejected with a suggestion to vary another one.
+//! The scene's projection is first decomposed into a frustum or an orthographic box, and then one
+//! of its numbers is replaced. Parameters that a projection lacks (the height of a perspective, the
+//! angle of a parallel projection) are rejected with a suggestion to vary a different parameter.
 
 use super::super::DemonstrationError;
 use super::super::number_format::format_short;
@@ -17,18 +17,18 @@ use scene::{DepthSpan, Scene};
 
 /// The scene's view, decomposed into camera and parameters.
 ///
-/// Computed once per sweep: the vertices of all models are collected here and not in each step.
+/// Computed once per sweep, so that the vertices of all models are not collected in each step.
 pub(super) struct SweepBase {
     /// The scene's camera.
     camera: Camera,
     /// The scene's projection.
     projection: BaseProjection,
-    /// The vertices of all models in world space, to fit the near and far planes if the camera
+    /// The vertices of all models in world space, for fitting the near and far planes if the camera
     /// moves.
     points: Vec<Point<World>>,
     /// The center of the models' bounding box.
     center: Point<World>,
-    /// Distance of the center along the line of sight.
+    /// The distance of the center along the line of sight.
     distance: f64,
 }
 
@@ -41,10 +41,10 @@ enum BaseProjection {
 }
 
 impl BaseProjection {
-    /// The reason why the projection lacks a parameter; `None` if it has it.
+    /// Returns the reason why the projection lacks a parameter, or `None` if it has the parameter.
     ///
-    /// An eye at infinity has no angle and no distance; the window height of a perspective depends
-    /// on the plane on which it is measured.
+    /// A projection with its eye at infinity has no angle and no distance. The window height of a
+    /// perspective depends on the plane on which it is measured.
     fn reason_unsupported(self, vary: SweepParameter) -> Option<&'static str> {
         let is_of_perspective = matches!(
             vary,
@@ -55,10 +55,10 @@ impl BaseProjection {
         );
         match self {
             Self::Parallel(_) if is_of_perspective => {
-                Some("the scene's projection is parallel; take a perspective, or vary the height")
+                Some("the scene's projection is parallel; use a perspective, or vary the height")
             }
             Self::Perspective(_) if vary == SweepParameter::Height => Some(
-                "the scene's projection is a perspective; take an orthographic one, or vary the fov",
+                "the scene's projection is a perspective; use an orthographic projection, or vary the fov",
             ),
             _ => None,
         }
@@ -69,7 +69,7 @@ impl SweepBase {
     /// Decomposes the scene's view.
     ///
     /// # Errors
-    /// If the scene's projection has no such parameter.
+    /// If the scene's projection does not have the parameter.
     pub(super) fn new(scene: &Scene, vary: SweepParameter) -> Result<Self, DemonstrationError> {
         let unsuited =
             |reason: &str| DemonstrationError::UnsupportedParameter { vary, reason: reason.into() };
@@ -77,7 +77,7 @@ impl SweepBase {
         let lens = match kind.map(|found| found.kind) {
             Ok(Decomposed::Frustum(frustum)) => BaseProjection::Perspective(frustum),
             Ok(Decomposed::Orthographic(volume)) => BaseProjection::Parallel(volume),
-            _ => return Err(unsuited("take a perspective or an orthographic projection")),
+            _ => return Err(unsuited("use a perspective or an orthographic projection")),
         };
         if let Some(reason) = lens.reason_unsupported(vary) {
             return Err(unsuited(reason));
@@ -89,25 +89,25 @@ impl SweepBase {
         let camera = scene.view_projection.camera;
         let distance = -camera.world_to_view().transform_point(center).z();
         if distance <= 0.0 && matches!(vary, SweepParameter::Distance | SweepParameter::Dolly) {
-            return Err(unsuited("the middle of the models is behind the eye"));
+            return Err(unsuited("the center of the models is behind the eye"));
         }
         Ok(Self { camera, projection: lens, points, center, distance })
     }
 
     /// Camera and projection with the parameter at a value, and a note.
     ///
-    /// Every step starts from the base and not from the previous step, so that errors do not
+    /// Every step starts from the original view and not from the previous step, so errors do not
     /// accumulate and a single step equals the same step of a longer sweep.
     ///
     /// | parameter | replaces | planes |
     /// | --- | --- | --- |
     /// | fov, aspect, shift | the slopes | as in the scene |
-    /// | near, far | one plane | that one |
+    /// | near, far | one plane | the replaced plane |
     /// | lens | near and slopes | near |
     /// | distance, dolly, angle | the camera | fitted to the models |
     ///
     /// # Errors
-    /// If the value is out of range, or camera or frustum refuse it, such as near ≥ far.
+    /// If the value is out of range, or the camera or frustum rejects it (for example near ≥ far).
     pub(super) fn view_at(
         &self,
         vary: SweepParameter,
@@ -147,10 +147,10 @@ impl SweepBase {
         Ok((view_projection, self.describe_frustum(frustum, camera)))
     }
 
-    /// The requirement that a value violates, if any.
+    /// Returns the requirement that a value violates, if any.
     ///
-    /// The planes of a parallel projection may be negative, that is, behind the eye. Values that
-    /// are not finite are rejected for every parameter.
+    /// The planes of a parallel projection may have negative distances, that is, be behind the eye.
+    /// Values that are not finite are rejected for every parameter.
     fn unmet_requirement(&self, vary: SweepParameter, value: f64) -> Option<&'static str> {
         let is_parallel = matches!(self.projection, BaseProjection::Parallel(_));
         let (is_allowed, allowed) = match vary {
@@ -166,7 +166,7 @@ impl SweepBase {
         (!is_allowed || !value.is_finite()).then_some(allowed)
     }
 
-    /// The camera at a value of a parameter that moves it.
+    /// Returns the camera for a value of a parameter that moves it.
     ///
     /// A distance moves the eye along the gaze, e' = e + (d₀ − d) g, where d₀ is the distance in
     /// the scene and g has unit length. The orientation does not change.
@@ -181,9 +181,9 @@ impl SweepBase {
         }
     }
 
-    /// The camera rotated about the vertical axis through the center.
+    /// Returns the camera rotated about the vertical axis through the center.
     ///
-    /// T(c) · R_y(φ) · T(−c) applied to the camera's frame, so position and orientation rotate
+    /// Applies T(c) · R_y(φ) · T(−c) to the camera's frame, so position and orientation rotate
     /// together and the center does not move in the picture.
     fn orbit_camera(&self, degrees: f64) -> Result<Camera, String> {
         let center: Vector<World> = self.center - Point::ORIGIN;
@@ -194,10 +194,10 @@ impl SweepBase {
         Camera::from_frame(frame).map_err(|error| error.to_string())
     }
 
-    /// Camera and parallel projection with the parameter at a value, and a note.
+    /// Returns the camera and the parallel projection for a value of the parameter, with a note.
     ///
-    /// A height keeps the aspect ratio, and an aspect ratio keeps the height; both scale about the
-    /// line of sight. Only the angle moves the camera here, so only it refits the planes.
+    /// Changing the height keeps the aspect ratio, and vice versa. Both scale about the line of
+    /// sight. Only the angle moves the camera here, so only the angle refits the planes.
     fn parallel_view_at(
         &self,
         vary: SweepParameter,
@@ -225,7 +225,7 @@ impl SweepBase {
             _ => (volume.near(), volume.far()),
         };
         if near >= far {
-            // The matrix would accept it and look backward through an inverted volume.
+            // The matrix would accept this and look backward through an inverted volume.
             let [near, far] = [near, far].map(|number| format_short(number, 6));
             return Err(format!("`far` ({far}) must be beyond `near` ({near})"));
         }
@@ -238,9 +238,9 @@ impl SweepBase {
         Ok((view_projection, format!("{width} wide · {height} high · near {near} · far {far}")))
     }
 
-    /// The window one unit in front of the eye at a value.
+    /// Returns the window one unit in front of the eye for a value of the parameter.
     ///
-    /// Factors by which the slopes are multiplied:
+    /// The slopes are multiplied by these factors:
     ///
     /// ```text
     ///  fov    tan(φ / 2) / (h / 2)      h: height of the window one unit ahead
@@ -272,30 +272,31 @@ impl SweepBase {
         }
     }
 
-    /// The note of a perspective step: angle, distance, planes.
+    /// Returns the note of a perspective step: angle, distance and planes.
     ///
-    /// Vertical angle in degrees, distances in world units, four significant digits each.
+    /// The vertical angle is in degrees and distances are in world units, with four significant
+    /// digits each.
     fn describe_frustum(&self, frustum: Frustum, camera: Camera) -> String {
         let slopes = frustum.slopes();
         let degrees = (libm::atan(slopes.top()) - libm::atan(slopes.bottom())).to_degrees();
         let distance = -camera.world_to_view().transform_point(self.center).z();
         let [degrees, distance, near, far] = [degrees, distance, frustum.near(), frustum.far()]
             .map(|number| format_short(number, 4));
-        format!("{degrees}° high · middle at {distance} · near {near} · far {far}")
+        format!("{degrees}° high · center at {distance} · near {near} · far {far}")
     }
 }
 
-/// A window moved to the right by a number of half widths.
+/// Moves a window to the right by a number of half widths.
 ///
-/// A shift of 1 moves the left border onto the former center.
+/// A shift of 1 moves the left border to the former center.
 fn shift_window(window: Window, halves: f64) -> Result<Window, ProjectionError> {
     let by = halves * 0.5 * window.width();
     Window::new(window.left() + by, window.right() + by, window.bottom(), window.top())
 }
 
-/// A window with its sides scaled about the line of sight.
+/// Scales the sides of a window about the line of sight.
 ///
-/// Scaling about (0, 0) and not about the center of the window keeps the relative shift of an
+/// Scaling about (0, 0), not about the center of the window, preserves the relative shift of an
 /// off-center window.
 fn scale_window(window: Window, x: f64, y: f64) -> Result<Window, ProjectionError> {
     Window::new(window.left() * x, window.right() * x, window.bottom() * y, window.top() * y)

@@ -1,4 +1,4 @@
-//! Each parameter does what the lessons say and nothing else.
+//! Each parameter has the effect stated in the lessons and no other.
 
 use super::*;
 use crate::demonstration::test_scene::house_scene;
@@ -21,10 +21,10 @@ fn house_view() -> (Scene, ViewProjection, Point<World>) {
     (scene, view_projection, middle)
 }
 
-/// x and y in the picture.
+/// Returns x and y in the picture.
 fn project_to_ndc(view_projection: &ViewProjection, point: Point<World>) -> [f64; 2] {
     let point =
-        view_projection.world_to_clip().transform_point(point).divide().expect("ahead of the eye");
+        view_projection.world_to_clip().transform_point(point).divide().expect("a point in front of the eye");
     [point.x(), point.y()]
 }
 
@@ -33,7 +33,7 @@ fn assert_near(a: f64, b: f64) {
     assert!((a - b).abs() <= 1e-9 * a.abs().max(b.abs()).max(1.0), "{a} {b}");
 }
 
-/// A point off the line of sight, at the depth of the middle.
+/// A point off the line of sight, at the depth of the center.
 fn point_beside(view_projection: &ViewProjection, middle: Point<World>) -> Point<World> {
     middle + view_projection.camera.u() * 1.5 + view_projection.camera.v()
 }
@@ -70,7 +70,7 @@ fn a_smaller_angle_enlarges() {
 
 /// C62.
 #[test]
-fn a_wrong_aspect_distorts_across_only() {
+fn a_wrong_aspect_ratio_distorts_only_horizontally() {
     let (_, base, middle) = house_view();
     let view_projection = sweep_house(SweepParameter::Aspect, 2.0, 2.0, 1)[0].0;
     let [before, after] = [base, view_projection].map(|view_projection| {
@@ -82,7 +82,7 @@ fn a_wrong_aspect_distorts_across_only() {
 
 /// C62, C64.
 #[test]
-fn near_and_far_move_nothing_in_the_picture() {
+fn near_and_far_planes_do_not_move_the_picture() {
     let (scene, base, _) = house_view();
     for (parameter, value) in [(SweepParameter::Near, 1.0), (SweepParameter::Far, 1e4)] {
         let view_projection = sweep_house(parameter, value, value, 1)[0].0;
@@ -95,7 +95,7 @@ fn near_and_far_move_nothing_in_the_picture() {
             let point = view_projection.camera.eye() + view_projection.camera.gaze() * distance;
             view_projection.world_to_clip().transform_point(point).divide().expect("ahead").z()
         };
-        // The canonical volume has the near plane at 1, the far plane at −1.
+        // The canonical volume has the near plane at 1 and the far plane at −1.
         assert_near(
             depth(&view_projection, value),
             if parameter == SweepParameter::Near { 1.0 } else { -1.0 },
@@ -105,7 +105,7 @@ fn near_and_far_move_nothing_in_the_picture() {
 
 /// C64: with the same window, half the distance gives twice the tangent.
 #[test]
-fn the_distance_of_a_fixed_window_is_a_lens() {
+fn the_distance_of_a_fixed_window_acts_as_a_lens() {
     let (_, base, middle) = house_view();
     let near = |view_projection: &ViewProjection| {
         let clip_to_view = view_projection.view_to_clip.inverse().expect("an inverse");
@@ -124,7 +124,7 @@ fn the_distance_of_a_fixed_window_is_a_lens() {
 
 /// C64.
 #[test]
-fn a_shift_moves_the_picture_as_it_is() {
+fn a_shift_moves_the_picture_without_distortion() {
     let (scene, base, _) = house_view();
     let view_projection = sweep_house(SweepParameter::Shift, 0.25, 0.25, 1)[0].0;
     for point in scene.world_points() {
@@ -135,9 +135,9 @@ fn a_shift_moves_the_picture_as_it_is() {
     }
 }
 
-/// C94: objects at the depth of the middle keep their size, objects in front of it do not.
+/// C94: objects at the depth of the center keep their size, but objects in front of it do not.
 #[test]
-fn a_dolly_zoom_keeps_the_middle() {
+fn a_dolly_zoom_keeps_the_size_of_the_center() {
     let (_, base, middle) = house_view();
     let views = sweep_house(SweepParameter::Dolly, 20.0, 80.0, 3);
     let distances = [20.0, 50.0, 80.0];
@@ -152,7 +152,7 @@ fn a_dolly_zoom_keeps_the_middle() {
         ];
         assert_near(before[0], after[0]);
         assert_near(before[1], after[1]);
-        assert!(note.contains(&format!("middle at {distance}")), "{note}");
+        assert!(note.contains(&format!("center at {distance}")), "{note}");
     }
     let before = |n: usize| {
         let view_projection: &ViewProjection = &views[n].0;
@@ -165,13 +165,13 @@ fn a_dolly_zoom_keeps_the_middle() {
 }
 
 #[test]
-fn the_camera_is_turned_about_the_middle() {
+fn the_camera_turns_about_the_center() {
     let (_, base, middle) = house_view();
     let view_projection = sweep_house(SweepParameter::Angle, 90.0, 90.0, 1)[0].0;
     let [before, after] =
         [base, view_projection].map(|view_projection| view_projection.camera.eye() - middle);
     assert_near(before.length(), after.length());
-    // From the front (+z) to the right (+x), at the same height.
+    // Turned from the front (+z) to the right (+x), at the same height.
     assert_near(after.x(), before.z());
     assert_near(after.z(), -before.x());
     assert_near(after.y(), before.y());
@@ -193,12 +193,12 @@ fn invalid_sweeps_are_rejected() {
     assert!(message(SweepParameter::Height, 4.0, &scene).contains("a perspective"));
     let volume = Orthographic::new(-1.0, 1.0, -1.0, 1.0, 1.0, 9.0).expect("a volume");
     scene.view_projection.view_to_clip = volume.view_to_clip(Convention::CHAPTER);
-    assert!(message(SweepParameter::Fov, 40.0, &scene).contains("take a perspective"));
+    assert!(message(SweepParameter::Fov, 40.0, &scene).contains("use a perspective"));
 }
 
 /// C94: the borders and planes of a parallel view volume, one at a time.
 #[test]
-fn a_parallel_window_is_varied_too() {
+fn parallel_windows_can_be_varied() {
     let (_, _, mut scene) = house_scene();
     let volume = Orthographic::new(-6.0, 6.0, -4.5, 4.5, 1.0, 30.0).expect("a volume");
     scene.view_projection.view_to_clip = volume.view_to_clip(Convention::CHAPTER);
@@ -211,7 +211,7 @@ fn a_parallel_window_is_varied_too() {
             view_projection.world_to_clip().transform_point(point).divide().expect("an image");
         ([image.x(), image.y(), image.z()], note)
     };
-    // The canonical volume has near at 1 and far at −1.
+    // The near plane of the canonical volume is at 1 and the far plane at −1.
     let depth = |near: f64, far: f64| 1.0 - 2.0 * (10.0 - near) / (far - near);
     for (parameter, value, expected) in [
         (SweepParameter::Height, 4.5, [0.5, 0.4, depth(1.0, 30.0)]),
