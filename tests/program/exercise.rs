@@ -49,30 +49,30 @@ fn exercises_are_listed_and_printed_with_hints() {
 fn verdicts_have_an_exit_code_and_name_the_mistake() {
     let sandbox = Sandbox::new("exercise_answers");
     for (number, answer, code, said) in [
-        ("3", "A=n+f; B=-n*f", 0, "right\n"),
-        ("3", "n+f, n*f", 1, "not right: the sign of B"),
-        ("4", "-n*f*(z2-z1)/(z1*z2)", 0, "right\n"),
-        ("16", "80/21", 0, "right\n"),
-        ("16", "-80/21", 1, "not right: the sign is that of a z-coordinate"),
-        ("16", "3.8", 1, "not right: this is the lesson's rounded value"),
-        ("16", "3.81", 1, "not right: rounded: "),
-        ("8", "1 0 0 0\n0 1 0 0\n0 0 3 -2\n0 0 1 0", 0, "right\n"),
-        ("8", "1 0 0 0; 0 1 0 0; 0 0 3 -2; 0 0 1 5", 1, "not right: your row 4, column 4 gives 5"),
+        ("3", "A=n+f; B=-n*f", 0, "correct\n"),
+        ("3", "n+f, n*f", 1, "incorrect: the sign of B"),
+        ("4", "-n*f*(z2-z1)/(z1*z2)", 0, "correct\n"),
+        ("16", "80/21", 0, "correct\n"),
+        ("16", "-80/21", 1, "incorrect: this has the sign of a z-coordinate"),
+        ("16", "3.8", 1, "incorrect: this is the lesson's rounded value"),
+        ("16", "3.81", 1, "incorrect: this is rounded; "),
+        ("8", "1 0 0 0\n0 1 0 0\n0 0 3 -2\n0 0 1 0", 0, "correct\n"),
+        ("8", "1 0 0 0; 0 1 0 0; 0 0 3 -2; 0 0 1 5", 1, "incorrect: your row 4, column 4 gives 5"),
         ("21", "100 0 -190; 0 50 70; 0 0 1", 1, "M18"),
-        ("4", "f*n*[z1-z2]/(z1*z2)", 0, "right\n"),
-        ("3", "n+f, -f_n", 1, "not right: f_n is a subscript"),
-        ("7", "n*(1,1,1,1)", 0, "right\n"),
-        ("17", "1/3", 1, "not right: your d gives 0.333333\n"),
+        ("4", "f*n*[z1-z2]/(z1*z2)", 0, "correct\n"),
+        ("3", "n+f, -f_n", 1, "incorrect: f_n is a subscript"),
+        ("7", "n*(1,1,1,1)", 0, "correct\n"),
+        ("17", "1/3", 1, "incorrect: your d gives 0.333333\n"),
     ] {
         let run = run(&sandbox, &[number, "--answer", answer]);
         assert_eq!((run.code, run.stderr.as_str()), (code, ""), "{number}, {answer}");
         assert!(run.stdout.contains(said), "{number}, {answer}: {}", run.stdout);
     }
     for (number, answer, part) in [
-        ("3", "A=q; B=1", "`q` is not a letter of this exercise; the letters are n, f"),
+        ("3", "A=q; B=1", "`q` is not a symbol of this exercise; the symbols are n, f"),
         ("12", "1 2", "2 entries instead of 3"),
         ("16", "", "the answer is empty"),
-        ("16", "((((", "not complete"),
+        ("16", "((((", "incomplete"),
     ] {
         let run = run(&sandbox, &[number, "--answer", answer]);
         assert_eq!((run.code, run.stdout.as_str()), (1, ""), "{number}, {answer}");

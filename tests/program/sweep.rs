@@ -116,13 +116,7 @@ fn parameters_that_do_not_apply_are_reported() {
         ("aspect", "0", "2", &[], "`aspect` cannot be 0: it must be greater than 0"),
         ("distance", "-3", "9", &[], "`distance` cannot be -3: it must be greater than 0"),
         ("near", "1e9", "2e9", &[], "`near` cannot be 1e9: "),
-        (
-            "fov",
-            "20",
-            "40",
-            &["--projection", "isometric"],
-            "use a perspective or an orthographic",
-        ),
+        ("fov", "20", "40", &["--projection", "isometric"], "use a perspective or an orthographic"),
         (
             "dolly",
             "5",

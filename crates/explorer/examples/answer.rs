@@ -13,7 +13,9 @@ use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
-    let folder = arguments.next().ok_or("usage: answer FOLDER REQUEST..., where FOLDER contains `models`")?;
+    let folder = arguments
+        .next()
+        .ok_or("usage: answer FOLDER REQUEST..., where FOLDER contains `models`")?;
     let mut explorer = Explorer::new();
     for entry in std::fs::read_dir(Path::new(&folder).join("models"))? {
         let path = entry?.path();

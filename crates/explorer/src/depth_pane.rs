@@ -1,4 +1,4 @@
-//! The pane `depth`: depth after the divide against distance, with the model's range marked.
+//! The `depth` pane: depth after the divide against distance, with the model's range marked.
 
 use crate::ExplorerError;
 use crate::demonstration::DepthTable;
@@ -22,7 +22,7 @@ const CHART_SIZE: DVec2 = DVec2::new(126.0, 56.0);
 
 const SAMPLES: u32 = 400;
 
-/// The curve as SVG.
+/// Draws the curve as SVG.
 ///
 /// # Errors
 /// The view volume has no far plane.
@@ -31,7 +31,7 @@ pub(crate) fn depth_svg(
     conventions: ApiConventions,
 ) -> Result<String, ExplorerError> {
     let [Some(near), Some(far)] = facts.planes else {
-        let help = "choose a lesson with a near and a far plane";
+        let help = "choose a lesson with near and far planes";
         return Err(ExplorerError::new("nothing_to_show", "there is no far plane", help));
     };
     let depth = |distance: f64| Some([distance, depth_in(facts, conventions, distance)?]);
@@ -77,7 +77,7 @@ pub(crate) fn depth_svg(
     Ok(page.to_svg())
 }
 
-/// NDC depth of a distance in these conventions.
+/// Returns the NDC depth of a distance in these conventions.
 fn depth_in(facts: &Facts, conventions: ApiConventions, distance: f64) -> Option<f64> {
     let own = facts.depth_at(distance)?;
     Some(match conventions {
@@ -89,8 +89,8 @@ fn depth_in(facts: &Facts, conventions: ApiConventions, distance: f64) -> Option
     })
 }
 
-/// Distances with their depths and the smallest step that a 24-bit buffer can resolve; `None` in a
-/// parallel projection.
+/// Returns distances with their depths and the smallest step that a 24-bit buffer can resolve, or
+/// `None` in a parallel projection.
 pub(crate) fn depth_table_json(facts: &Facts, conventions: ApiConventions) -> Option<Json> {
     facts.apex?;
     let [near, far] = [facts.planes[0]?, facts.planes[1]?];
@@ -108,7 +108,7 @@ pub(crate) fn depth_table_json(facts: &Facts, conventions: ApiConventions) -> Op
     let columns = [
         words("distance", "距离"),
         words("depth", "深度"),
-        words("least step of 24 bits", "24 位深度的最小步长"),
+        words("smallest step with 24 bits", "24 位深度的最小步长"),
     ];
     let columns = columns.map(Words::to_json);
     Some(json!({"columns": columns, "rows": rows, "half_range_distance": half}))

@@ -4,23 +4,23 @@ use crate::words::{Language, Sentence};
 use pipeline::{RenderError, ResolveError};
 use scene_file::file::InvalidNumber;
 
-/// The error of a request that cannot be answered. The explorer is unchanged; the next request
-/// works.
+/// The error of a request that cannot be answered. The explorer is unchanged and can answer further
+/// requests.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("{message}; {help}")]
 pub struct ExplorerError {
     /// A stable identifier for programs, such as `unknown_key`.
     pub code: &'static str,
-    /// The problem, in a sentence.
+    /// The problem in one sentence.
     pub message: String,
     /// The remedy.
     pub help: String,
 }
 
 /// The remedy for an invalid scene.
-const RESET: &str = "change a value, or reset the lesson";
+const RESET: &str = "change a value or reset the lesson";
 /// The remedy for a model that cannot be loaded.
-const OTHER_FILE: &str = "check the file, or choose another one";
+const OTHER_FILE: &str = "check the file or choose another file";
 
 impl ExplorerError {
     pub(crate) fn new(
@@ -31,12 +31,12 @@ impl ExplorerError {
         Self { code, message: message.into(), help: help.into() }
     }
 
-    /// An invalid scene, described by the message of its error.
+    /// Creates the error for an invalid scene from the message of the scene error.
     pub(crate) fn invalid_scene(error: &impl ToString) -> Self {
         Self::new("invalid_scene", error.to_string(), RESET)
     }
 
-    /// Turns this error into one about the user's own model if it mentions that file.
+    /// Turns this error into an error about the user's own model if it mentions that file.
     pub(crate) fn about_model(self, name: &str) -> Self {
         let is_of_model = !name.is_empty() && self.message.starts_with(&format!("{name}: "));
         match is_of_model {
@@ -48,7 +48,7 @@ impl ExplorerError {
         }
     }
 
-    /// An error message in the language of the request.
+    /// Returns an error with a message in the language of the request.
     pub(crate) fn in_language(
         code: &'static str,
         language: Language,

@@ -1,12 +1,12 @@
-//! Exercises on viewing: answers are checked, and common mistakes are recognized.
+//! Exercises on viewing. Answers are checked, and common mistakes are recognized.
 //!
 //! ```text
 //! answer ─► answer_text: entries ─► expression: numbers, for several values of the letters
 //!                                     └─► entries: the crates' answer? else a mistake's? else where?
 //! ```
-//! Exercises 1 to 11 come from the textbook's chapter; 12 to 24 are the project's own. Correct
-//! answers are computed by the crates. Formulas are compared by value, so every way to write them
-//! is accepted.
+//! Exercises 1 to 11 come from the textbook's chapter; 12 to 24 were written for this project. The
+//! crates compute the correct answers. Formulas are compared by value, so every notation is
+//! accepted.
 //!
 //! ```
 //! use explorer::Language;
@@ -14,7 +14,7 @@
 //! let exercise = find_exercise(3).expect("the third row of P");
 //! assert!(exercise.check("A = n + f; B = -n f")?.is_right());
 //! let verdict = exercise.check("A = n + f; B = n f")?;
-//! assert!(verdict.sentence().text(Language::English).starts_with("not right: the sign of B"));
+//! assert!(verdict.sentence().text(Language::English).starts_with("incorrect: the sign of B"));
 //! # Ok::<(), explorer::exercise::AnswerError>(())
 //! ```
 
@@ -39,13 +39,13 @@ use expression::{Letters, evaluate};
 /// An exercise.
 #[derive(Debug)]
 pub struct Exercise {
-    /// Its number, from 1.
+    /// The number, from 1.
     pub number: u32,
-    /// Its title.
+    /// The title.
     pub title: Words,
     /// The question, self-contained.
     pub question: Words,
-    /// Hints, the vaguest first.
+    /// Hints, from vague to specific.
     pub hints: &'static [Words],
     /// The symbols that the answer may contain.
     pub letters: &'static [&'static str],
@@ -53,13 +53,13 @@ pub struct Exercise {
     pub mistakes: &'static [Mistake],
     shape: AnswerShape,
     multiples: Multiples,
-    /// Values of the symbols; an answer is compared for each of them.
+    /// Values of the symbols, for each of which an answer is compared.
     samples: &'static [&'static [f64]],
-    /// The correct answer for given values of the symbols; `None` if there is none.
+    /// Returns the correct answer for values of the symbols, or `None` if it does not exist.
     answer: fn(&[f64]) -> Option<Entries>,
 }
 
-/// All exercises, in the order of their numbers.
+/// Returns all exercises, ordered by number.
 #[must_use]
 pub fn exercises() -> &'static [&'static Exercise] {
     &questions::EXERCISES
@@ -71,11 +71,11 @@ pub fn find_exercise(number: u32) -> Option<&'static Exercise> {
     exercises().iter().copied().find(|exercise| exercise.number == number)
 }
 
-/// No symbols: a single comparison.
+/// For exercises without symbols: a single comparison.
 const NUMBERS: &[&[f64]] = &[&[]];
 
 impl Exercise {
-    /// The form of an answer, without a final period.
+    /// Returns the form of an answer, without a final period.
     #[must_use]
     pub fn form(&self) -> Sentence {
         let (mut en, mut zh) = match self.shape {
@@ -104,23 +104,24 @@ impl Exercise {
         match self.multiples {
             Multiples::None => {}
             Multiples::All => {
-                en += "; any multiple is right";
+                en += "; any multiple is correct";
                 zh += "；任意倍数都对";
             }
             Multiples::Positive => {
-                en += "; any positive multiple is right";
+                en += "; any positive multiple is correct";
                 zh += "；任意正倍数都对";
             }
         }
         sentence(en, zh)
     }
 
-    /// Compares an answer with the correct one and with common mistakes.
+    /// Compares an answer with the correct answer and with common mistakes.
     ///
     /// Numbers may differ by 1e-9 of an entry's value.
     ///
     /// # Errors
-    /// If the text is not an answer: it contains other symbols, or the wrong number of entries.
+    /// If the text is not an answer because it contains other symbols or the wrong number of
+    /// entries.
     pub fn check(&'static self, answer: &str) -> Result<Verdict, AnswerError> {
         let rows = split_answer(answer, self.shape)?;
         if let Some(mistake) = self.mistakes.iter().find(|mistake| mistake.is_written_in(&rows)) {
@@ -149,7 +150,7 @@ impl Exercise {
         Ok(self.differences(&given, &right))
     }
 
-    /// The values of an answer for each sample of the symbols.
+    /// Returns the values of an answer for each sample of the symbols.
     fn evaluate_rows(&self, rows: &[Vec<String>]) -> Result<Vec<Entries>, AnswerError> {
         let evaluate_sample = |values: &&[f64]| {
             let letters = Letters { names: self.letters, values };
@@ -183,7 +184,7 @@ impl Exercise {
         let (en, zh) = blanks.map_or_else(Default::default, |product| {
             (
                 format!(
-                    "; a blank separates entries: write `{product}`, or commas between entries"
+                    "; a space separates entries: write `{product}`, or put commas between entries"
                 ),
                 format!("；空格用来分隔元素：请写成 `{product}`，或在元素之间用逗号"),
             )
@@ -191,7 +192,10 @@ impl Exercise {
         let (found, expected) = (count(&found), count(&expected));
         let entries = if found == "1" { "entry" } else { "entries" };
         Err(AnswerError::new(
-            format!("the answer has {found} {entries} instead of {expected}: give {}{en}", form.en),
+            format!(
+                "the answer has {found} {entries} instead of {expected}: enter {}{en}",
+                form.en
+            ),
             format!("答案有 {found} 个元素，应有 {expected} 个：请给出 {}{zh}", form.zh),
         ))
     }
@@ -217,7 +221,7 @@ impl Exercise {
         }
     }
 
-    /// The entries that differ, in the first sample where any differs.
+    /// Returns the entries that differ, in the first sample where any entry differs.
     fn differences(&self, given: &[Entries], right: &[Entries]) -> Verdict {
         let places = |(given, right): (&Entries, &Entries)| {
             differing_places(given, right, self.multiples, EXACT)

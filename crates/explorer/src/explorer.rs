@@ -23,7 +23,7 @@ use std::sync::Arc;
 /// The answer to a request.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Answer {
-    /// The media type of the bytes, such as `image/svg+xml`; `application/octet-stream` for pixels:
+    /// The media type of the bytes, such as `image/svg+xml`. Pixels are `application/octet-stream`:
     /// sRGB with straight alpha, four bytes each, rows from the top.
     pub content_type: &'static str,
     /// The content.
@@ -32,18 +32,18 @@ pub struct Answer {
 
 /// The lessons on the viewing pipeline, with answers to requests about their states.
 ///
-/// Loaded models and resolved scenes are kept, so that dragging a control costs only a picture.
+/// Loaded models and resolved scenes are cached, so dragging a control costs only a picture.
 /// Answers do not depend on earlier requests.
 #[derive(Debug, Default)]
 pub struct Explorer {
     store: ModelStore,
     picture: PanePicture,
-    /// The pane `world` with its scene, stored under the key of its state.
+    /// The `world` pane with its scene, cached under the key of its state.
     world: Pane,
     volume: Pane,
 }
 
-/// A pane beside the main picture: its pictures and its last scene.
+/// A pane next to the main picture, with its pictures and its last scene.
 #[derive(Debug, Default)]
 struct Pane {
     picture: PanePicture,
@@ -58,8 +58,8 @@ impl Explorer {
     }
 
     /// Adds a model file, or replaces the file with this name. `name` is its path in scene files,
-    /// such as `models/house.glb`; the buffers and images of a `.gltf` file are looked up beside
-    /// it.
+    /// such as `models/house.glb`. The buffers and images of a `.gltf` file are looked up relative
+    /// to it.
     ///
     /// # Errors
     /// If the name is empty, absolute, or points outside the folder of the files.
@@ -70,7 +70,7 @@ impl Explorer {
         Ok(())
     }
 
-    /// Creates another explorer with the same files and loaded models. Both share them in memory,
+    /// Creates another explorer with the same files and loaded models. Both share them in memory
     /// and can answer requests at the same time.
     #[must_use]
     pub fn sibling(&self) -> Self {
@@ -80,7 +80,7 @@ impl Explorer {
     /// Answers a request: a query string with the keys listed in the README.
     ///
     /// # Errors
-    /// An unknown, repeated or malformed key; a missing or broken model; an invalid scene. The
+    /// An unknown, repeated or malformed key, a missing or broken model, or an invalid scene. The
     /// explorer is unchanged.
     pub fn answer(&mut self, query: &str) -> Result<Answer, ExplorerError> {
         self.answer_unless_canceled(query, &CancelToken::default())
@@ -109,7 +109,7 @@ impl Explorer {
         }
     }
 
-    /// The text of the scene and the scene, for a picture of a given size.
+    /// Returns the scene and its text, for a picture of a given size.
     fn load(
         &mut self,
         state: &LessonState,
@@ -133,7 +133,7 @@ impl Explorer {
                 format!("// {}{}\n{text}", lesson.title.en, lesson.remark)
             }
         };
-        // A scene file's text is kept as it is, including size, samples and style.
+        // The text of a scene file is not changed, including size, samples and style.
         let key = format!("{size:?} {samples} {:?} {text}", state.style);
         let loaded = self.store.resolve(key, &text, &file);
         let loaded = loaded.map_err(|error| error.about_model(own))?;
@@ -146,8 +146,8 @@ impl Explorer {
         let missing =
             state.lesson.models.iter().copied().chain(own).find(|name| !self.store.has_file(name));
         if let Some(name) = missing {
-            let message = format!("the file `{name}` is not here");
-            let help = "add it first: drop it onto the page, or give it to the program";
+            let message = format!("the file `{name}` has not been added");
+            let help = "drop it on the page, or pass it to the program";
             return Err(ExplorerError::new("missing_model", message, help));
         }
         if state.lesson.models.is_empty() && own.is_none() {
@@ -155,7 +155,7 @@ impl Explorer {
                 "missing_model",
                 state.language,
                 sentence("no model has been chosen", "还没有选择模型"),
-                sentence("drop a model onto the page", "请把模型文件拖放到页面上"),
+                sentence("drop a model on the page", "请把模型文件拖放到页面上"),
             ));
         }
         Ok(())
@@ -194,14 +194,14 @@ impl Explorer {
     fn pick(&mut self, request: &Request) -> Result<Answer, ExplorerError> {
         let pixel = request.pixel.ok_or_else(|| {
             let help = "add pixel=x,y, counted from the upper left corner";
-            ExplorerError::new("malformed_query", "no pixel is given", help)
+            ExplorerError::new("malformed_query", "missing pixel", help)
         })?;
         let (_, loaded) = self.load(&request.state, request.size, request.samples)?;
         let conventions = request.state.lesson.conventions;
         Ok(json_answer(&pick_json(&loaded.scene, conventions, pixel)?))
     }
 
-    /// Renders a pane beside the main picture.
+    /// Renders a pane next to the main picture.
     fn pane(
         &mut self,
         request: &Request,
@@ -211,7 +211,7 @@ impl Explorer {
         let is_world = *question == Question::World;
         let orbit = if is_world { state.orbit() } else { state.volume_orbit() };
         let observer = Observer { orbit, size: *size, samples: *samples };
-        // The state's picture does not have the shape of the pane.
+        // The picture of the state has a different shape than the pane.
         let (text, loaded) = self.load(state, DEFAULT_SIZE, 4)?;
         let key = format!("{observer:?} {} {text}", state.to_link());
         let known = if is_world { &self.world.scene } else { &self.volume.scene };
@@ -239,7 +239,7 @@ impl Explorer {
     }
 }
 
-/// The point of the state: the one under the lesson's mouse, or the pinned one.
+/// Returns the point of the state: the point under the lesson's mouse, or the pinned point.
 fn pointer(state: &LessonState, loaded: &LoadedScene) -> Pointer {
     let view = &loaded.views()[0].view_projection;
     match (state.lesson.pointer)(&state.values(DEFAULT_SIZE)) {

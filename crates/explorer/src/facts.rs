@@ -1,4 +1,4 @@
-//! The facts of a state: numbers that sentences and tests refer to.
+//! The facts of a state: numbers that sentences and tests use.
 
 use crate::model_store::LoadedScene;
 use crate::triangle_survey::Survey;
@@ -17,13 +17,13 @@ pub(crate) struct Facts {
     pub(crate) size: [u32; 2],
     pub(crate) view_projection: ViewProjection,
     pub(crate) survey: Survey,
-    /// The number of triangles of the models, and the number that were counted.
+    /// The number of triangles in the models, and the number that were counted.
     pub(crate) triangles: [usize; 2],
     /// The center of projection in view space; `None` in a parallel projection.
     pub(crate) apex: Option<Point<View>>,
-    /// The window on the near plane in view space: left, right, bottom, top.
+    /// The window on the near plane in view space: left, right, bottom and top.
     pub(crate) window: Option<[f64; 4]>,
-    /// Distances of the near and the far plane along the gaze.
+    /// The distances of the near and far planes along the gaze.
     pub(crate) planes: [Option<f64>; 2],
     /// The minimum and maximum distance of the models along the gaze.
     pub(crate) model_range: Option<[f64; 2]>,
@@ -62,7 +62,8 @@ impl Facts {
         }
     }
 
-    /// Horizontal and vertical field of view in degrees; `None` in a parallel projection.
+    /// Returns the horizontal and vertical field of view in degrees, or `None` in a parallel
+    /// projection.
     pub(crate) fn opening_angles(&self) -> Option<[f64; 2]> {
         let (apex, [left, right, bottom, top]) = (self.apex?, self.window?);
         let distance = self.planes[0]? + apex.z();
@@ -72,24 +73,25 @@ impl Facts {
         Some([angle(left - apex.x(), right - apex.x()), angle(bottom - apex.y(), top - apex.y())])
     }
 
-    /// Aspect ratio of the window on the near plane.
+    /// Returns the aspect ratio of the window on the near plane.
     pub(crate) fn window_aspect(&self) -> Option<f64> {
         let [left, right, bottom, top] = self.window?;
         Some((right - left) / (top - bottom))
     }
 
-    /// Aspect ratio of the view in pixels.
+    /// Returns the aspect ratio of the view in pixels.
     pub(crate) fn picture_aspect(&self) -> f64 {
         f64::from(self.size[0]) / f64::from(self.size[1])
     }
 
-    /// NDC depth of a distance along the gaze in the pipeline's canonical volume, near at 1.
+    /// Returns the NDC depth of a distance along the gaze in the pipeline's canonical volume, where
+    /// the near plane is at 1.
     pub(crate) fn depth_at(&self, distance: f64) -> Option<f64> {
         let point = Point::<View>::new(0.0, 0.0, -distance);
         Some(self.view_projection.view_to_clip.transform_point(point).divide()?.z())
     }
 
-    /// The facts as JSON.
+    /// Returns the facts as JSON.
     pub(crate) fn to_json(&self) -> Json {
         let Survey { inside, clipped, outside, clipped_by, outside_of, behind_eye } = self.survey;
         let by_plane = |counts: [usize; 6]| -> Json {
@@ -128,7 +130,7 @@ impl Facts {
     }
 }
 
-/// The minimum and maximum distance along the gaze.
+/// Returns the minimum and maximum distance along the gaze.
 fn model_range(view: &ViewProjection, triangles: &[[Point<World>; 3]]) -> Option<[f64; 2]> {
     let world_to_view = view.camera.world_to_view();
     let distances =

@@ -1,4 +1,4 @@
-//! A lesson: its statement, its parameters, and the scene built from them.
+//! Lessons: a statement, parameters, and the scene built from them.
 
 use crate::facts::Facts;
 use crate::lesson_scene::LessonScene;
@@ -15,7 +15,7 @@ pub(crate) struct Lesson {
     pub(crate) id: &'static str,
     /// The source.
     pub(crate) source: Source,
-    /// The items of the sources' inventory that it covers.
+    /// The items of the source inventory that the lesson covers.
     pub(crate) items: &'static [&'static str],
     pub(crate) title: Words,
     /// The statement to be taught, in one or two sentences.
@@ -25,35 +25,35 @@ pub(crate) struct Lesson {
     pub(crate) parameters: &'static [Parameter],
     /// The panes that have something to show.
     pub(crate) panes: &'static [&'static str],
-    /// The point of the world that is pinned initially.
+    /// The world-space point that is pinned initially.
     pub(crate) pin: [f64; 3],
-    /// Initial azimuth and elevation of the pane `world`, in degrees.
+    /// The initial azimuth and elevation of the `world` pane, in degrees.
     pub(crate) orbit: [f64; 2],
     /// The conventions of all reported numbers.
     pub(crate) conventions: ApiConventions,
-    /// The scene for some values; the request sets the picture's size, sampling and style.
+    /// Builds the scene for some values. The request sets the picture size, sampling and style.
     pub(crate) describe: fn(&Values<'_>) -> LessonScene,
-    /// A remark for readers of the scene, after its title.
+    /// A remark for readers of the scene file, after its title.
     pub(crate) remark: &'static str,
     /// The first viewport that shows the model.
     pub(crate) first_view: usize,
-    /// The consequences of the values, except for clipping.
+    /// Returns the consequences of the values, except for clipping.
     pub(crate) consequences: fn(&Values<'_>, &Facts) -> Vec<Sentence>,
-    /// The point of the world that is pinned initially, if it depends on the values.
+    /// The world-space point that is pinned initially, if it depends on the values.
     pub(crate) point: fn(&Values<'_>) -> Option<[f64; 3]>,
-    /// The stage that the pane `volume` shows.
+    /// The stage that the `volume` pane shows.
     pub(crate) volume: fn(&Values<'_>) -> VolumeStage,
-    /// The position in the picture, in fractions from its upper left corner, through which the line
-    /// of sight is drawn; `None` for the line through the pinned point.
+    /// The picture position through which the line of sight is drawn, in fractions from the upper
+    /// left corner. If `None`, the line passes through the pinned point.
     pub(crate) pointer: fn(&Values<'_>) -> Option<[f64; 2]>,
 }
 
-/// The stage of the pipeline at which the pane `volume` shows the model.
+/// The stage of the pipeline at which the `volume` pane shows the model.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum VolumeStage {
-    /// In the canonical view volume: clipped, then divided by w.
+    /// In the canonical view volume, clipped and then divided by w.
     Divided,
-    /// Divided by w without clipping: torn where w changes its sign.
+    /// Divided by w without clipping, and therefore torn where w changes its sign.
     Torn,
     /// In view space, after this number of affine factors of a frustum: shear, scale (VV-2).
     Factors(usize),
@@ -63,7 +63,7 @@ pub(crate) enum VolumeStage {
 pub(crate) const RIDGE: [f64; 3] = [0.0, 4.38, 3.15];
 
 impl Lesson {
-    /// A lesson with the settings that most lessons share.
+    /// Creates a lesson with the settings that most lessons share.
     pub(crate) const USUAL: Self = Self {
         id: "",
         source: Source::LearnWebGl,
@@ -120,7 +120,7 @@ impl Source {
 pub(crate) struct Parameter {
     pub(crate) key: &'static str,
     pub(crate) label: Words,
-    /// `°`, or empty for scene units and plain ratios.
+    /// The unit: `°`, or empty for scene units and plain ratios.
     pub(crate) unit: &'static str,
     pub(crate) domain: Domain,
 }
@@ -134,22 +134,22 @@ pub(crate) enum Domain {
         step: f64,
         default: f64,
     },
-    /// One of several; the first is the default.
+    /// One of several choices; the first is the default.
     Choice(&'static [Choice]),
 }
 
-/// One of the choices of a parameter.
+/// A choice of a parameter.
 #[derive(Debug)]
 pub(crate) struct Choice {
     pub(crate) value: &'static str,
     pub(crate) label: Words,
 }
 
-/// The parameters of a window on the near plane, and of the near and far planes.
+/// The parameters for a window on the near plane and for the near and far planes.
 pub(crate) const WINDOW: [&str; 4] = ["left", "right", "bottom", "top"];
 pub(crate) const PLANES: [&str; 2] = ["near", "far"];
 
-/// A number from `range[0]` to `range[1]`.
+/// Creates a number parameter from `range[0]` to `range[1]`.
 pub(crate) const fn number(
     key: &'static str,
     label: Words,
@@ -160,7 +160,7 @@ pub(crate) const fn number(
     Parameter { key, label, unit, domain: Domain::Number { min, max, step, default } }
 }
 
-/// A choice; the first is the default.
+/// Creates a choice parameter; the first choice is the default.
 pub(crate) const fn choice(
     key: &'static str,
     label: Words,
@@ -185,38 +185,44 @@ impl Parameter {
     }
 }
 
-/// The values of a lesson's parameters, and everything else its scene depends on.
+/// The values of a lesson's parameters and everything else that its scene depends on.
 #[derive(Clone, Debug)]
 pub(crate) struct Values<'a> {
     pub(crate) lesson: &'static Lesson,
-    /// One for each parameter, in order.
+    /// A value for each parameter, in order.
     pub(crate) parameters: &'a [ParameterValue],
     /// Width and height of the picture in pixels.
     pub(crate) size: [u32; 2],
-    /// The file shown by the lesson `model`.
+    /// The file that the `model` lesson shows.
     pub(crate) model: Option<&'a str>,
 }
 
 impl Values<'_> {
-    /// The numeric value of a parameter.
+    /// Returns the numeric value of a parameter.
     pub(crate) fn number(&self, key: &str) -> f64 {
         let value = self.value(key);
-        debug_assert!(matches!(value, Some(ParameterValue::Number(_))), "no number {key}");
+        debug_assert!(
+            matches!(value, Some(ParameterValue::Number(_))),
+            "no number parameter {key}"
+        );
         match value {
             Some(ParameterValue::Number(number)) => number,
             _ => 0.0,
         }
     }
 
-    /// The numeric values of parameters, formatted as in a scene file.
+    /// Returns the numeric values of parameters, formatted as in a scene file.
     pub(crate) fn scene_numbers<const N: usize>(&self, keys: [&str; N]) -> [f64; N] {
         keys.map(|key| scene_number(self.number(key)))
     }
 
-    /// The choice of a parameter.
+    /// Returns the choice of a parameter.
     pub(crate) fn choice(&self, key: &str) -> &'static str {
         let value = self.value(key);
-        debug_assert!(matches!(value, Some(ParameterValue::Choice(_))), "no choice {key}");
+        debug_assert!(
+            matches!(value, Some(ParameterValue::Choice(_))),
+            "no choice parameter {key}"
+        );
         match value {
             Some(ParameterValue::Choice(choice)) => choice,
             _ => "",
@@ -228,7 +234,7 @@ impl Values<'_> {
         self.parameters.get(at).copied()
     }
 
-    /// Aspect ratio of the picture.
+    /// Returns the aspect ratio of the picture.
     pub(crate) fn aspect(&self) -> f64 {
         f64::from(self.size[0]) / f64::from(self.size[1])
     }

@@ -1,4 +1,4 @@
-//! Lesson scenes: the parts that most of them share.
+//! The parts that most lesson scenes share.
 
 use crate::lessons::HOUSE;
 use crate::number_text::scene_number;
@@ -8,13 +8,13 @@ use scene_file::file::{
     ProjectionFile, StyleFile, ViewFile,
 };
 
-/// The background color of lessons.
+/// The background color of lesson pictures.
 const BACKGROUND: Color = Color([0xee, 0xf2, 0xf5]);
 
 /// The scene of a lesson, or an error for a number that scenes do not allow.
 pub(crate) type LessonScene = Result<SceneFile, InvalidNumber>;
 
-/// A model in the lessons' light.
+/// Returns a model in the lessons' light.
 pub(crate) fn model_scene(path: &str, camera: CameraFile) -> LessonScene {
     let mut scene = SceneFile::new([ModelFile::new(path)]);
     scene.camera = camera;
@@ -25,14 +25,14 @@ pub(crate) fn model_scene(path: &str, camera: CameraFile) -> LessonScene {
     Ok(scene)
 }
 
-/// The house as seen in most lessons.
+/// Returns the house as seen in most lessons.
 pub(crate) fn house_scene(projection: ProjectionFile) -> LessonScene {
     let camera = CameraFile::look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]);
     model_scene(HOUSE, camera.with_projection(projection))
 }
 
-/// A camera that frames the model with a margin in percent, from an azimuth and an elevation in
-/// degrees, or else from the direction that suits the projection.
+/// Returns a camera that frames the model with a margin in percent, from an azimuth and an
+/// elevation in degrees, or otherwise from the default direction of the projection.
 pub(crate) fn framed(
     projection: ProjectionFile,
     padding_percent: f64,
@@ -46,7 +46,7 @@ pub(crate) fn framed(
     Ok(CameraFile { view, ..CameraFile::default() }.with_projection(projection))
 }
 
-/// The house as a line drawing on white, framed with a margin in percent.
+/// Returns the house as a line drawing on white, framed with a margin in percent.
 pub(crate) fn line_drawing(projection: ProjectionFile, padding_percent: f64) -> LessonScene {
     let mut scene = model_scene(HOUSE, framed(projection, padding_percent, None)?)?;
     scene.style = StyleFile::lines_hidden_removed();

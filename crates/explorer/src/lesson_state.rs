@@ -1,4 +1,4 @@
-//! The state of the page: a lesson, its values, the pinned point and the orbits, as a query string.
+//! The page state as a query string: a lesson, its values, the pinned point and the orbits.
 
 use crate::ExplorerError;
 use crate::lesson::{Choice, Domain, Lesson, Parameter, ParameterValue, Values};
@@ -9,7 +9,7 @@ use crate::request::DEFAULT_SIZE;
 use crate::words::{Language, sentence};
 use import::percent_encode;
 
-/// The version of the keys.
+/// The version of the query keys.
 const VERSION: &str = "1";
 
 /// The initial direction to the canonical view volume: azimuth and elevation in degrees.
@@ -36,7 +36,7 @@ pub(crate) const STYLES: [&str; 13] = [
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct LessonState {
     pub(crate) lesson: &'static Lesson,
-    /// One for each parameter of the lesson.
+    /// A value for each parameter of the lesson.
     pub(crate) parameters: Vec<ParameterValue>,
     /// The pinned point; `None` for the lesson's default.
     pin: Option<[f64; 3]>,
@@ -55,10 +55,10 @@ impl PartialEq for &'static Lesson {
 }
 
 impl LessonState {
-    /// Takes the keys of the state from a query.
+    /// Takes the state from the keys of a query.
     ///
     /// # Errors
-    /// An unsupported version, an unknown lesson or style, a malformed number, a value out of
+    /// An unsupported version, an unknown lesson or style, a malformed number, or a value out of
     /// range.
     pub(crate) fn take_from(query: &mut Query) -> Result<Self, ExplorerError> {
         check_version(query.take("v"))?;
@@ -77,7 +77,7 @@ impl LessonState {
         Ok(Self { lesson, parameters, pin, orbit, volume_orbit, style, model, language })
     }
 
-    /// This lesson with every number at its default; choices stay.
+    /// Returns this lesson with default numbers and the same choices.
     pub(crate) fn with_defaults(&self) -> Self {
         let default = |(parameter, value): (&Parameter, &ParameterValue)| match *value {
             ParameterValue::Number(_) => parameter.default_value(),
@@ -87,8 +87,8 @@ impl LessonState {
         Self { parameters, style: None, ..self.clone() }
     }
 
-    /// The pinned point of the world: the lesson's unless another one was chosen; for the user's
-    /// own model, one of its corners.
+    /// Returns the pinned point in world space: the chosen point, otherwise the lesson's default,
+    /// or a corner of the user's own model.
     pub(crate) fn pin(&self, loaded: &LoadedScene) -> [f64; 3] {
         let of_lesson = || (self.lesson.point)(&self.values(DEFAULT_SIZE));
         let of_model = || {
@@ -99,23 +99,23 @@ impl LessonState {
         self.pin.or_else(of_lesson).or_else(of_model).unwrap_or(self.lesson.pin)
     }
 
-    /// Azimuth and elevation of the pane `world` in degrees.
+    /// Returns the azimuth and elevation of the `world` pane in degrees.
     pub(crate) fn orbit(&self) -> [f64; 2] {
         self.orbit.unwrap_or(self.lesson.orbit)
     }
 
-    /// Azimuth and elevation of the pane `volume` in degrees.
+    /// Returns the azimuth and elevation of the `volume` pane in degrees.
     pub(crate) fn volume_orbit(&self) -> [f64; 2] {
         self.volume_orbit.unwrap_or(VOLUME_ORBIT)
     }
 
-    /// The values from which the lesson's scene is built.
+    /// Returns the values from which the lesson's scene is built.
     pub(crate) fn values(&self, size: [u32; 2]) -> Values<'_> {
         let model = self.model.as_deref();
         Values { lesson: self.lesson, parameters: &self.parameters, size, model }
     }
 
-    /// The link to the state: `#v=1&lesson=…`, without keys at their defaults.
+    /// Returns the link to the state: `#v=1&lesson=…`, without keys that have default values.
     pub(crate) fn to_link(&self) -> String {
         let mut link = format!("#v={VERSION}&lesson={}", self.lesson.id);
         for (parameter, value) in self.lesson.parameters.iter().zip(&self.parameters) {
@@ -137,7 +137,7 @@ impl LessonState {
     }
 }
 
-/// A value as it appears in links.
+/// Formats a value for links.
 pub(crate) fn value_text(value: ParameterValue) -> String {
     match value {
         ParameterValue::Number(number) => number.to_string(),
@@ -148,8 +148,10 @@ pub(crate) fn value_text(value: ParameterValue) -> String {
 fn check_version(version: Option<String>) -> Result<(), ExplorerError> {
     match version {
         Some(version) if version != VERSION => {
-            let message = format!("this link is of version `{version}`");
-            let help = format!("this program reads version {VERSION}: open it with a newer one");
+            let message = format!("unsupported link version `{version}`");
+            let help = format!(
+                "this program supports version {VERSION}; open the link with a newer program"
+            );
             Err(ExplorerError::new("other_version", message, help))
         }
         _ => Ok(()),
@@ -161,8 +163,8 @@ fn take_language(query: &mut Query) -> Result<Language, ExplorerError> {
         None | Some("en") => Ok(Language::English),
         Some("zh") => Ok(Language::Chinese),
         Some(other) => {
-            let message = format!("there is no language `{other}`");
-            Err(ExplorerError::new("malformed_value", message, "give lang=en or lang=zh"))
+            let message = format!("unknown language `{other}`");
+            Err(ExplorerError::new("malformed_value", message, "use lang=en or lang=zh"))
         }
     }
 }
@@ -171,19 +173,19 @@ fn find_lesson(id: Option<&str>) -> Result<&'static Lesson, ExplorerError> {
     let Some(id) = id else { return Ok(LESSONS[0]) };
     LESSONS.into_iter().find(|lesson| lesson.id == id).ok_or_else(|| {
         let ids: Vec<&str> = LESSONS.iter().map(|lesson| lesson.id).collect();
-        let message = format!("there is no lesson `{id}`");
-        ExplorerError::new("unknown_lesson", message, format!("there are {}", ids.join(", ")))
+        let message = format!("unknown lesson `{id}`");
+        ExplorerError::new("unknown_lesson", message, format!("use one of {}", ids.join(", ")))
     })
 }
 
 fn find_style(name: &str) -> Result<&'static str, ExplorerError> {
     STYLES.into_iter().find(|style| *style == name).ok_or_else(|| {
-        let message = format!("there is no style `{name}`");
-        ExplorerError::new("malformed_value", message, format!("there are {}", STYLES.join(", ")))
+        let message = format!("unknown style `{name}`");
+        ExplorerError::new("malformed_value", message, format!("use one of {}", STYLES.join(", ")))
     })
 }
 
-/// The name of a style in flags: `XRay` becomes `x-ray`, and `UvChecker` becomes `uv`.
+/// Returns the name of a style in flags: `XRay` becomes `x-ray`, and `UvChecker` becomes `uv`.
 pub(crate) fn style_flag(style: &str) -> String {
     match style {
         "UvChecker" => "uv".to_owned(),
@@ -209,11 +211,11 @@ fn parse_value(
                 "value_out_of_range",
                 language,
                 sentence(
-                    format!("`{key}` cannot be {number}"),
+                    format!("`{key}` is out of range: {number}"),
                     format!("{}（`{key}`）不能是 {number}", label.zh),
                 ),
                 sentence(
-                    format!("give a number from {min} to {max}"),
+                    format!("use a number from {min} to {max}"),
                     format!("请给出 {min} 到 {max} 之间的数"),
                 ),
             ))
@@ -223,7 +225,7 @@ fn parse_value(
             let known = || choices.iter().map(|Choice { value, .. }| *value).collect::<Vec<_>>();
             found.map(|choice| ParameterValue::Choice(choice.value)).ok_or_else(|| {
                 let message = format!("`{key}` cannot be `{text}`");
-                let help = format!("give one of {}", known().join(", "));
+                let help = format!("use one of {}", known().join(", "));
                 ExplorerError::new("malformed_value", message, help)
             })
         }
@@ -232,14 +234,14 @@ fn parse_value(
 
 fn parse_number(key: &str, text: &str) -> Result<f64, ExplorerError> {
     let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
-    // −0 would give a second link to the same state.
+    // −0 would make a second link to the same state.
     number.map(|number| number + 0.0).ok_or_else(|| {
         let message = format!("`{key}` is not a number: `{text}`");
         ExplorerError::new("malformed_value", message, format!("write it as {key}=2.5"))
     })
 }
 
-/// Takes a list of numbers, none of them above the limit.
+/// Takes a list of numbers, all within the limit.
 fn take_numbers<const N: usize>(
     query: &mut Query,
     key: &str,
@@ -252,7 +254,7 @@ fn take_numbers<const N: usize>(
     let numbers = numbers.filter(|all| all.iter().all(|number| number.abs() <= limit));
     numbers.map(Some).ok_or_else(|| {
         let message = format!("`{key}` cannot be `{text}`");
-        let help = format!("give {N} numbers with commas between them, none above {limit}");
+        let help = format!("use {N} numbers up to {limit}, separated by commas");
         ExplorerError::new("malformed_value", message, help)
     })
 }

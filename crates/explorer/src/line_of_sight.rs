@@ -1,24 +1,25 @@
-//! A line of sight: all points of the view volume behind one position in the picture (UN-2).
+//! A line of sight: all points of the view volume that map to one position in the picture (UN-2).
 
 use crate::triangle_survey::WorldTriangle;
 use camera::ViewProjection;
 use homog::{HPoint, Point, World};
 
-/// The part of a line of sight between the near and the far plane.
+/// The part of a line of sight between the near and far planes.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct LineOfSight {
-    /// On the near plane, and on the far plane.
+    /// The ends on the near and far planes.
     pub(crate) ends: [Point<World>; 2],
 }
 
 impl LineOfSight {
-    /// The line through a position in the picture, in fractions from its upper left corner; `None`
-    /// if the far plane is at infinity.
+    /// Returns the line through a picture position, in fractions from the upper left corner, or
+    /// `None` if the far plane is at infinity.
     pub(crate) fn through_picture(view: &ViewProjection, [x, y]: [f64; 2]) -> Option<Self> {
         Self::through_ndc(view, [2.0 * x - 1.0, 1.0 - 2.0 * y])
     }
 
-    /// The line through a point of the world; `None` if it is not in front of the eye.
+    /// Returns the line through a world-space point, or `None` if the point is not in front of the
+    /// eye.
     pub(crate) fn through_point(view: &ViewProjection, point: Point<World>) -> Option<Self> {
         let clip = view.world_to_clip().transform_point(point);
         let ndc = clip.divide().filter(|_| clip.w() > 0.0)?;
@@ -31,7 +32,7 @@ impl LineOfSight {
         Some(Self { ends: [end(1.0)?, end(-1.0)?] })
     }
 
-    /// The first intersection of the line with a triangle (Möller and Trumbore 1997).
+    /// Returns the first intersection of the line with a triangle (Möller and Trumbore 1997).
     pub(crate) fn first_hit(&self, triangles: &[WorldTriangle]) -> Option<Point<World>> {
         let [origin, end] = self.ends.map(Point::raw);
         let direction = end - origin;

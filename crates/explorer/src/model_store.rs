@@ -1,4 +1,4 @@
-//! Files and models, loaded once and shared by all states of a lesson.
+//! Files and models, which are loaded once and shared by all states of a lesson.
 
 use crate::ExplorerError;
 use crate::lesson_state::style_flag;
@@ -9,9 +9,9 @@ use pipeline::{Origin, Scene, SceneFile, Textures};
 use scene_file::file::{ModelFile, StyleFile};
 use std::sync::Arc;
 
-/// The number of model sets kept: the current lesson and the previous one.
+/// The number of cached model sets: for the current and the previous lesson.
 const KEPT_SETS: usize = 2;
-/// The number of resolved scenes kept: the state and the defaults, each coarse and fine.
+/// The number of cached scenes: for the state and the defaults, each coarse and fine.
 const KEPT_SCENES: usize = 6;
 
 /// A resolved scene with its models.
@@ -24,7 +24,7 @@ pub(crate) struct LoadedScene {
 }
 
 impl LoadedScene {
-    /// The views of the scene, at least one: its own, or one for each viewport or eye.
+    /// The views of the scene, at least one: the camera's view, or a view for each viewport or eye.
     pub(crate) fn views(&self) -> Vec<&Scene> {
         match self.scene.insets.get(self.first_view..) {
             None | Some([]) => vec![&self.scene],
@@ -33,17 +33,17 @@ impl LoadedScene {
     }
 }
 
-/// The models of a scene, and the data computed once from them.
+/// The models of a scene and the data computed once from them.
 #[derive(Debug)]
 pub(crate) struct LoadedModels {
-    /// As written in the scene file.
+    /// The models as written in the scene file.
     files: Vec<ModelFile>,
     instances: Vec<ModelInstance>,
     pub(crate) textures: Textures<'static>,
     pub(crate) triangles: WorldTriangles,
 }
 
-/// The added files, and the models and scenes loaded from them; the latest last.
+/// The added files and the models and scenes loaded from them, with the latest last.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ModelStore {
     folder: MemoryFolder,
@@ -58,8 +58,8 @@ impl ModelStore {
     /// If the name is not a path below the folder of the files.
     pub(crate) fn add_file(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), ExplorerError> {
         if !self.folder.insert(name, bytes) {
-            let message = format!("`{name}` is not a name of a file");
-            let help = "give a relative path, such as models/house.glb";
+            let message = format!("`{name}` is not a valid file name");
+            let help = "use a relative path such as models/house.glb";
             return Err(ExplorerError::new("malformed_value", message, help));
         }
         // Loaded models and scenes may depend on the file.
@@ -73,13 +73,13 @@ impl ModelStore {
         self.folder.file(name).is_some()
     }
 
-    /// The text of an added scene file.
+    /// Returns the text of an added scene file.
     pub(crate) fn scene_text(&self, name: &str) -> String {
         String::from_utf8_lossy(self.folder.file(name).unwrap_or_default()).into_owned()
     }
 
-    /// Resolves a scene from its text, and loads its models unless they are cached. `key`
-    /// identifies the scene.
+    /// Resolves a scene from its text and loads its models unless they are cached. `key` identifies
+    /// the scene.
     ///
     /// # Errors
     /// A mistake in the scene, or a model that cannot be loaded.
@@ -121,7 +121,7 @@ impl ModelStore {
     }
 }
 
-/// The style with this name, with the default for each of its fields.
+/// Returns the style with this name, with default fields.
 pub(crate) fn named_style(name: &str) -> Option<StyleFile> {
     let flag = style_flag(name);
     StyleFile::NAMED.into_iter().find(|(known, _)| *known == flag).map(|(_, make)| make())
@@ -134,7 +134,7 @@ mod tests {
     use scene_file::parse_scene;
 
     #[test]
-    fn styles_are_those_that_scene_files_call_so() {
+    fn style_names_match_scene_files() {
         for name in STYLES {
             let value = if name == "Lines" { "Lines()" } else { name };
             let text = format!("Scene(models: [], style: {value})");

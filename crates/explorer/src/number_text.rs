@@ -1,4 +1,4 @@
-//! Numbers in scene files and in sentences.
+//! Number formatting in scene files and sentences.
 
 /// Formats a number as a person would write it in a scene file: rounded to six decimals.
 pub(crate) fn scene_number(value: f64) -> f64 {
@@ -17,7 +17,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_short() {
+    fn numbers_have_no_trailing_zeros() {
         assert_eq!(scene_number(0.1 + 0.2).to_string(), "0.3");
         assert_eq!(scene_number(-1e-9).to_string(), "0");
         assert_eq!(decimals(36.869_897, 1), "36.9");

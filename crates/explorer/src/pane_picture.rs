@@ -1,4 +1,4 @@
-//! Pane pictures: whole or in bands, from the same memory.
+//! Pane pictures, rendered whole or in bands with the same memory.
 
 use crate::ExplorerError;
 use homog::PixelRect;
@@ -20,7 +20,7 @@ impl<'a> Drawn<'a> {
     }
 }
 
-/// The renderer of a pane, and its last whole picture.
+/// The renderer of a pane and its last whole picture.
 #[derive(Debug, Default)]
 pub(crate) struct PanePicture {
     renderer: Renderer,
@@ -29,7 +29,8 @@ pub(crate) struct PanePicture {
 }
 
 impl PanePicture {
-    /// The whole picture of a scene; `key` identifies everything that it depends on.
+    /// Renders the whole picture of a scene. `key` identifies everything that the picture depends
+    /// on.
     ///
     /// # Errors
     /// The renderer's errors.
@@ -44,10 +45,10 @@ impl PanePicture {
         self.whole.as_ref().map(|(_, picture)| picture).ok_or_else(missing)
     }
 
-    /// The pixels of some rows of a picture: the same bytes as in the whole picture.
+    /// Renders some rows of a picture, with the same bytes as in the whole picture.
     ///
-    /// Surfaces are rendered band by band. Lines and overlays are drawn once for all bands, with
-    /// the whole picture.
+    /// Surfaces are rendered band by band. Lines and overlays are drawn once, with the whole
+    /// picture, for all bands.
     ///
     /// # Errors
     /// The renderer's errors.
@@ -73,7 +74,7 @@ impl PanePicture {
     }
 }
 
-/// Whether only surfaces are drawn, so that a band costs no more than its share.
+/// Whether only surfaces are drawn, so that a band costs only its share of the picture.
 fn renders_in_bands(scene: &Scene) -> bool {
     let has_lines = matches!(scene.style, Style::Toon | Style::XRay);
     scene.style.draws_surfaces()
@@ -83,7 +84,7 @@ fn renders_in_bands(scene: &Scene) -> bool {
         && scene.occlusion_radius.is_none()
 }
 
-/// The number of threads that the machine runs; it does not affect any answer.
+/// Returns the number of threads of the machine, which does not affect any answer.
 pub(crate) fn thread_count() -> usize {
     std::thread::available_parallelism().map_or(1, Into::into)
 }

@@ -1,5 +1,5 @@
-//! The scenes of the panes beside the main picture: triangles colored by the effect of clipping,
-//! with view volumes and labels.
+//! Scenes of the panes next to the main picture, with view volumes, labels, and triangles colored
+//! by the effect of clipping.
 
 use crate::ExplorerError;
 use crate::triangle_survey::Containment;
@@ -17,7 +17,7 @@ use shade::color::srgb_to_linear_table;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The colors of triangles inside, clipped and outside, and of the line of sight, in sRGB.
+/// The sRGB colors of triangles that are inside, clipped and outside, and of the line of sight.
 pub(crate) const COLORS: [(&str, [u8; 3]); 4] = [
     ("inside", [122, 166, 218]),
     ("clipped", [230, 159, 0]),
@@ -25,7 +25,7 @@ pub(crate) const COLORS: [(&str, [u8; 3]); 4] = [
     ("sight", [200, 30, 90]),
 ];
 
-/// The index of the color of the line of sight.
+/// The index of the line-of-sight color.
 const SIGHT: usize = 3;
 
 /// The margin around the framed points, as a fraction of the picture's side.
@@ -34,7 +34,7 @@ const PADDING: f64 = 0.07;
 /// The view of a pane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Observer {
-    /// Azimuth and elevation in degrees.
+    /// The azimuth and elevation in degrees.
     pub(crate) orbit: [f64; 2],
     pub(crate) size: [u32; 2],
     pub(crate) samples: u32,
@@ -43,9 +43,9 @@ pub(crate) struct Observer {
 /// The geometry of a pane.
 #[derive(Debug, Default)]
 pub(crate) struct PaneGeometry {
-    /// The triangles inside, clipped and outside.
+    /// The triangles that are inside, clipped and outside.
     triangles: [Vec<[[f32; 3]; 3]>; 3],
-    /// The ends of the lines of each color.
+    /// The endpoints of the lines, by color.
     lines: [Vec<[[f32; 3]; 2]>; 4],
 }
 
@@ -66,10 +66,10 @@ impl PaneGeometry {
         self.lines[containment as usize].extend(edges);
     }
 
-    /// The scene, framed around points.
+    /// Returns the scene, framed around points.
     ///
     /// # Errors
-    /// There are no points, or one is not finite.
+    /// There are no points, or a point is not finite.
     pub(crate) fn into_scene(
         self,
         observer: Observer,
@@ -90,8 +90,8 @@ impl PaneGeometry {
         Ok(scene)
     }
 
-    /// The model. If there are no triangles, it has one without area, so that the overlays have an
-    /// object to enclose.
+    /// Returns the model. If there are no triangles, it has a degenerate triangle, so that the
+    /// overlays have an object to enclose.
     fn into_model(self, framed: &[Point<World>]) -> ModelInstance {
         let groups = self.triangles.iter().enumerate();
         let mut primitives: Vec<Primitive> = groups
@@ -148,7 +148,7 @@ fn material(name: &str, color: [u8; 3], unlit: bool) -> Material {
     }
 }
 
-/// A parallel view of points, with room in depth for objects beside them.
+/// Returns a parallel view of points, with a depth range that leaves space for other objects.
 fn observer_view(
     observer: Observer,
     points: Vec<Point<World>>,
@@ -168,14 +168,14 @@ fn observer_view(
     Ok(ViewProjection { camera, view_to_clip: volume.view_to_clip(Convention::CHAPTER) })
 }
 
-/// Text at a point, `offset` pixels beside it.
+/// Returns text next to a point, `offset` pixels away.
 pub(crate) fn label_at(at: Point<World>, text: &str, [x, y]: [f64; 2]) -> Overlay {
     let (ink, height) = (palette::INK, 12.0);
     let offset = DVec2::new(x, y);
     Overlay::Label(PointLabel { at, text: text.to_owned(), offset, ink, height, leader: false })
 }
 
-/// A point with a name, at the end of a short line.
+/// Returns a named point, with the name at the end of a short line.
 pub(crate) fn named_point(at: Point<World>, text: &str) -> Overlay {
     let (_, ink) = COLORS[SIGHT];
     let (offset, height) = (DVec2::new(14.0, -14.0), 12.0);

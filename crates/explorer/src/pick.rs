@@ -7,7 +7,7 @@ use pipeline::Scene;
 use scene::Style;
 use serde_json::{Value as Json, json};
 
-/// The explanation of a pixel of a picture, counted from its upper left corner, with the nearest
+/// Explains a pixel of a picture, counted from the upper left corner, and returns the nearest
 /// surface point.
 ///
 /// # Errors
@@ -25,7 +25,7 @@ pub(crate) fn pick_json(
         Some(inset) => (&inset.scene, [x - inset.rect.x, y - inset.rect.y]),
         None => (scene, [x, y]),
     };
-    // Lines hide the surfaces; the question is about the surfaces between them.
+    // Lines would hide the surfaces that the request is about.
     let mut surfaces = scene.clone();
     if !scene.style.draws_surfaces() {
         surfaces.style = Style::Flat;
@@ -45,7 +45,7 @@ pub(crate) fn pick_json(
     }))
 }
 
-/// The nearest of the surface points of a pixel.
+/// Returns the nearest surface point of a pixel.
 fn nearest_position(explanation: &Explanation, scene: &Scene) -> Option<Point<World>> {
     let fragments = explanation.steps.iter().filter(|step| step.id.ends_with("fragment"));
     let items = fragments.flat_map(|step| &step.items).filter(|item| item.id == "world");

@@ -1,4 +1,4 @@
-//! Query strings: pairs of keys and values, percent-encoded.
+//! Query strings: percent-encoded pairs of keys and values.
 
 use crate::ExplorerError;
 use import::percent_decode;
@@ -16,12 +16,11 @@ impl Query {
     /// Parses a query string, with or without a leading `#` or `?`.
     ///
     /// # Errors
-    /// A pair without `=`, a broken percent-encoding, a key that occurs twice, a query that is too
-    /// long.
+    /// A pair without `=`, a broken percent-encoding, a duplicate key, or a query that is too long.
     pub(crate) fn parse(text: &str) -> Result<Self, ExplorerError> {
         if text.len() > MAX_QUERY_BYTES {
             let message = format!("the request has {} bytes", text.len());
-            let help = format!("at most {MAX_QUERY_BYTES} are read");
+            let help = format!("at most {MAX_QUERY_BYTES} bytes are allowed");
             return Err(ExplorerError::new("malformed_query", message, help));
         }
         let mut pairs: Vec<(String, String)> = Vec::new();
@@ -30,8 +29,8 @@ impl Query {
             let (key, value) = pair.split_once('=').ok_or_else(|| missing_equals_sign(pair))?;
             let (key, value) = (decode(key)?, decode(value)?);
             if pairs.iter().any(|(known, _)| *known == key) {
-                let message = format!("the key `{key}` is given twice");
-                return Err(ExplorerError::new("repeated_key", message, "leave one of them out"));
+                let message = format!("duplicate key `{key}`");
+                return Err(ExplorerError::new("repeated_key", message, "remove one of them"));
             }
             pairs.push((key, value));
         }
@@ -44,7 +43,7 @@ impl Query {
         Some(self.pairs.remove(at).1)
     }
 
-    /// The first key that has not been taken.
+    /// Returns the first key that has not been taken.
     pub(crate) fn first_key(&self) -> Option<&str> {
         self.pairs.first().map(|(key, _)| key.as_str())
     }
@@ -69,7 +68,7 @@ mod tests {
     use import::percent_encode;
 
     #[test]
-    fn pairs_are_decoded_and_taken_once() {
+    fn pairs_are_decoded_and_can_be_taken_once() {
         let mut query = Query::parse("#v=1&model=a%20b+c%E4%B8%AD.glb").expect("a query");
         assert_eq!(query.take("model").as_deref(), Some("a b c中.glb"));
         assert_eq!((query.take("model"), query.first_key()), (None, Some("v")));
@@ -89,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn encoding_is_undone_by_decoding() {
+    fn decoding_reverses_encoding() {
         let text = "Ä b+c&d=e%/中.glb";
         assert_eq!(decode(&percent_encode(text)).as_deref(), Ok(text));
     }

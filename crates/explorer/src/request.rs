@@ -1,17 +1,17 @@
-//! A request: the state, a question about it, and for pictures their size and format.
+//! Requests: the state, what to return for it, and the size and format of pictures.
 
 use crate::ExplorerError;
 use crate::lesson_state::LessonState;
 use crate::query::Query;
 use scene_file::closest_name;
 
-/// The default picture size; the lessons are designed for its shape.
+/// The default picture size. The lessons are designed for this shape.
 pub(crate) const DEFAULT_SIZE: [u32; 2] = [640, 400];
 
-/// The largest side of a picture in pixels.
+/// The maximum side of a picture in pixels.
 const MAX_SIDE: u32 = 8192;
 
-/// The question.
+/// The kind of answer.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(crate) enum Question {
     Lessons,
@@ -61,7 +61,7 @@ pub(crate) struct Request {
     /// Width and height of the picture in pixels.
     pub(crate) size: [u32; 2],
     pub(crate) samples: u32,
-    /// The first row of a band, and the one after its last.
+    /// The first row of a band and the row after its last row.
     pub(crate) rows: Option<[u32; 2]>,
     pub(crate) is_png: bool,
     /// The column and row of a pixel.
@@ -72,27 +72,27 @@ impl Request {
     /// Parses a request.
     ///
     /// # Errors
-    /// An unknown key, a malformed value, a band of a PNG.
+    /// An unknown key, a malformed value, or a band of a PNG.
     pub(crate) fn parse(text: &str) -> Result<Self, ExplorerError> {
         let mut query = Query::parse(text)?;
         let question = find_question(query.take("what").as_deref())?;
         let state = LessonState::take_from(&mut query)?;
         let size = take_pair(&mut query, "size", 'x')?.unwrap_or(DEFAULT_SIZE);
         if size.iter().any(|side| !(1..=MAX_SIDE).contains(side)) {
-            let message = format!("a picture cannot have {} x {} pixels", size[0], size[1]);
+            let message = format!("invalid picture size {} x {}", size[0], size[1]);
             let help = format!("each side must be between 1 and {MAX_SIDE}");
             return Err(ExplorerError::new("malformed_value", message, help));
         }
         let samples = match query.take("samples").as_deref() {
             None | Some("4") => 4,
             Some("1") => 1,
-            Some(other) => return Err(malformed("samples", other, "give samples=1 or samples=4")),
+            Some(other) => return Err(malformed("samples", other, "use samples=1 or samples=4")),
         };
         let is_png = match query.take("format").as_deref() {
             None | Some("rgba") => false,
             Some("png") => true,
             Some(other) => {
-                return Err(malformed("format", other, "give format=rgba or format=png"));
+                return Err(malformed("format", other, "use format=rgba or format=png"));
             }
         };
         let rows = take_pair(&mut query, "rows", '-')?;
@@ -108,25 +108,25 @@ impl Request {
 fn find_question(name: Option<&str>) -> Result<Question, ExplorerError> {
     let names = || QUESTIONS.map(|(name, _)| name).join(", ");
     let Some(name) = name else {
-        let help = format!("add what=, with one of {}", names());
-        return Err(ExplorerError::new("malformed_query", "nothing is asked", help));
+        let help = format!("add what= with one of {}", names());
+        return Err(ExplorerError::new("malformed_query", "missing key `what`", help));
     };
     let found = QUESTIONS.into_iter().find(|(known, _)| *known == name);
     found
         .map(|(_, question)| question)
-        .ok_or_else(|| malformed("what", name, &format!("give one of {}", names())))
+        .ok_or_else(|| malformed("what", name, &format!("use one of {}", names())))
 }
 
 fn check_rows(rows: Option<[u32; 2]>, height: u32, is_png: bool) -> Result<(), ExplorerError> {
     let Some([from, to]) = rows else { return Ok(()) };
     let text = format!("{from}-{to}");
     if is_png {
-        return Err(malformed("rows", &text, "a PNG is whole: leave rows or format=png out"));
+        return Err(malformed("rows", &text, "a PNG has all rows: remove rows or format=png"));
     }
     if from < to && to <= height {
         return Ok(());
     }
-    Err(malformed("rows", &text, &format!("the rows of this picture are rows=0-{height}")))
+    Err(malformed("rows", &text, &format!("use rows within 0-{height}")))
 }
 
 /// Takes two whole numbers.
@@ -138,7 +138,7 @@ fn take_pair(
     let Some(text) = query.take(key) else { return Ok(None) };
     let pair =
         text.split_once(separator).and_then(|(a, b)| Some([a.parse().ok()?, b.parse().ok()?]));
-    let help = format!("give two whole numbers, such as {key}=0{separator}100");
+    let help = format!("use two whole numbers such as {key}=0{separator}100");
     pair.map(Some).ok_or_else(|| malformed(key, &text, &help))
 }
 
@@ -146,16 +146,16 @@ fn malformed(key: &str, value: &str, help: &str) -> ExplorerError {
     ExplorerError::new("malformed_value", format!("`{key}` cannot be `{value}`"), help)
 }
 
-/// The error for an unknown key, with the key that may have been meant.
+/// Returns the error for an unknown key, and suggests a similar key.
 fn unknown_key(key: &str, state: &LessonState) -> ExplorerError {
     let lesson = state.lesson;
     let own: Vec<&str> = lesson.parameters.iter().map(|parameter| parameter.key).collect();
     let help = match closest_name(key, &[&own, &KEYS[..]].concat()) {
         Some(similar) => format!("did you mean `{similar}`?"),
-        None if own.is_empty() => format!("the lesson `{}` has no parameters", lesson.id),
-        None => format!("the lesson `{}` has {}", lesson.id, own.join(", ")),
+        None if own.is_empty() => format!("lesson `{}` has no parameters", lesson.id),
+        None => format!("the parameters of lesson `{}` are {}", lesson.id, own.join(", ")),
     };
-    ExplorerError::new("unknown_key", format!("there is no key `{key}` here"), help)
+    ExplorerError::new("unknown_key", format!("unknown key `{key}`"), help)
 }
 
 #[cfg(test)]
@@ -174,7 +174,11 @@ mod tests {
             assert_eq!((error.code, error.help), ("unknown_key", help));
         }
         let error = error("what=picture&lesson=frustum&soup=2");
-        assert!(error.help.starts_with("the lesson `frustum` has "), "{}", error.help);
+        assert!(
+            error.help.starts_with("the parameters of lesson `frustum` are "),
+            "{}",
+            error.help
+        );
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! The description of a state, as JSON.
+//! The description of a state as JSON.
 
 use crate::ExplorerError;
 use crate::depth_pane::depth_table_json;
@@ -13,7 +13,7 @@ use explain::{ApiConventions, TransformChain, explain_point, explain_transforms}
 use homog::{Point, Screen};
 use serde_json::{Map, Value as Json, json};
 
-/// The state as JSON: link, scene file, command, sentences, numbers, matrices, journey.
+/// Returns the state as JSON: link, scene file, command, sentences, numbers, matrices and journey.
 ///
 /// # Errors
 /// If the view has no pixels.
@@ -29,7 +29,7 @@ pub(crate) fn state_json(
     let size = (facts.size[0], facts.size[1]);
     let chain =
         TransformChain::new(&facts.view_projection, size, lesson.conventions).map_err(|error| {
-            ExplorerError::new("cannot_render", error.to_string(), "make it larger")
+            ExplorerError::new("cannot_render", error.to_string(), "make the picture larger")
         })?;
     let mut consequences = (lesson.consequences)(&values, facts);
     consequences.extend(clipping_sentences(facts));
@@ -71,7 +71,7 @@ fn value_json(value: ParameterValue) -> Json {
     }
 }
 
-/// The command that renders the same picture, to be run in the folder with the models.
+/// Returns the command that renders the same picture in the folder with the models.
 fn command(request: &Request, text: &str) -> String {
     let Request { state, size: [width, height], samples, .. } = request;
     match &state.model {
@@ -87,7 +87,7 @@ fn command(request: &Request, text: &str) -> String {
     }
 }
 
-/// The explanation of a point, with its coordinates in each space.
+/// Explains a point and returns its coordinates in each space.
 fn journey_json(
     chain: &TransformChain,
     pin: Point<homog::World>,
@@ -113,7 +113,8 @@ fn journey_json(
     json
 }
 
-/// Converts screen coordinates of the first view to the whole picture; a viewport has an offset.
+/// Converts screen coordinates of the first view to the whole picture, because a viewport has an
+/// offset.
 fn in_picture(
     screen: Point<Screen>,
     loaded: &LoadedScene,
@@ -129,7 +130,7 @@ fn in_picture(
 
 const PLANES_ZH: [&str; 6] = ["左", "右", "下", "上", "近", "远"];
 
-/// The parts that the view volume cuts off, in sentences.
+/// Returns sentences about the parts outside the view volume.
 fn clipping_sentences(facts: &Facts) -> Vec<Sentence> {
     let survey = facts.survey;
     let all = facts.triangles[1];
@@ -145,24 +146,24 @@ fn clipping_sentences(facts: &Facts) -> Vec<Sentence> {
                 format!("{all} 个三角形中有 {clipped} 个被{plane_zh}平面裁剪。"),
             )),
             (0, outside) => sentences.push(sentence(
-                format!("{outside} of {all} triangles {is_or_are} outside of the {plane} plane."),
+                format!("{outside} of {all} triangles {is_or_are} outside the {plane} plane."),
                 format!("{all} 个三角形中有 {outside} 个完全在{plane_zh}平面之外。"),
             )),
             (clipped, outside) => sentences.push(sentence(
-                format!("{clipped} of {all} triangles {are} clipped by the {plane} plane, and {outside} {is_or_are} wholly outside of it."),
+                format!("{clipped} of {all} triangles {are} clipped by the {plane} plane, and {outside} {is_or_are} entirely outside it."),
                 format!("{all} 个三角形中有 {clipped} 个被{plane_zh}平面裁剪，{outside} 个完全在它之外。"),
             )),
         }
     }
     if survey.inside == all && all > 0 {
         sentences.push(sentence(
-            "The whole model is inside the view volume: nothing is clipped.",
+            "The whole model is inside the view volume, so nothing is clipped.",
             "整个模型都在视见体之内：没有任何裁剪。",
         ));
     }
     if survey.inside + survey.clipped == 0 && all > 0 {
         sentences.push(sentence(
-            "Nothing of the model is inside the view volume: the picture is empty.",
+            "No part of the model is inside the view volume, so the picture is empty.",
             "模型完全在视见体之外：图像是空的。",
         ));
     }

@@ -1,4 +1,5 @@
-//! The triangles of a scene against its view volume: inside, clipped, outside (CL-1, CL-3).
+//! Classifies the triangles of a scene against its view volume: inside, clipped or outside (CL-1,
+//! CL-3).
 
 use camera::ViewProjection;
 use clip::{Outcode, PlaneIndex, Volume, clip_triangle};
@@ -6,22 +7,22 @@ use homog::{Bounds, Clip, HPoint, Point, Projective, World};
 use model::{MeshInstance, ModelInstance, Topology};
 use std::collections::BTreeMap;
 
-/// The maximum number of triangles drawn in the panes beside the main picture.
+/// The maximum number of triangles drawn in the panes next to the main picture.
 const MAX_DRAWN: usize = 10_000;
 /// The maximum number of triangles that are counted individually.
 const MAX_COUNTED: usize = 300_000;
-/// The number of cells along the longest side of the first grid that merges vertices.
+/// The number of cells along the longest side of the first vertex-merging grid.
 const FIRST_GRID: f64 = 96.0;
 
-/// A triangle in the world.
+/// A triangle in world space.
 pub(crate) type WorldTriangle = [Point<World>; 3];
 
-/// The triangles of models in the world.
+/// The triangles of models in world space.
 #[derive(Debug)]
 pub(crate) struct WorldTriangles {
     /// The number of triangles of the models.
     pub(crate) count: usize,
-    /// The counted triangles: all of them, or for very large models only the drawn ones.
+    /// The counted triangles: all triangles, or only the drawn triangles of very large models.
     pub(crate) counted: Vec<WorldTriangle>,
     /// A smaller set for drawing; `None` if the full set is small.
     reduced: Option<Vec<WorldTriangle>>,
@@ -48,14 +49,14 @@ impl WorldTriangles {
         self.drawn().len() < self.count
     }
 
-    /// The drawn triangles.
+    /// Returns the drawn triangles.
     pub(crate) fn drawn(&self) -> &[WorldTriangle] {
         self.reduced.as_deref().unwrap_or(&self.counted)
     }
 }
 
-/// Visits the triangles of models; a list of a large model's triangles would not fit into a page's
-/// memory.
+/// Visits the triangles of models. A list of all triangles of a large model would not fit in the
+/// memory of a page.
 fn visit_triangles(models: &[ModelInstance], visit: &mut dyn FnMut(WorldTriangle)) {
     for placed in models {
         for instance in placed.model.mesh_instances() {
@@ -85,11 +86,11 @@ fn visit_triangles_of_mesh(
     }
 }
 
-/// A cell of the grid that merges vertices.
+/// A cell of the vertex-merging grid.
 type Cell = [i32; 3];
 
-/// Simplifies triangles: all vertices in a grid cell are replaced by the first, and triangles that
-/// lose a corner vanish (vertex clustering; Rossignac and Borrel 1993).
+/// Simplifies triangles: all vertices in a grid cell are replaced by the first vertex, and
+/// triangles that lose a corner disappear (vertex clustering; Rossignac and Borrel 1993).
 fn merge_vertices(models: &[ModelInstance]) -> Vec<WorldTriangle> {
     let Some(bounds) = Bounds::from_points(model::world_points(models)) else { return Vec::new() };
     let size = bounds.max() - bounds.min();
@@ -104,7 +105,8 @@ fn merge_vertices(models: &[ModelInstance]) -> Vec<WorldTriangle> {
     }
 }
 
-/// The triangles whose corners are in three different cells of this size, one for each three cells.
+/// Returns the triangles whose corners are in three different cells of this size, one triangle for
+/// each triple of cells.
 fn merge_in_grid(
     models: &[ModelInstance],
     origin: Point<World>,
@@ -136,21 +138,22 @@ pub(crate) enum Containment {
     Outside,
 }
 
-/// The numbers of triangles inside, clipped and outside, and the planes responsible.
+/// The numbers of triangles that are inside, clipped and outside, and the planes responsible.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub(crate) struct Survey {
     pub(crate) inside: usize,
     pub(crate) clipped: usize,
     pub(crate) outside: usize,
-    /// For the planes left, right, bottom, top, near and far; a triangle may count for several.
+    /// The clipped triangles for each of the planes left, right, bottom, top, near and far. A
+    /// triangle may count for several planes.
     pub(crate) clipped_by: [usize; 6],
-    /// Entirely outside one plane, in the same order.
+    /// The triangles entirely outside each plane, in the same order.
     pub(crate) outside_of: [usize; 6],
-    /// Triangles with a corner behind the eye.
+    /// The number of triangles with a corner behind the eye.
     pub(crate) behind_eye: usize,
 }
 
-/// The corners of a triangle in clip space.
+/// Returns the corners of a triangle in clip space.
 pub(crate) fn project(
     world_to_clip: &Projective<World, Clip>,
     triangle: &WorldTriangle,
@@ -158,7 +161,7 @@ pub(crate) fn project(
     triangle.map(|point| world_to_clip.transform_point(point))
 }
 
-/// The effect of clipping on a triangle in clip space, and the planes that cause it.
+/// Returns the effect of clipping on a triangle in clip space and the planes that cause it.
 pub(crate) fn classify(corners: [HPoint<Clip>; 3]) -> (Containment, Outcode) {
     let codes = corners.map(|corner| Volume::CHAPTER.outcode(corner));
     if Outcode::trivially_accepts(&codes) {
@@ -213,7 +216,7 @@ mod tests {
     use std::fmt::Write as _;
     use std::sync::Arc;
 
-    /// A grid of `side` × `side` squares on the unit square, in OBJ format.
+    /// Returns a grid of `side` × `side` squares on the unit square, in OBJ format.
     fn grid(side: usize) -> ModelInstance {
         let mut obj = String::new();
         let row = side + 1;
@@ -246,14 +249,14 @@ mod tests {
     }
 
     #[test]
-    fn few_triangles_are_all_drawn() {
+    fn small_models_are_drawn_completely() {
         let triangles = WorldTriangles::new(&[grid(10)]);
         assert_eq!((triangles.count, triangles.drawn().len()), (200, 200));
         assert!(!triangles.is_reduced());
     }
 
     #[test]
-    fn many_triangles_are_counted_and_fewer_drawn_with_the_same_area() {
+    fn large_models_are_drawn_simplified_with_the_same_area() {
         let triangles = WorldTriangles::new(&[grid(150)]);
         assert_eq!((triangles.count, triangles.counted.len()), (45_000, 45_000));
         assert!(triangles.is_reduced() && triangles.drawn().len() <= MAX_DRAWN);

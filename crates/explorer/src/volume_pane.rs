@@ -1,5 +1,5 @@
-//! The pane `volume`: the canonical view volume and its contents after clipping and the divide, or
-//! a step on the way there.
+//! The `volume` pane: the canonical view volume and its contents after clipping and the divide, or
+//! after an intermediate step.
 
 use crate::ExplorerError;
 use crate::facts::Facts;
@@ -16,11 +16,11 @@ use homog::{Affine, Clip, HPoint, Point, Projective, View, World};
 use pipeline::Scene;
 use projection::{Convention, Frustum, ViewVolume};
 
-/// The limit up to which torn triangles are drawn, in half sides of the view volume; single
-/// precision has a finite range.
+/// The limit up to which torn triangles are drawn, in half sides of the view volume, because the
+/// range of single precision is finite.
 const TORN_LIMIT: f64 = 1e6;
 
-/// The scene of the pane at a stage of the pipeline.
+/// Returns the scene of the pane at a stage of the pipeline.
 ///
 /// # Errors
 /// The scene cannot be framed.
@@ -37,7 +37,7 @@ pub(crate) fn volume_scene(
     }
 }
 
-/// The canonical view volume.
+/// Returns the scene of the canonical view volume.
 fn canonical_scene(
     facts: &Facts,
     stage: VolumeStage,
@@ -68,14 +68,14 @@ fn canonical_scene(
     Ok(scene)
 }
 
-/// Adds a clip-space triangle, divided by w: the clipped part, or the whole triangle.
+/// Adds a clip-space triangle divided by w: its clipped part or the whole triangle.
 fn add_divided(geometry: &mut PaneGeometry, corners: [HPoint<Clip>; 3], stage: VolumeStage) {
     let (containment, _) = classify(corners);
     if stage == VolumeStage::Torn {
         let divided = corners.map(|corner| corner.divide().map(<[f64; 3]>::from));
         let [Some(a), Some(b), Some(c)] = divided else { return };
         let is_far = [a, b, c].as_flattened().iter().any(|c| c.abs() > TORN_LIMIT);
-        // Partly behind the eye: a divide without clipping tears it.
+        // The triangle is partly behind the eye, so a divide without clipping tears it.
         match corners.iter().any(|corner| corner.w() <= 0.0) {
             true if is_far => {}
             true => geometry.add_edges(Containment::Clipped, [a, b, c]),
@@ -91,7 +91,8 @@ fn add_divided(geometry: &mut PaneGeometry, corners: [HPoint<Clip>; 3], stage: V
     }
 }
 
-/// View space after some of the affine factors of a frustum, with its view volume.
+/// Returns the scene of view space after some of the affine factors of a frustum, with its view
+/// volume.
 fn factor_scene(facts: &Facts, count: usize, observer: Observer) -> Result<Scene, ExplorerError> {
     let view = facts.view_projection;
     let to_stage = affine_factors(facts, count).unwrap_or(Affine::IDENTITY);
@@ -119,7 +120,8 @@ fn factor_scene(facts: &Facts, count: usize, observer: Observer) -> Result<Scene
     Ok(scene)
 }
 
-/// The product of the first `count` factors, shear and scale; `None` if the view is not a frustum.
+/// Returns the product of the first `count` factors (shear and scale), or `None` if the view is not
+/// a frustum.
 fn affine_factors(facts: &Facts, count: usize) -> Option<Affine<View, View>> {
     let ([left, right, bottom, top], [near, far]) = (facts.window?, facts.planes);
     let frustum = Frustum::new(left, right, bottom, top, near?, far?).ok()?;
@@ -136,7 +138,8 @@ fn camera_at_origin() -> Result<Camera, ExplorerError> {
         .map_err(|error| ExplorerError::new("invalid_scene", error.to_string(), "reset the view"))
 }
 
-/// The coordinates of two opposite corners of the canonical view volume, in these conventions.
+/// Returns labels with the coordinates of two opposite corners of the canonical view volume, in
+/// these conventions.
 fn corner_labels(conventions: ApiConventions) -> [Overlay; 2] {
     let [near, far] = match conventions {
         ApiConventions::OpenGl => [-1, 1],

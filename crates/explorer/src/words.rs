@@ -1,4 +1,4 @@
-//! Words and sentences, in English and in Chinese.
+//! Text in English and Chinese.
 
 use serde_json::{Value as Json, json};
 
@@ -17,7 +17,7 @@ pub(crate) const fn words(en: &'static str, zh: &'static str) -> Words {
 }
 
 impl Words {
-    /// The text in a language.
+    /// Returns the text in a language.
     #[must_use]
     pub const fn text(self, language: Language) -> &'static str {
         match language {
@@ -31,7 +31,7 @@ impl Words {
     }
 }
 
-/// A sentence with numbers in it, in both languages.
+/// A sentence with numbers, in both languages.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Sentence {
     /// The sentence in English.
@@ -46,7 +46,7 @@ pub(crate) fn sentence(en: impl Into<String>, zh: impl Into<String>) -> Sentence
 }
 
 impl Sentence {
-    /// The sentence in a language.
+    /// Returns the sentence in a language.
     #[must_use]
     pub fn text(&self, language: Language) -> &str {
         match language {
@@ -60,7 +60,7 @@ impl Sentence {
     }
 }
 
-/// The language of texts that exist in only one language.
+/// The language of text that is returned in a single language.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Language {
     /// English.

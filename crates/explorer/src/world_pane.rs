@@ -1,4 +1,4 @@
-//! The pane `world`: the world from outside, with the view volume, the eye and a line of sight.
+//! The `world` pane: the world from outside, with the view volume, the eye and a line of sight.
 //!
 //! ```text
 //!           ╱│near      │far
@@ -18,21 +18,21 @@ use homog::{HPoint, Plane, Point, View, World};
 use pipeline::Scene;
 use projection::{Convention, ViewVolume};
 
-/// The maximum number of view volumes drawn: enough for all viewports of a sheet.
+/// The maximum number of view volumes drawn, which is enough for all viewports of a sheet.
 const MAX_VOLUMES: usize = 4;
 /// The depth of the framed part of a view volume, as a multiple of the distance to the farthest
 /// model point.
 const MAX_FRAMED_DEPTH: f64 = 1.6;
 
-/// The highlighted point of the world, and the line of sight through it.
+/// The highlighted point in the world and the line of sight through it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Pointer {
     pub(crate) point: Option<Point<World>>,
     pub(crate) sight: Option<LineOfSight>,
 }
 
-/// The scene of the world from outside. It is framed around the scene with the lesson's defaults,
-/// so that it does not move while a value is dragged.
+/// Returns the scene of the world from outside. It is framed around the scene with the lesson's
+/// defaults, so that it stays in place while a value is dragged.
 ///
 /// # Errors
 /// The scene cannot be framed.
@@ -68,7 +68,7 @@ pub(crate) fn world_scene(
     Ok(scene)
 }
 
-/// The planes of a view volume in the world; their positive sides are inside.
+/// Returns the planes of a view volume in the world. Their positive sides are inside.
 fn world_planes(view: &ViewProjection) -> [Plane<World>; 6] {
     let volume = ViewVolume::new(view.view_to_clip, Convention::CHAPTER);
     // A plane is a row: (plane · M_cam) p = plane · (M_cam p).
@@ -76,7 +76,7 @@ fn world_planes(view: &ViewProjection) -> [Plane<World>; 6] {
     volume.planes().map(|plane| Plane::from_raw(to_view * plane.raw()))
 }
 
-/// Splits a clipped triangle into the parts inside and outside.
+/// Splits a clipped triangle into the parts inside and outside the volume.
 fn cut_at_planes(
     triangle: WorldTriangle,
     planes: &[Plane<World>; 6],
@@ -86,7 +86,8 @@ fn cut_at_planes(
     for plane in planes {
         let outwards = Plane::from_raw(-plane.raw());
         for piece in std::mem::take(&mut inside) {
-            // A piece on the plane is inside, and both sides of a cut would contain it.
+            // A piece on the plane counts as inside; otherwise both sides of the cut would contain
+            // it.
             if piece.iter().any(|corner| plane.evaluate(*corner) < 0.0) {
                 let cut_off = cut_triangle(piece, outwards);
                 for fan in cut_off.triangles() {
@@ -100,13 +101,13 @@ fn cut_at_planes(
     inside.into_iter().for_each(|piece| add(Containment::Clipped, piece));
 }
 
-/// The center of projection; `None` in a parallel projection.
+/// Returns the center of projection, or `None` in a parallel projection.
 fn eye(view: &ViewProjection) -> Option<Point<World>> {
     let volume = ViewVolume::new(view.view_to_clip, Convention::CHAPTER);
     Some(view.camera.view_to_world().transform_point(volume.eye()?.divide()?))
 }
 
-/// The points around which the world is framed: the models, the eyes, and the corners of the
+/// Returns the points that the world is framed around: the models, the eyes, and the corners of the
 /// volumes that are not far behind the models.
 fn framed_points(shown: &[&Scene], triangles: &[WorldTriangle]) -> Vec<Point<World>> {
     let mut points: Vec<Point<World>> = triangles.iter().flatten().copied().collect();
@@ -132,7 +133,7 @@ fn framed_points(shown: &[&Scene], triangles: &[WorldTriangle]) -> Vec<Point<Wor
     points
 }
 
-/// Labels for the near and the far plane, at a corner of each.
+/// Returns labels for the near and far planes, at a corner of each plane.
 fn plane_labels(view: &ViewProjection) -> Vec<Overlay> {
     let volume = ViewVolume::new(view.view_to_clip, Convention::CHAPTER);
     let Some(corners) = volume.corners() else { return Vec::new() };
@@ -155,10 +156,10 @@ mod tests {
         triangles.iter().map(area).sum()
     }
 
-    /// The parts of a triangle that passes the eye make up the whole, and the inner parts are in
+    /// The parts of a triangle that passes the eye add up to the whole, and the inner parts are in
     /// the volume.
     #[test]
-    fn a_cut_loses_nothing() {
+    fn parts_of_a_split_triangle_add_up_to_the_whole() {
         let camera = Camera::look_to(Point::ORIGIN, -Vector::Z, Vector::Y).expect("a camera");
         let frustum = Frustum::new(-1.0, 1.0, -0.5, 0.5, 1.0, 9.0).expect("a frustum");
         let view =

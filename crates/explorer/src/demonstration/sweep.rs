@@ -116,9 +116,7 @@ impl SweepParameter {
             Self::Near => "the near plane only clips",
             Self::Far => "the far plane only clips",
             Self::Lens => "the distance of a fixed-size window sets the angle",
-            Self::Shift => {
-                "a shifted window moves the picture without distorting it"
-            }
+            Self::Shift => "a shifted window moves the picture without distorting it",
             Self::Distance => "a closer eye enlarges and steepens the perspective",
             Self::Dolly => "distance and angle balance: only the center keeps its size",
             Self::Angle => "the camera orbits the models",

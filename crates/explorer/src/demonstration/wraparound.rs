@@ -170,7 +170,8 @@ fn side_panel(boards: &[Board]) -> Panel {
     page.layers.extend([plane, with_thin_pen(angle), with_thin_pen(words)]);
     let notes = vec![
         format!("eye at height {EYE_HEIGHT}, looking along -z; near plane at {NEAR}"),
-        "black: in front of the eye; red: crossing the plane of the eye; blue: behind it".to_owned(),
+        "black: in front of the eye; red: crossing the plane of the eye; blue: behind it"
+            .to_owned(),
     ];
     let (id, title) = ("side".to_owned(), "from the side".to_owned());
     Panel { id, title, notes, page }

@@ -4,11 +4,11 @@ use crate::words::{Sentence, sentence};
 use std::error::Error;
 use std::fmt;
 
-/// The reason why an answer cannot be compared: it is not a list of numbers and formulas, or it has
-/// the wrong size.
+/// The reason why an answer cannot be compared: it is not a list of numbers and formulas, or its
+/// size is wrong.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct AnswerError {
-    /// The problem and its remedy, without a final period.
+    /// The problem and a remedy, without a final period.
     pub message: Sentence,
 }
 
@@ -17,54 +17,55 @@ impl AnswerError {
         Self { message: sentence(en, zh) }
     }
 
-    /// A part of an entry that is not allowed there.
+    /// Reports a part of an entry that is not allowed there.
     pub(super) fn unexpected(found: &str, entry: &str) -> Self {
         Self::new(
-            format!("`{found}` is not expected there in `{entry}`"),
+            format!("unexpected `{found}` in `{entry}`"),
             format!("`{entry}` 中的 `{found}` 无法理解"),
         )
     }
 
-    /// An entry that ends too early.
+    /// Reports an entry that ends too early.
     pub(super) fn incomplete(entry: &str) -> Self {
-        Self::new(format!("`{entry}` is not complete"), format!("`{entry}` 不完整"))
+        Self::new(format!("`{entry}` is incomplete"), format!("`{entry}` 不完整"))
     }
 
-    /// A name that is not a symbol of the exercise.
+    /// Reports a name that is not a symbol of the exercise.
     pub(super) fn unknown_name(name: &str, letters: &[&str]) -> Self {
         let known = letters.join(", ");
         let (en, zh) = if known.is_empty() {
-            ("the answer has numbers only".to_owned(), "答案只含数字".to_owned())
+            ("the answer contains only numbers".to_owned(), "答案只含数字".to_owned())
         } else {
-            (format!("the letters are {known}"), format!("可用的字母是 {known}"))
+            (format!("the symbols are {known}"), format!("可用的字母是 {known}"))
         };
         Self::new(
-            format!("`{name}` is not a letter of this exercise; {en}"),
+            format!("`{name}` is not a symbol of this exercise; {en}"),
             format!("`{name}` 不是本题的字母；{zh}"),
         )
     }
 
-    /// Two symbols, with one as the subscript of the other.
+    /// Reports two symbols of which one is written as the subscript of the other.
     pub(super) fn subscript(written: &str, product: &str) -> Self {
         Self::new(
-            format!("`{written}` has a subscript: if it is a product, write `{product}`"),
+            format!("`{written}` has a subscript; if it is a product, write `{product}`"),
             format!("`{written}` 是下标写法：若表示乘积，请写成 `{product}`"),
         )
     }
 
-    /// A function whose argument is not in brackets.
+    /// Reports a function whose argument is not in parentheses.
     pub(super) fn missing_brackets(name: &str, argument: &str) -> Self {
         let argument = if argument.is_empty() { "…" } else { argument };
         Self::new(
-            format!("`{name}` needs brackets: write `{name}({argument})`"),
+            format!("`{name}` needs parentheses: write `{name}({argument})`"),
             format!("`{name}` 需要括号：请写成 `{name}({argument})`"),
         )
     }
 
-    /// A product after a quotient, which could be read as a factor or as a divisor.
+    /// Reports a product after a quotient, which could be read as a factor or as part of the
+    /// divisor.
     pub(super) fn ambiguous_quotient(entry: &str) -> Self {
         Self::new(
-            format!("`{entry}` can be read in two ways: write `a/(b*c)` or `a/b*c`"),
+            format!("`{entry}` is ambiguous: write `a/(b*c)` or `a/b*c`"),
             format!("`{entry}` 有两种读法：请写成 `a/(b*c)` 或 `a/b*c`"),
         )
     }

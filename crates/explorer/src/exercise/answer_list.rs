@@ -1,4 +1,4 @@
-//! Bracketed lists: matrices by rows, and factors in front of a list.
+//! Lists in parentheses: matrices by rows, and factors in front of a list.
 
 use super::answer_error::AnswerError;
 use super::answer_text::{AnswerShape, split_at_blanks, split_at_top, split_row};
@@ -12,7 +12,8 @@ pub(super) struct FactoredList<'a> {
 }
 
 impl<'a> FactoredList<'a> {
-    /// The only list of the text, if there is one; `count` entries between blanks form a list.
+    /// Finds the list in a text that contains exactly one. `count` entries separated by spaces form
+    /// a list.
     pub(super) fn find(text: &'a str, count: usize) -> Option<Self> {
         if split_at_top(text, is_separator).len() > 1 {
             return None;
@@ -34,7 +35,8 @@ impl<'a> FactoredList<'a> {
         Some(Self { text, before: text[..begin].trim(), list, behind: text[end + 1..].trim() })
     }
 
-    /// The entries, with the factors before and after the list; `count` of them form a list.
+    /// Returns the entries, multiplied by the factors before and after the list. `count` entries
+    /// form a list.
     pub(super) fn entries(&self, count: usize) -> Result<Vec<String>, AnswerError> {
         let entries = split_at_top(self.list, is_separator);
         let entries = match entries.as_slice() {
@@ -54,7 +56,7 @@ impl<'a> FactoredList<'a> {
         {
             let text = self.text;
             return Err(AnswerError::new(
-                format!("`{text}` is not a list: write out each entry"),
+                format!("`{text}` is not a list: write out every entry"),
                 format!("`{text}` 不是列表：请逐个写出每个元素"),
             ));
         }
@@ -71,7 +73,7 @@ const fn is_separator(c: char) -> bool {
     matches!(c, ',' | ';')
 }
 
-/// The beginnings and ends of top-level parentheses.
+/// Returns the beginnings and ends of top-level parentheses.
 fn top_groups(text: &str) -> Vec<(usize, usize)> {
     let (mut groups, mut depth, mut begin) = (Vec::new(), 0_i32, 0);
     for (at, c) in text.char_indices() {
@@ -95,7 +97,7 @@ fn top_groups(text: &str) -> Vec<(usize, usize)> {
     groups
 }
 
-/// The content of parentheses around the whole text, as in the point `(1, 2, 3)`.
+/// Removes parentheses around the whole text, as in the point `(1, 2, 3)`.
 pub(super) fn without_outer_parentheses(text: &str) -> &str {
     let mut text = text.trim();
     while let [(0, end)] = *top_groups(text).as_slice()
@@ -106,14 +108,14 @@ pub(super) fn without_outer_parentheses(text: &str) -> &str {
     text
 }
 
-/// The rows of a matrix or of several parts.
+/// Splits a text into the rows of a matrix or into several parts.
 pub(super) fn split_rows(text: &str, shape: AnswerShape) -> Result<Vec<Vec<String>>, AnswerError> {
     let text = match shape {
         AnswerShape::Matrix(..) => without_matrix_name(text),
         AnswerShape::Parts(_) => text,
     };
     let count = shape.row_lengths().into_iter().max().unwrap_or(0);
-    // A factor of the whole matrix; without one, the parentheses are already gone.
+    // A factor of the whole matrix. If there is none, the parentheses are already removed.
     if let Some(matrix) = FactoredList::find(text, 0)
         && (matrix.list.contains(';') || matrix.list.contains('('))
         && !(matrix.before.is_empty() && matrix.behind.is_empty())
@@ -163,7 +165,7 @@ fn rows_in_parentheses(text: &str) -> Option<Vec<&str>> {
     (rows.len() > 1 && text[end..].trim_matches([',', ' ']).is_empty()).then_some(rows)
 }
 
-/// `Q = …` without the name of the matrix, which begins with a capital.
+/// Removes the name of the matrix from `Q = …`. The name begins with a capital letter.
 fn without_matrix_name(text: &str) -> &str {
     let belongs = |c: char| c.is_alphanumeric() || matches!(c, '_' | '\'' | '^' | '-' | '(' | ')');
     match text.split_once('=') {
@@ -187,7 +189,7 @@ fn without_row_names(rows: Vec<&str>) -> Result<Vec<&str>, AnswerError> {
     let beside = rows.iter().find(|row| row.contains('=') && !row.starts_with(char::is_uppercase));
     let beside = beside.or_else(|| rows.iter().find(|row| row.contains('='))).unwrap_or(&rows[0]);
     Err(AnswerError::new(
-        format!("only the matrix is expected: omit `{beside}`"),
+        format!("enter only the matrix, without `{beside}`"),
         format!("只需给出矩阵本身：请去掉 `{beside}`"),
     ))
 }

@@ -1,4 +1,4 @@
-//! Splits typed answers into entries: matrices, points, lists and named formulas.
+//! Splits typed answers (matrices, points, lists and named formulas) into entries.
 
 use super::answer_error::AnswerError;
 use super::answer_list::{FactoredList, split_rows, without_outer_parentheses};
@@ -11,12 +11,12 @@ const MAX_CHARACTERS: usize = 4000;
 pub(super) enum AnswerShape {
     /// A matrix with this number of rows and columns.
     Matrix(usize, usize),
-    /// Named numbers or formulas, in one part or several.
+    /// Named numbers or formulas, in one or more parts.
     Parts(&'static [&'static [&'static str]]),
 }
 
 impl AnswerShape {
-    /// The number of entries in each row.
+    /// Returns the number of entries in each row.
     pub(super) fn row_lengths(self) -> Vec<usize> {
         match self {
             Self::Matrix(rows, columns) => vec![columns; rows],
@@ -25,17 +25,17 @@ impl AnswerShape {
     }
 }
 
-/// Splits an answer into entries, row by row. Their number is not checked.
+/// Splits an answer into entries, row by row. The number of entries is not checked.
 ///
 /// # Errors
-/// If there are none, if the answer is too long, or if it has unknown names.
+/// If there are no entries, the answer is too long, or it contains unknown names.
 pub(super) fn split_answer(
     text: &str,
     shape: AnswerShape,
 ) -> Result<Vec<Vec<String>>, AnswerError> {
     if text.chars().nth(MAX_CHARACTERS).is_some() {
         return Err(AnswerError::new(
-            format!("the answer has more than {MAX_CHARACTERS} characters"),
+            format!("the answer is longer than {MAX_CHARACTERS} characters"),
             format!("答案超过 {MAX_CHARACTERS} 个字符"),
         ));
     }
@@ -59,7 +59,7 @@ pub(super) fn split_answer(
     })
 }
 
-/// The text with plain operators, and with parentheses for all brackets except in `n_{x}`.
+/// Returns the text with plain operators, and with parentheses for all brackets except in `n_{x}`.
 fn plain_text(text: &str) -> String {
     let (mut plain, mut open_subscripts) = (String::new(), 0);
     for c in text.chars() {
@@ -73,8 +73,8 @@ fn plain_text(text: &str) -> String {
     plain
 }
 
-/// The equivalent character in expressions, for typeset operators, full-width characters and line
-/// breaks.
+/// Converts typeset operators, full-width characters and line breaks to the equivalent character in
+/// expressions.
 fn plain_character(c: char) -> char {
     match c {
         '−' | '－' => '-',
@@ -91,7 +91,7 @@ fn plain_character(c: char) -> char {
     }
 }
 
-/// The pieces between separators outside parentheses, without blank ones.
+/// Returns the pieces between separators outside parentheses, without blank pieces.
 pub(super) fn split_at_top(text: &str, separates: fn(char) -> bool) -> Vec<&str> {
     let mut depth = 0_i32;
     let pieces = text.split(move |c| {
@@ -101,14 +101,14 @@ pub(super) fn split_at_top(text: &str, separates: fn(char) -> bool) -> Vec<&str>
     pieces.map(str::trim).filter(|piece| !piece.is_empty()).collect()
 }
 
-/// The entries of a row: between commas, or else between blanks.
+/// Splits a row into entries, at commas or otherwise at spaces.
 pub(super) fn split_row(row: &str) -> Vec<String> {
     let entries = split_at_top(row, |c| c == ',');
     let entries = if let [only] = entries.as_slice() { split_at_blanks(only) } else { entries };
     entries.into_iter().map(str::to_owned).collect()
 }
 
-/// The entries between blanks, but not at the blanks of `a - b`, `a * b` and `(a + b)`.
+/// Splits a row into entries at spaces, except for the spaces in `a - b`, `a * b` and `(a + b)`.
 pub(super) fn split_at_blanks(row: &str) -> Vec<&str> {
     let operator = |c: char| matches!(c, '+' | '-' | '*' | '/' | '^' | '=');
     let (mut entries, mut begin, mut depth) = (Vec::new(), 0, 0_i32);
@@ -135,7 +135,7 @@ pub(super) fn split_at_blanks(row: &str) -> Vec<&str> {
     entries
 }
 
-/// The values of a row: a list, optionally times a factor, or named values.
+/// Returns the values of a row: a list, optionally times a factor, or named values.
 fn split_values(text: &str, names: &[&str]) -> Result<Vec<String>, AnswerError> {
     let is_separator = |c: char| c == ';' || c == ',';
     let is_one = split_at_top(text, is_separator).len() <= 1 && text.matches('=').count() <= 1;
@@ -166,7 +166,7 @@ fn order_by_name(entries: Vec<&str>, names: &[&str]) -> Result<Vec<String>, Answ
     let unknown = |name: &str| {
         let known = names.join(", ");
         AnswerError::new(
-            format!("give each of {known} once, such as `{} = …`; `{name}`", names[0]),
+            format!("enter each of {known} once, such as `{} = …`; `{name}`", names[0]),
             format!("请把 {known} 各给出一次，例如 `{} = …`；`{name}`", names[0]),
         )
     };
@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn matrices_are_read_in_every_notation() {
+    fn matrices_are_accepted_in_every_notation() {
         for text in [
             "1 2/3 -3; 4 5 n-1",
             "1, 2/3, -3; 4, 5, n-1;",
@@ -224,11 +224,11 @@ mod tests {
             split("a - b (c + d) 2 * e; -f - g 1 / 2 cos(30 °)", MATRIX),
             "a - b|(c + d)|2 * e;-f - g|1 / 2|cos(30 °)"
         );
-        assert_eq!(split("1 2; 3", MATRIX), "1|2;3", "the number of entries is checked elsewhere");
+        assert_eq!(split("1 2; 3", MATRIX), "1|2;3", "the number of entries is checked later");
     }
 
     #[test]
-    fn points_and_formulas_are_read_in_every_notation() {
+    fn points_and_formulas_are_accepted_in_every_notation() {
         for text in [
             "1, -2, 3",
             "(1, -2, 3)",
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn a_factor_before_or_behind_a_list_multiplies_its_entries() {
+    fn factors_before_or_after_a_list_multiply_its_entries() {
         for (text, entries) in [
             ("h(a,b,c)", "(h)*(a)|(h)*(b)|(h)*(c)"),
             ("h [a b c]", "(h)*(a)|(h)*(b)|(h)*(c)"),
@@ -265,11 +265,11 @@ mod tests {
         assert_eq!(split("2(1 2 3; 4 5 6)", MATRIX).matches("(2)*(").count(), 6);
         assert_eq!(split("(1,2,3); 1/z (x,y,z)", MATRIX), "1|2|3;(1/z)*(x)|(1/z)*(y)|(1/z)*(z)");
         let error = split_answer("1 + (a, b, c)", POINT).expect_err("a sum");
-        assert!(error.to_string().contains("each entry"), "{error}");
+        assert!(error.to_string().contains("every entry"), "{error}");
     }
 
     #[test]
-    fn values_beside_a_matrix_are_refused_by_name() {
+    fn values_next_to_a_matrix_are_rejected_by_name() {
         for text in [
             "Q = [1, 2, 3; 4, 5, 6], c = n*f",
             "1 2 3; 4 5 6; c = n*f",
@@ -282,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_split_is_named() {
+    fn invalid_answers_are_reported() {
         for (text, part) in [
             ("", "empty"),
             (" ; ,", "empty"),

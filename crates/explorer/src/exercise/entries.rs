@@ -1,4 +1,4 @@
-//! Answers as numbers, and their comparison.
+//! Answers as numbers, and comparison of answers.
 
 use glam::{DMat3, DMat4};
 
@@ -8,9 +8,9 @@ pub(super) type Entries = Vec<Vec<f64>>;
 /// The multiples of the correct answer that are also correct.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Multiples {
-    /// None: every entry counts.
+    /// None: every entry must match.
     None,
-    /// All except 0: the answer is a point or a map in homogeneous coordinates.
+    /// All except 0, because the answer is a point or a map in homogeneous coordinates.
     All,
     /// Positive multiples, which keep the sign of w.
     Positive,
@@ -26,8 +26,8 @@ pub(super) fn same_shape(a: &Entries, b: &Entries) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.len() == b.len())
 }
 
-/// The positions, row and column from 0, where an answer differs from the multiple of the expected
-/// answer with the fewest differences.
+/// Returns the positions (row and column, from 0) where an answer differs from the multiple of the
+/// expected answer with the fewest differences.
 ///
 /// Both must have the same shape.
 pub(super) fn differing_places(
@@ -71,12 +71,12 @@ pub(super) fn transposed(entries: &Entries) -> Entries {
     (0..columns).map(|j| entries.iter().map(|row| row[j]).collect()).collect()
 }
 
-/// The rows of a matrix.
+/// Returns the rows of a matrix.
 pub(super) fn rows_of(matrix: DMat4) -> Entries {
     matrix.transpose().to_cols_array_2d().map(Vec::from).to_vec()
 }
 
-/// The rows of a 2D matrix.
+/// Returns the rows of a 2D matrix.
 pub(super) fn planar_rows_of(matrix: DMat3) -> Entries {
     matrix.transpose().to_cols_array_2d().map(Vec::from).to_vec()
 }
@@ -91,7 +91,7 @@ mod tests {
     }
 
     #[test]
-    fn entries_are_compared_up_to_the_multiples_that_count_as_the_same() {
+    fn entries_are_compared_up_to_allowed_multiples() {
         assert_eq!(places([1.0, 0.0, -4.0], Multiples::None), []);
         assert_eq!(places([1.0, 1e-13, -4.0 + 1e-9], Multiples::None), []);
         assert_eq!(places([1.0, 1e-6, -4.0], Multiples::None), [(0, 1)]);
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_become_columns() {
+    fn transposing_swaps_rows_and_columns() {
         let wide = vec![vec![1.0, 2.0, 3.0], vec![4.0, 5.0, 6.0]];
         assert_eq!(transposed(&wide), [[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]]);
         assert!(!same_shape(&wide, &transposed(&wide)));

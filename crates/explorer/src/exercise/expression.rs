@@ -10,12 +10,12 @@
 use super::answer_error::AnswerError;
 use std::f64::consts::PI;
 
-/// The maximum nesting depth of brackets, roots and powers.
+/// The maximum nesting depth of parentheses, roots and powers.
 const MAX_DEPTH: usize = 64;
-/// The longest name that is read as a product of symbols.
+/// The maximum length of a name that is read as a product of symbols.
 const MAX_NAME_BYTES: usize = 24;
 
-/// The symbols of an exercise, with a value for each.
+/// The symbols of an exercise and their values.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Letters<'a> {
     pub(super) names: &'a [&'a str],
@@ -23,8 +23,8 @@ pub(super) struct Letters<'a> {
 }
 
 impl Letters<'_> {
-    /// The value of a symbol or a product of symbols: `nf` is n times f. An underscore may be part
-    /// of a symbol, as in `n_x`, but may not separate two: `f_n` is not a product.
+    /// Returns the value of a symbol or a product of symbols: `nf` is n times f. An underscore may
+    /// be part of a symbol, as in `n_x`, but cannot separate two symbols: `f_n` is not a product.
     fn value(self, written: &str) -> Option<f64> {
         if written.is_empty() {
             return Some(1.0);
@@ -36,13 +36,13 @@ impl Letters<'_> {
         let mut begins: Vec<(&str, f64)> = begins
             .filter_map(|(name, value)| Some((without_name(written, name)?, *value)))
             .collect();
-        // Longest name first: z1z2 does not contain z.
+        // Longest name first, so that z1z2 is not read as z and the rest.
         begins.sort_by_key(|(rest, _)| rest.len());
         begins.into_iter().find_map(|(rest, value)| Some(value * self.value(rest)?))
     }
 }
 
-/// The text after the name of a symbol; underscores in the name are ignored.
+/// Returns the text after the name of a symbol. Underscores in the name are ignored.
 fn without_name<'a>(written: &'a str, name: &str) -> Option<&'a str> {
     let mut rest = written;
     for (at, c) in name.char_indices() {
@@ -77,7 +77,7 @@ pub(super) fn evaluate(entry: &str, letters: Letters<'_>) -> Result<f64, AnswerE
     ))
 }
 
-/// The position in an expression, which is evaluated while it is parsed.
+/// The position in an expression that is evaluated while it is parsed.
 struct Parser<'a> {
     entry: &'a str,
     characters: &'a [char],
@@ -87,7 +87,7 @@ struct Parser<'a> {
 }
 
 impl Parser<'_> {
-    /// The next nonblank character.
+    /// Returns the next nonblank character.
     fn peek(&mut self) -> Option<char> {
         while self.characters.get(self.at).is_some_and(|c| c.is_whitespace()) {
             self.at += 1;
@@ -102,7 +102,7 @@ impl Parser<'_> {
         found
     }
 
-    /// The characters from here on that form one token.
+    /// Takes the characters that form the next token.
     fn word(&mut self, belongs: fn(char) -> bool) -> String {
         let rest = self.characters.get(self.at..).unwrap_or_default();
         let word: String = rest.iter().copied().take_while(|c| belongs(*c)).collect();
@@ -201,7 +201,7 @@ impl Parser<'_> {
         if self.pass(')') { Ok(value) } else { Err(AnswerError::incomplete(self.entry)) }
     }
 
-    /// A decimal number, optionally with an exponent, optionally in degrees.
+    /// Parses a decimal number, optionally with an exponent and optionally in degrees.
     fn number(&mut self) -> Result<f64, AnswerError> {
         let mut digits = self.word(|c| c.is_ascii_digit() || c == '.');
         if let Some(exponent) = self.exponent() {
@@ -212,7 +212,7 @@ impl Parser<'_> {
         Ok(if self.pass('°') { value * (PI / 180.0) } else { value })
     }
 
-    /// The exponent of a decimal number, if a digit follows the e.
+    /// Parses the exponent of a decimal number, if a digit follows the e.
     fn exponent(&mut self) -> Option<String> {
         let rest = self.characters.get(self.at..)?;
         let sign = usize::from(matches!(rest.get(1), Some('-' | '+')));
@@ -224,7 +224,7 @@ impl Parser<'_> {
         Some(begin + &self.word(|c| c.is_ascii_digit()))
     }
 
-    /// A symbol, a product of symbols, or a function.
+    /// Parses a symbol, a product of symbols, or a function.
     fn named(&mut self) -> Result<f64, AnswerError> {
         let written = self.word(|c| c.is_alphabetic() || c.is_ascii_digit() || c == '_');
         if let Some(value) = self.letters.value(&written) {
@@ -294,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn expressions_have_the_usual_precedence() {
+    fn expressions_have_standard_precedence() {
         for (text, expected) in [
             ("80/21", 80.0 / 21.0),
             ("-n*f", -12.0),
@@ -332,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn angles_are_radians_unless_the_degree_sign_is_written() {
+    fn angles_are_radians_unless_written_with_a_degree_sign() {
         for (text, expected) in [
             ("cos(60°)", 0.5),
             ("sin(pi/6)", 0.5),
@@ -349,16 +349,16 @@ mod tests {
     #[test]
     fn invalid_expressions_are_reported() {
         for (text, part) in [
-            ("", "not complete"),
-            ("n+", "not complete"),
-            ("(n", "not complete"),
+            ("", "incomplete"),
+            ("n+", "incomplete"),
+            ("(n", "incomplete"),
             ("n)", "`)`"),
             ("2 3", "`3`"),
             ("n 2", "`2`"),
-            ("q", "the letters are n, f, nx"),
+            ("q", "the symbols are n, f, nx"),
             ("nq", "`nq`"),
-            ("1/n f", "two ways"),
-            ("1/2(n)", "two ways"),
+            ("1/n f", "ambiguous"),
+            ("1/2(n)", "ambiguous"),
             ("sqrt 3", "write `sqrt(3)`"),
             ("cos30°", "write `cos(30°)`"),
             ("cos 30 °", "write `cos(30°)`"),
@@ -379,7 +379,7 @@ mod tests {
     }
 
     #[test]
-    fn deep_and_long_expressions_end() {
+    fn deep_and_long_expressions_terminate() {
         let deep = "(".repeat(5000);
         assert!(evaluate(&deep, LETTERS).is_err_and(|error| error.to_string().contains("deeply")));
         assert!(evaluate(&"2^".repeat(5000), LETTERS).is_err());

@@ -6,17 +6,17 @@ use super::entries::{Entries, transposed};
 use super::expression::{Letters, evaluate};
 use crate::words::{Words, words};
 
-/// A common wrong answer and the reason why it is wrong.
+/// A common wrong answer and an explanation.
 #[derive(Clone, Copy, Debug)]
 pub struct Mistake {
-    /// The identifier, which stays the same between releases: `transposed`, `m18-sign`.
+    /// The identifier, such as `transposed` or `m18-sign`, which does not change between releases.
     pub id: &'static str,
-    /// The mistake and its remedy.
+    /// The mistake and a remedy.
     pub sentence: Words,
     pub(super) wrong: Wrong,
 }
 
-/// The way in which a wrong answer differs from the correct one.
+/// The way in which a wrong answer differs from the correct answer.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Wrong {
     /// Rows and columns are swapped.
@@ -25,7 +25,7 @@ pub(super) enum Wrong {
     Negated,
     /// Two symbols, given by their positions in the list of symbols, are swapped.
     Exchanged(usize, usize),
-    /// Some entries are replaced: row and column from 0, and the wrong entry.
+    /// Some entries are replaced: the row and column, from 0, and the wrong entry.
     Places(&'static [(usize, usize, &'static str)]),
     /// The whole wrong answer.
     Answer(&'static str),
@@ -37,7 +37,7 @@ pub(super) enum Wrong {
     Computed(fn(&[f64]) -> Option<Entries>),
 }
 
-/// A wrong answer with its name.
+/// Creates a named mistake.
 pub(super) const fn mistake(
     id: &'static str,
     wrong: Wrong,
@@ -51,12 +51,12 @@ pub(super) const fn mistake(
 pub(super) const TRANSPOSED: Mistake = mistake(
     "transposed",
     Wrong::Transposed,
-    "rows and columns are exchanged: this matrix is for row vectors, and here points are columns",
+    "rows and columns are swapped: this matrix is for row vectors, but points are column vectors here",
     "行与列互换了：这是行向量用的矩阵，而这里的点是列向量",
 );
 
 impl Mistake {
-    /// Whether the answer contains symbols that amount to this mistake.
+    /// Whether the answer contains symbols that indicate this mistake.
     pub(super) fn is_written_in(&self, rows: &[Vec<String>]) -> bool {
         let Wrong::Written(all) = self.wrong else { return false };
         let belongs = |c: char| c.is_alphanumeric() || c == '_';
@@ -64,7 +64,7 @@ impl Mistake {
         written.any(|word| all.contains(&word.trim_start_matches(|c: char| c.is_ascii_digit())))
     }
 
-    /// The number of wrong answers for this mistake.
+    /// Returns the number of wrong answers for this mistake.
     pub(super) const fn variants(&self) -> usize {
         match self.wrong {
             Wrong::AnyOf(answers) => answers.len(),
@@ -73,7 +73,7 @@ impl Mistake {
         }
     }
 
-    /// A wrong answer for these values of the symbols; `None` if there is none.
+    /// Returns a wrong answer for these values of the symbols, or `None` if there is none.
     pub(super) fn entries(
         &self,
         variant: usize,

@@ -12,7 +12,7 @@ mod windowing;
 
 use super::Exercise;
 
-/// All of them, in the order of their numbers.
+/// All exercises, ordered by number.
 pub(super) static EXERCISES: [&Exercise; 24] = [
     &windowing::ROWS_FROM_THE_TOP,
     &windowing::ONE_WINDOWING,

@@ -10,7 +10,7 @@ use crate::words::{Sentence, sentence};
 pub enum Verdict {
     /// The answer is correct.
     Right,
-    /// The answer is a known mistake.
+    /// The answer matches a known mistake.
     Mistaken(&'static Mistake),
     /// The answer is correct to about three digits.
     Rounded,
@@ -20,7 +20,7 @@ pub enum Verdict {
         differences: Vec<Difference>,
         /// The total number of entries.
         count: usize,
-        /// Values of the symbols for which it differs.
+        /// Values of the symbols for which the answer differs.
         letters: Vec<(&'static str, f64)>,
     },
 }
@@ -40,7 +40,7 @@ pub struct Difference {
     pub is_negated: bool,
 }
 
-/// The Chinese name of a named entry; symbols are not translated.
+/// Returns the Chinese name of a named entry. Symbols are not translated.
 pub(super) fn chinese_name(name: &'static str) -> &'static str {
     match name {
         "pixels" => "像素数",
@@ -49,7 +49,7 @@ pub(super) fn chinese_name(name: &'static str) -> &'static str {
     }
 }
 
-/// The name of an entry: its own name, or its position.
+/// Returns the name of an entry, or its position if it has no name.
 pub(super) fn entry_name(shape: AnswerShape, row: usize, column: usize) -> Sentence {
     let (i, j) = (row + 1, column + 1);
     match shape {
@@ -73,17 +73,17 @@ impl Verdict {
         matches!(self, Self::Right)
     }
 
-    /// The verdict in a sentence, without a final period.
+    /// Returns the verdict as a sentence without a final period.
     #[must_use]
     pub fn sentence(&self) -> Sentence {
         match self {
-            Self::Right => sentence("right", "正确"),
+            Self::Right => sentence("correct", "正确"),
             Self::Mistaken(mistake) => {
                 let words = mistake.sentence;
-                sentence(format!("not right: {}", words.en), format!("不对：{}", words.zh))
+                sentence(format!("incorrect: {}", words.en), format!("不对：{}", words.zh))
             }
             Self::Rounded => sentence(
-                "not right: rounded: give a fraction, a root, or at least ten digits",
+                "incorrect: this is rounded; enter a fraction, a root, or at least ten digits",
                 "不对：舍入过多：请写成分数、根式，或至少十位数字",
             ),
             Self::Different { differences, count, letters } => {
@@ -93,7 +93,7 @@ impl Verdict {
     }
 }
 
-/// The sentence about an answer with some wrong entries.
+/// Returns the sentence about an answer with some wrong entries.
 fn different(differences: &[Difference], count: usize, letters: &[(&str, f64)]) -> Sentence {
     let said: Vec<Sentence> = differences.iter().map(Difference::to_sentence).collect();
     let list =
@@ -112,7 +112,7 @@ fn different(differences: &[Difference], count: usize, letters: &[(&str, f64)]) 
         en = format!("{wrong} of {count} entries: {en}");
         zh = format!("{count} 个元素中错了 {wrong} 个：{zh}");
     }
-    sentence(format!("not right: {en}"), format!("不对：{zh}"))
+    sentence(format!("incorrect: {en}"), format!("不对：{zh}"))
 }
 
 impl Difference {
@@ -122,14 +122,14 @@ impl Difference {
         let (mut en, mut zh) =
             (format!("your {en} gives {value}"), format!("你的{}等于 {value}", between_han(zh)));
         if self.is_negated {
-            en += ", only its sign is wrong";
+            en += ", where only the sign is wrong";
             zh += "，只有符号不对";
         }
         sentence(en, zh)
     }
 }
 
-/// A name in a Chinese sentence, with blanks only next to Latin letters.
+/// Returns a name for a Chinese sentence, with spaces only next to Latin letters.
 fn between_han(name: &str) -> String {
     let blank = |c: Option<char>| if c.is_some_and(|c| c.is_ascii()) { " " } else { "" };
     format!("{}{name}{}", blank(name.chars().next()), blank(name.chars().next_back()))

@@ -1,7 +1,7 @@
 //! Every exercise with correct answers in several notations, its known mistakes, and an unknown
 //! wrong answer.
 //!
-//! The answers here are written by hand; the correct values are computed by the crates.
+//! The answers here are written by hand, and the crates compute the correct values.
 
 mod cases;
 
@@ -18,9 +18,9 @@ fn cases() -> impl Iterator<Item = &'static Case> {
     CHAPTER.iter().chain(&OWN)
 }
 
-/// C38 to C47 and C104: the answers to the chapter's and the project's exercises.
+/// C38 to C47 and C104: answers to the exercises of the chapter and of this project.
 #[test]
-fn exercises_have_right_answers_in_several_notations() {
+fn correct_answers_are_accepted_in_several_notations() {
     for Case { number, right, .. } in cases() {
         assert!(right.len() >= 2, "{number}");
         for answer in *right {
@@ -43,12 +43,12 @@ fn every_mistake_has_its_own_message() {
                 panic!("{number}, {answer}: {}", said.en);
             };
             assert_eq!(mistake.id, *id, "{number}, {answer}");
-            assert!(said.en.starts_with("not right: ") && said.zh.starts_with("不对："));
+            assert!(said.en.starts_with("incorrect: ") && said.zh.starts_with("不对："));
             let id = told.entry((said.en, said.zh)).or_insert(*id);
             assert_eq!(*id, mistake.id, "{number}, {answer}: two mistakes have the same message");
         }
         let all = &find_exercise(*number).expect("an exercise").mistakes;
-        assert_eq!(told.len(), all.len(), "{number}: some mistakes are not tried");
+        assert_eq!(told.len(), all.len(), "{number}: some mistakes are not tested");
     }
 }
 
@@ -59,7 +59,7 @@ fn unrecognized_wrong_answers_are_compared_entry_by_entry() {
         assert!(matches!(verdict, Verdict::Different { .. }), "{number}: {verdict:?}");
         let said = verdict.sentence();
         assert!(
-            said.en.starts_with("not right: ") && said.en.contains(part),
+            said.en.starts_with("incorrect: ") && said.en.contains(part),
             "{number}: {}",
             said.en
         );
@@ -68,40 +68,40 @@ fn unrecognized_wrong_answers_are_compared_entry_by_entry() {
 }
 
 #[test]
-fn rounded_answers_are_flagged_and_others_refused() {
+fn rounded_answers_are_flagged_and_invalid_answers_rejected() {
     for (number, answer) in [(16, "3.81"), (14, "2.732, 2"), (23, "2.615"), (24, "0.2001")] {
         let verdict = check(number, answer);
         assert!(matches!(verdict, Verdict::Rounded), "{number}, {answer}: {verdict:?}");
         let said = verdict.sentence();
-        assert!(said.en.starts_with("not right: ") && said.en.contains("at least ten digits"));
+        assert!(said.en.starts_with("incorrect: ") && said.en.contains("at least ten digits"));
     }
     for (number, answer, part) in [
         (8, "1 0 0 0; 0 1 0 0; 0 0 3 -2", "4 + 4 + 4 entries instead of 4 + 4 + 4 + 4"),
-        (12, "1, -3", "2 entries instead of 3: give `x, y, z`"),
+        (12, "1, -3", "2 entries instead of 3: enter `x, y, z`"),
         (3, "A=n+f", "`B`"),
-        (3, "A=n+g; B=1", "the letters are n, f"),
+        (3, "A=n+g; B=1", "the symbols are n, f"),
         (
             2,
             "nx/(r-l) 0 0 -1/2 - l nx/(r-l); 0 ny/(t-b) 0 -1/2 - b ny/(t-b); 0 0 2/(n-f) -(n+f)/(n-f); 0 0 0 1",
-            "5 + 5 + 4 + 4 entries instead of 4 + 4 + 4 + 4: give a 4 × 4 matrix, its rows separated by `;`, in terms of nx, ny, l, r, b, t, n, f; a blank separates entries: write `l*nx`, or commas",
+            "5 + 5 + 4 + 4 entries instead of 4 + 4 + 4 + 4: enter a 4 × 4 matrix, its rows separated by `;`, in terms of nx, ny, l, r, b, t, n, f; a space separates entries: write `l*nx`, or put commas",
         ),
         (2, "f_n, 1", "write `f*n`"),
-        (5, "1 + (a, b, c, 1)", "write out each entry"),
+        (5, "1 + (a, b, c, 1)", "write out every entry"),
         (
             6,
             "f 0 0 0; 0 f 0 0; 0 0 0 n*f; 0 0 -1 n+f; c=n*f",
-            "only the matrix is expected: omit `c=n*f`",
+            "enter only the matrix, without `c=n*f`",
         ),
         (
             10,
             "u=(0,0,1); v=(1,0,0); w=(0,1,0); M=[0 0 1 0; 1 0 0 0; 0 1 0 -1; 0 0 0 1]",
-            "only the matrix is expected: omit `u=(0,0,1)`",
+            "enter only the matrix, without `u=(0,0,1)`",
         ),
-        (6, "Q=[f,0,0,0;0,f,0,0;0,0,0,nf;0,0,-1,n+f], c=nf", "omit `c=nf`"),
-        (6, "1/n [f 0 0 0; 0 f 0 0; 0 0 0 f n; 0 0 -1 n+f]", "write `n*f`, or commas"),
+        (6, "Q=[f,0,0,0;0,f,0,0;0,0,0,nf;0,0,-1,n+f], c=nf", "without `c=nf`"),
+        (6, "1/n [f 0 0 0; 0 f 0 0; 0 0 0 f n; 0 0 -1 n+f]", "write `n*f`, or put commas"),
         (7, "n", "1 entry instead of 4"),
         (14, "1+2cos30°, 2", "write `cos(30°)`"),
-        (12, "x, y, z", "numbers only"),
+        (12, "x, y, z", "only numbers"),
         (16, "1/0", "not a finite number"),
         (16, "", "empty"),
     ] {
@@ -114,7 +114,7 @@ fn rounded_answers_are_flagged_and_others_refused() {
 }
 
 #[test]
-fn chinese_verdicts_name_the_entry_without_stray_blanks() {
+fn chinese_verdicts_name_the_entry_without_stray_spaces() {
     for (number, answer, said) in [
         (20, "125, 36", "不对：你的 y 等于 36"),
         (22, "13", "不对：你的像素数等于 13"),
@@ -137,9 +137,10 @@ fn chinese_verdicts_name_the_entry_without_stray_blanks() {
     }
 }
 
-/// Effects of OpenGL's row on z-coordinates: copied unchanged, or for N = −n and F = −f.
+/// The effect of the third row in OpenGL on z-coordinates: copied unchanged, or for N = −n and F =
+/// −f.
 #[test]
-fn the_third_rows_of_exercise_2_take_near_and_far_where_the_verdicts_say() {
+fn third_rows_in_exercise_2_map_near_and_far_as_the_verdicts_state() {
     let depths = |row: fn(f64, f64) -> [f64; 2]| {
         let (n, f) = (-1.0, -5.0);
         let [scale, offset] = row(n, f);
@@ -152,13 +153,13 @@ fn the_third_rows_of_exercise_2_take_near_and_far_where_the_verdicts_say() {
     assert_ne!(copied, [1.0, -1.0]);
 }
 
-/// Whether the text contains a Han character.
+/// Whether a text contains a Han character.
 fn is_chinese(text: &str) -> bool {
     text.chars().any(|c| ('\u{4e00}'..='\u{9fff}').contains(&c))
 }
 
 #[test]
-fn every_text_is_in_both_languages() {
+fn all_text_is_in_both_languages() {
     for exercise in exercises() {
         let number = exercise.number;
         let form = exercise.form();
@@ -168,14 +169,17 @@ fn every_text_is_in_both_languages() {
         texts.extend(exercise.mistakes.iter().map(|each| (each.sentence.en, each.sentence.zh)));
         for (en, zh) in texts {
             assert!(!is_chinese(en) && en.len() > 4, "{number}: {en}");
-            // A text that is only a formula is the same in both.
+            // Text that is only a formula is the same in both languages.
             assert!(is_chinese(zh) || en == zh || !zh.is_ascii(), "{number}: {zh}");
             assert!(!zh.contains(['.', ';', '?']) || zh.contains('`') || is_chinese(zh), "{zh}");
             for half in [", ", "; ", ": "] {
                 let between_han = zh.match_indices(half).any(|(at, _)| {
                     zh[..at].chars().next_back().is_some_and(|c| is_chinese(&c.to_string()))
                 });
-                assert!(!between_han, "{number}: half-width `{half}` behind Han in {zh}");
+                assert!(
+                    !between_han,
+                    "{number}: half-width `{half}` after a Han character in {zh}"
+                );
             }
         }
     }

@@ -23,8 +23,11 @@ fn house_view() -> (Scene, ViewProjection, Point<World>) {
 
 /// Returns x and y in the picture.
 fn project_to_ndc(view_projection: &ViewProjection, point: Point<World>) -> [f64; 2] {
-    let point =
-        view_projection.world_to_clip().transform_point(point).divide().expect("a point in front of the eye");
+    let point = view_projection
+        .world_to_clip()
+        .transform_point(point)
+        .divide()
+        .expect("a point in front of the eye");
     [point.x(), point.y()]
 }
 

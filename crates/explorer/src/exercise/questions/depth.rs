@@ -11,7 +11,7 @@ pub(super) static DEPTH_ZERO: Exercise = Exercise {
     number: 16,
     title: words("Where depth is 0", "深度为 0 处"),
     question: words(
-        "OpenGL's perspective has its near plane at the distance N = 2 and its far plane at F = 40; their depths z_ndc are −1 and +1. At which distance D from the eye is z_ndc = 0?",
+        "A perspective in OpenGL has its near plane at distance N = 2 and its far plane at distance F = 40. Their depths z_ndc are −1 and +1. At which distance D from the eye is z_ndc = 0?",
         "OpenGL 的透视投影，近平面距离 N = 2，远平面距离 F = 40；它们的深度 z_ndc 为 −1 和 +1。到视点的距离 D 为多少时 z_ndc = 0？",
     ),
     hints: &[
@@ -29,7 +29,7 @@ pub(super) static DEPTH_ZERO: Exercise = Exercise {
         mistake(
             "sign-of-z",
             Wrong::Negated,
-            "the sign is that of a z-coordinate: a distance is positive",
+            "this has the sign of a z-coordinate, but a distance is positive",
             "这是 z 坐标的符号：距离应为正",
         ),
         mistake(
@@ -41,25 +41,25 @@ pub(super) static DEPTH_ZERO: Exercise = Exercise {
         mistake(
             "printed-rounding",
             Wrong::Answer("-3.8"),
-            "this is the lesson's rounded z-coordinate: at 3.8 the depth is −1/361, and a distance is positive",
+            "this is the lesson's rounded z-coordinate: at 3.8 the depth is −1/361, and distances are positive",
             "这是教程中舍入的 z 坐标：在 3.8 处深度是 −1/361，而距离应为正",
         ),
         mistake(
             "middle",
             Wrong::Answer("(2+40)/2"),
-            "this is the middle between the planes: depth is not linear in the distance",
+            "this is the midpoint between the planes, but depth is not linear in the distance",
             "这是两平面之间的中点：深度与距离不成线性关系",
         ),
         mistake(
             "factor-two-lost",
             Wrong::Answer("40*2/(40+2)"),
-            "the factor 2 is lost: D = 2FN/(F + N)",
+            "the factor 2 is missing: D = 2FN/(F + N)",
             "丢了因子 2：D = 2FN/(F + N)",
         ),
         mistake(
             "geometric-mean",
             Wrong::Answer("sqrt(80)"),
-            "this is the geometric mean; depth 0 is at the harmonic mean of the planes' distances",
+            "this is the geometric mean, but depth 0 is at the harmonic mean of the distances",
             "这是几何平均；深度 0 在两平面距离的调和平均处",
         ),
     ],
@@ -72,7 +72,7 @@ pub(super) static DEPTH_ZERO: Exercise = Exercise {
     },
 };
 
-/// The depth at the distance 5/2 between planes at 1 and 5.
+/// Returns the depth at distance 5/2 between planes at 1 and 5.
 fn depth(convention: Convention, is_perspective: bool) -> Option<Entries> {
     let curve = if is_perspective { DepthCurve::perspective } else { DepthCurve::parallel };
     Some(vec![vec![curve(1.0, 5.0, convention).ok()?.depth(2.5)?]])
@@ -82,7 +82,7 @@ pub(super) static REVERSED_DEPTH: Exercise = Exercise {
     number: 17,
     title: words("Reversed depth", "反向深度"),
     question: words(
-        "A perspective with reversed depth has depth 1 at its near plane, N = 1, and depth 0 at its far plane, F = 5. What is the depth at the distance 5/2?",
+        "A perspective with reversed depth has depth 1 at its near plane, N = 1, and depth 0 at its far plane, F = 5. What is the depth at distance 5/2?",
         "采用反向深度的透视投影，在近平面 N = 1 处深度为 1，在远平面 F = 5 处深度为 0。距离 5/2 处的深度是多少？",
     ),
     hints: &[
@@ -97,7 +97,7 @@ pub(super) static REVERSED_DEPTH: Exercise = Exercise {
         mistake(
             "not-reversed",
             Wrong::Computed(|_| depth(Convention::WEBGPU, true)),
-            "near and far are exchanged: this is the depth from 0 at the near to 1 at the far plane",
+            "near and far are swapped: this depth runs from 0 at the near plane to 1 at the far plane",
             "近平面与远平面互换了：这是近平面为 0、远平面为 1 的深度",
         ),
         mistake(
@@ -109,7 +109,7 @@ pub(super) static REVERSED_DEPTH: Exercise = Exercise {
         mistake(
             "linear-and-not-reversed",
             Wrong::Computed(|_| depth(Convention::WEBGPU, false)),
-            "this is linear, and near is at 0: a perspective divides by D, and reversed depth is 1 at the near plane",
+            "this is linear with the near plane at 0, but a perspective divides by D, and reversed depth is 1 at the near plane",
             "这是线性的，而且近平面为 0：透视投影要除以 D，反向深度在近平面为 1",
         ),
         mistake(
@@ -121,7 +121,7 @@ pub(super) static REVERSED_DEPTH: Exercise = Exercise {
         mistake(
             "opengl-range",
             Wrong::Computed(|_| depth(Convention::OPENGL, true)),
-            "this is OpenGL's depth, from −1 to 1",
+            "this is depth in OpenGL, from −1 to 1",
             "这是 OpenGL 的深度，范围 −1 到 1",
         ),
     ],

@@ -11,7 +11,7 @@ pub(super) static IMAGE_PARAMETER: Exercise = Exercise {
     number: 11,
     title: words("f(t)", "f(t)"),
     question: words(
-        "After M_per the ends of a segment are the homogeneous points r (with w_r) and R (with w_R), both w of the same sign. The point r + t (R − r) has its image at the fraction f(t) of the image segment. Find f(t).",
+        "M_per maps the ends of a segment to the homogeneous points r (with w_r) and R (with w_R), where both w have the same sign. The image of the point r + t (R − r) is at the fraction f(t) of the image segment. Find f(t).",
         "经过 M_per 后，线段两端是齐次点 r（w 为 w_r）和 R（w 为 w_R），两个 w 同号。点 r + t (R − r) 的像位于线段的像的比例 f(t) 处。求 f(t)。",
     ),
     hints: &[
@@ -20,7 +20,7 @@ pub(super) static IMAGE_PARAMETER: Exercise = Exercise {
             "像是 (r + t (R − r))/(w_r + t (w_R − w_r))；把它与 (1 − s) r/w_r + s R/w_R 比较。",
         ),
         words(
-            "Compare the factors of R alone: s/w_R on one side.",
+            "Compare only the factors of R, which is s/w_R on one side.",
             "只比较 R 的系数：一边是 s/w_R。",
         ),
     ],
@@ -29,13 +29,13 @@ pub(super) static IMAGE_PARAMETER: Exercise = Exercise {
         mistake(
             "linear",
             Wrong::Answer("t"),
-            "this is right only where w is the same at both ends: perspective moves the middle",
+            "this is correct only if w is the same at both ends: perspective moves the midpoint",
             "只有两端 w 相同时才对：透视会移动中点",
         ),
         mistake(
             "inverse",
             Wrong::Answer("wr*t/(wR+t*(wr-wR))"),
-            "this is the way back, from the image to the segment: the ends are exchanged",
+            "this is the inverse, from the image to the segment: the ends are swapped",
             "这是从像回到线段的反函数：两端互换了",
         ),
         mistake(
@@ -47,31 +47,31 @@ pub(super) static IMAGE_PARAMETER: Exercise = Exercise {
         mistake(
             "weight-alone",
             Wrong::Answer("wr+t*(wR-wr)"),
-            "this is w at t: it is the divisor only",
+            "this is w at t, which is only the divisor",
             "这是 t 处的 w：它只是分母",
         ),
         mistake(
             "weight-forgotten",
             Wrong::Answer("t/(wr+t*(wR-wr))"),
-            "the factor w_R is forgotten: f(1) must be 1",
+            "the factor w_R is missing: f(1) must be 1",
             "忘了因子 w_R：f(1) 应等于 1",
         ),
         mistake(
             "from-the-other-end",
             Wrong::Answer("wr*(1-t)/(wr+t*(wR-wr))"),
-            "this is 1 − f(t), the fraction from R on",
+            "this is 1 − f(t), the fraction counted from R",
             "这是 1 − f(t)，即从 R 算起的比例",
         ),
         mistake(
             "divisor-from-the-other-end",
             Wrong::Answer("wR*t/(wR+t*(wr-wR))"),
-            "the divisor is w counted from R: at t it is w_r + t (w_R − w_r)",
+            "the divisor is counted from R: w at t is w_r + t (w_R − w_r)",
             "分母是从 R 算起的 w：在 t 处应为 w_r + t (w_R − w_r)",
         ),
         mistake(
             "difference-of-weights",
             Wrong::Answer("t*(wR-wr)/(wr+t*(wR-wr))"),
-            "the numerator has w_R − w_r instead of one w: f(1) must be 1",
+            "the numerator has w_R − w_r instead of a single w: f(1) must be 1",
             "分子上写成了 w_R − w_r，应只是一端的 w：f(1) 应等于 1",
         ),
     ],
@@ -88,7 +88,7 @@ pub(super) static ATTRIBUTE: Exercise = Exercise {
     number: 23,
     title: words("A perspective-correct attribute", "透视校正的属性"),
     question: words(
-        "An edge has the attribute a = 2 at one end, where w = 1, and a = 10 at the other, where w = 4. What is the attribute where a quarter of the edge's image has been passed, counted from the first end?",
+        "An edge has the attribute a = 2 at its first end, where w = 1, and a = 10 at its second end, where w = 4. What is the attribute at a quarter of the edge's image, counted from the first end?",
         "一条边的一端属性 a = 2、w = 1，另一端 a = 10、w = 4。从第一端算起，在边的像的四分之一处，属性是多少？",
     ),
     hints: &[
@@ -106,13 +106,13 @@ pub(super) static ATTRIBUTE: Exercise = Exercise {
         mistake(
             "linear",
             Wrong::Answer("3/4*2+1/4*10"),
-            "a was interpolated on the screen: it is linear in space, not on the screen",
+            "a was interpolated on the screen, but it is linear in space and not on the screen",
             "直接在屏幕上对 a 作线性插值了：它在空间中是线性的，在屏幕上不是",
         ),
         mistake(
             "weights-by-w",
             Wrong::Answer("(3/4*2*1+1/4*10*4)/(3/4*1+1/4*4)"),
-            "weighted by w instead of 1/w: the far end counts less, not more",
+            "weighted by w instead of 1/w: the far end has less weight, not more",
             "权重用了 w 而不是 1/w：远端的权重应更小，而不是更大",
         ),
         mistake(
@@ -124,7 +124,7 @@ pub(super) static ATTRIBUTE: Exercise = Exercise {
         mistake(
             "from-the-other-end",
             Wrong::Answer("(1/4*2/1+3/4*10/4)/(1/4/1+3/4/4)"),
-            "counted from the other end: the first end has the weight 3/4",
+            "counted from the other end: the weight of the first end is 3/4",
             "从另一端算起了：第一端的权重是 3/4",
         ),
     ],
@@ -141,16 +141,16 @@ pub(super) static MIDDLE_OF_THE_IMAGE: Exercise = Exercise {
     number: 24,
     title: words("The middle of the image", "像的中点"),
     question: words(
-        "A segment has w = 1 at its first end and w = 4 at its second. Which of its points, as the fraction t from the first end, is seen in the middle of its image?",
+        "A segment has w = 1 at its first end and w = 4 at its second end. Which point, as the fraction t from the first end, appears in the middle of the image?",
         "线段第一端 w = 1，第二端 w = 4。它的哪一点（用从第一端算起的比例 t 表示）出现在像的中点？",
     ),
     hints: &[
         words(
-            "f(t) = w_R t/(w_r + t (w_R − w_r)) goes from the segment to its image. Here f(t) = 1/2 is given.",
+            "f(t) = w_R t/(w_r + t (w_R − w_r)) maps the segment to its image. Here f(t) = 1/2 is known.",
             "f(t) = w_R t/(w_r + t (w_R − w_r)) 从线段到像。这里已知 f(t) = 1/2。",
         ),
         words(
-            "The near half of the segment fills more than half of the image: t is below 1/2.",
+            "The near half of the segment fills more than half of the image, so t is less than 1/2.",
             "线段近的一半在像上占一半以上：t 小于 1/2。",
         ),
     ],
@@ -159,13 +159,13 @@ pub(super) static MIDDLE_OF_THE_IMAGE: Exercise = Exercise {
         mistake(
             "linear",
             Wrong::Answer("1/2"),
-            "the middle of the segment is not seen in the middle: the near half looks larger",
+            "the midpoint of the segment does not appear in the middle, because the near half looks larger",
             "线段的中点并不出现在像的中点：近的一半看起来更大",
         ),
         mistake(
             "forwards",
             Wrong::Answer("4/5"),
-            "this is f(1/2), where the middle of the segment is seen; the other way round is asked",
+            "this is f(1/2), where the midpoint of the segment appears, but the question asks for the inverse",
             "这是 f(1/2)，即线段中点的像的位置；题目问的正好相反",
         ),
         mistake(

@@ -12,7 +12,7 @@ pub(super) static MULTIPLES_OF_A_POINT: Exercise = Exercise {
     number: 5,
     title: words("Multiples of a point", "点的倍数"),
     question: words(
-        "An affine matrix M (bottom row 0 0 0 1) takes (x, y, z, 1) to (a, b, c, 1). To what does it take (h x, h y, h z, h), another name of the same point?",
+        "An affine matrix M (bottom row 0 0 0 1) takes (x, y, z, 1) to (a, b, c, 1). Where does it take (h x, h y, h z, h), which represents the same point?",
         "仿射矩阵 M（最后一行为 0 0 0 1）把 (x, y, z, 1) 映为 (a, b, c, 1)。它把同一点的另一写法 (h x, h y, h z, h) 映为什么？",
     ),
     hints: &[
@@ -30,13 +30,13 @@ pub(super) static MULTIPLES_OF_A_POINT: Exercise = Exercise {
         mistake(
             "divided-too-early",
             Wrong::Answer("a, b, c, 1"),
-            "this is divided already: the same point, but the matrix gives h times this",
+            "this is the same point after the divide, but the matrix returns h times this",
             "这已经除过了：点是同一个，但矩阵给出的是它的 h 倍",
         ),
         mistake(
             "w-lost",
             Wrong::Places(&[(0, 3, "1")]),
-            "w is lost: the last row (0 0 0 1) keeps w = h",
+            "w is missing: the last row (0 0 0 1) keeps w = h",
             "w 丢失了：最后一行 (0 0 0 1) 保持 w = h",
         ),
         mistake(
@@ -48,19 +48,19 @@ pub(super) static MULTIPLES_OF_A_POINT: Exercise = Exercise {
         mistake(
             "divided-by-h",
             Wrong::Answer("a/h, b/h, c/h, 1"),
-            "this is divided by h once too often: after the divide the point is (a, b, c) again",
+            "this is divided by h once too often: the divide gives (a, b, c) again",
             "多除了一次 h：除法之后的点仍是 (a, b, c)",
         ),
         mistake(
             "w-squared",
             Wrong::Places(&[(0, 3, "h*h")]),
-            "w is h times too large: the image's w = 1 is multiplied by h once",
+            "w is h times too large: w = 1 is multiplied by h only once",
             "w 多乘了一次 h：像的 w = 1 只乘一次 h",
         ),
         mistake(
             "w-inverted",
             Wrong::Places(&[(0, 3, "1/h")]),
-            "w is inverted: it is multiplied by h as the other three are",
+            "w is inverted: it is multiplied by h like the other three coordinates",
             "w 取成了倒数：它和另外三个坐标一样要乘以 h",
         ),
     ],
@@ -69,7 +69,7 @@ pub(super) static MULTIPLES_OF_A_POINT: Exercise = Exercise {
     samples: &[&[3.0, 5.0, -2.0, 4.0], &[0.7, -1.3, 2.1, -0.6], &[-4.0, 2.5, 1.5, 1.25]],
     answer: |letters| {
         let [a, b, c, h] = letters.try_into().ok()?;
-        // Any affine map and point works; here a translation of the origin.
+        // Any affine map and any point would do. This is a translation of the origin.
         let map: Projective<View, View> = Affine::translation(Vector::new(a, b, c)).into();
         let image: [f64; 4] = map.transform_hpoint(HPoint::new(0.0, 0.0, 0.0, h)).into();
         Some(vec![image.to_vec()])
@@ -80,11 +80,11 @@ pub(super) static PLACE_OF_A_POINT: Exercise = Exercise {
     number: 12,
     title: words("A homogeneous point", "齐次点"),
     question: words(
-        "Which place (x, y, z) does the homogeneous point (−2, 6, 4, −2) represent?",
+        "Which point (x, y, z) does the homogeneous point (−2, 6, 4, −2) represent?",
         "齐次点 (−2, 6, 4, −2) 表示哪个位置 (x, y, z)？",
     ),
     hints: &[words(
-        "Any multiple represents the same point: take the one whose w is 1.",
+        "Any multiple represents the same point: find the multiple with w = 1.",
         "任意倍数都表示同一位置：取 w 为 1 的那一个。",
     )],
     letters: &[],
@@ -92,7 +92,7 @@ pub(super) static PLACE_OF_A_POINT: Exercise = Exercise {
         mistake(
             "w-lost",
             Wrong::Answer("-2, 6, 4"),
-            "w is lost: x, y and z are divided by it",
+            "w is ignored: x, y and z are divided by w",
             "w 丢失了：x、y、z 都要除以它",
         ),
         mistake(
@@ -104,19 +104,19 @@ pub(super) static PLACE_OF_A_POINT: Exercise = Exercise {
         mistake(
             "sign-of-w-lost",
             Wrong::Negated,
-            "the sign of w is lost: −2/−2 is 1",
+            "the sign of w is ignored: −2/−2 is 1",
             "w 的符号丢了：−2/−2 等于 1",
         ),
         mistake(
             "z-not-divided",
             Wrong::Places(&[(0, 2, "4")]),
-            "z is not divided: the divide takes all three coordinates",
+            "z is not divided: the divide applies to all three coordinates",
             "z 没有除：三个坐标都要做除法",
         ),
         mistake(
             "signs-of-y-and-z",
             Wrong::Answer("1, 3, 2"),
-            "x is right, but y and z have lost the sign of w: they are divided by −2, too",
+            "x is correct, but y and z ignore the sign of w: they are also divided by −2",
             "x 正确，但 y 和 z 丢了 w 的符号：它们也要除以 −2",
         ),
     ],
@@ -133,12 +133,12 @@ pub(super) static VANISHING_POINT: Exercise = Exercise {
     number: 15,
     title: words("A vanishing point", "灭点"),
     question: words(
-        "The eye is at the origin, the picture plane is z = −2. Where on it, as (x, y), is the vanishing point of all lines along (1, −2, −4)?",
+        "The eye is at the origin, and the picture plane is z = −2. At which point (x, y) of that plane is the vanishing point of all lines along (1, −2, −4)?",
         "视点在原点，画面是平面 z = −2。沿方向 (1, −2, −4) 的所有直线，其灭点 (x, y) 在画面何处？",
     ),
     hints: &[
         words(
-            "The vanishing point is the image of the direction: the line through the eye along it meets the plane there.",
+            "The vanishing point is the image of the direction, where the line through the eye in this direction meets the plane.",
             "灭点是方向的像：过视点、沿该方向的直线与画面的交点。",
         ),
         words("Which multiple of (1, −2, −4) has z = −2?", "(1, −2, −4) 的哪个倍数满足 z = −2？"),
@@ -148,25 +148,25 @@ pub(super) static VANISHING_POINT: Exercise = Exercise {
         mistake(
             "sign-of-z",
             Wrong::Negated,
-            "the sign of z is lost: both the plane and the direction have a negative z, and the quotient is positive",
+            "the sign of z is ignored: both the plane and the direction have a negative z, so the quotient is positive",
             "z 的符号丢了：画面与方向的 z 都为负，商为正",
         ),
         mistake(
             "distance-forgotten",
             Wrong::Answer("1/4, -1/2"),
-            "the distance 2 of the picture plane is forgotten",
+            "the distance of the picture plane, 2, is missing",
             "忘了画面的距离 2",
         ),
         mistake(
             "sign-and-distance",
             Wrong::Answer("-1/4, 1/2"),
-            "only x/z and y/z: they are multiplied by the plane's z = −2",
+            "this is only x/z and y/z: multiply by z = −2, the plane",
             "只求了 x/z 和 y/z：还要乘以画面的 z = −2",
         ),
         mistake(
             "direction-itself",
             Wrong::Answer("1, -2"),
-            "this is the direction itself: scale it until its z is that of the plane",
+            "this is the direction itself: scale it so that z = −2",
             "这是方向本身：要把它缩放到 z 等于画面的 z",
         ),
         mistake(

@@ -8,7 +8,7 @@ use crate::words::words;
 use homog::Point;
 use projection::Oblique;
 
-/// The image of (1, 1, z); only x and y are used.
+/// Returns the image of (1, 1, z), of which only x and y are used.
 fn image(oblique: Oblique, z: f64) -> Entries {
     let image = oblique.onto_plane().transform_point(Point::new(1.0, 1.0, z));
     vec![vec![image.x(), image.y()]]
@@ -27,7 +27,7 @@ pub(super) static CABINET: Exercise = Exercise {
             "斜二测投影中，深度方向按一半长度画出。",
         ),
         words(
-            "L = 1/2, cos 30° = √3/2, sin 30° = 1/2. Angles are typed as `30°` or in radians.",
+            "L = 1/2, cos 30° = √3/2, sin 30° = 1/2. Enter angles as `30°` or in radians.",
             "L = 1/2，cos 30° = √3/2，sin 30° = 1/2。角度写成 `30°`，或用弧度。",
         ),
     ],
@@ -36,7 +36,7 @@ pub(super) static CABINET: Exercise = Exercise {
         mistake(
             "cavalier",
             Wrong::Computed(|_| Some(image(Oblique::cavalier(30_f64.to_radians()).ok()?, 4.0))),
-            "this is the cavalier projection, L = 1: cabinet draws depth at half its length",
+            "this is the cavalier projection with L = 1, but a cabinet projection draws depth at half its length",
             "这是斜等测投影，L = 1：斜二测按一半长度画深度",
         ),
         mistake(
@@ -54,25 +54,25 @@ pub(super) static CABINET: Exercise = Exercise {
         mistake(
             "sine-and-cosine-exchanged",
             Wrong::Answer("1+4*sin(30°)/2, 1+4*cos(30°)/2"),
-            "sine and cosine are exchanged: x has the cosine",
+            "sine and cosine are swapped: x has the cosine",
             "正弦与余弦互换了：x 用余弦",
         ),
         mistake(
             "degrees-as-radians",
             Wrong::Computed(|_| Some(image(Oblique::cabinet(30.0).ok()?, 4.0))),
-            "degrees were taken for radians: write `30°` or pi/6",
+            "degrees were used as radians: write `30°` or pi/6",
             "把角度当成了弧度：请写 `30°` 或 pi/6",
         ),
         mistake(
             "depth-dropped",
             Wrong::Answer("1, 1"),
-            "z was dropped: that is the orthographic image, the foot of the oblique one (M25)",
+            "z was ignored: this is the orthographic image, not the oblique image (M25)",
             "z 被丢掉了：这是正交投影的像，即斜投影的垂足（M25）",
         ),
         mistake(
             "foot-forgotten",
             Wrong::Answer("sqrt(3), 1"),
-            "the point's own x and y are forgotten: add (1, 1)",
+            "the x and y of the point are missing: add (1, 1)",
             "忘了点自身的 x 和 y：要加上 (1, 1)",
         ),
     ],

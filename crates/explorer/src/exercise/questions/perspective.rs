@@ -12,7 +12,7 @@ pub(super) static THIRD_ROW_OF_P: Exercise = Exercise {
     number: 3,
     title: words("The third row of P", "P 的第三行"),
     question: words(
-        "The bottom row of P is (0 0 1 0), so that w = z, and its third row is (0 0 A B). After the divide, points with z = n must keep their z, and so must points with z = f; 0 > n > f. Find A and B.",
+        "The bottom row of P is (0 0 1 0), so that w = z, and its third row is (0 0 A B). After the divide, points with z = n and points with z = f must keep their z, where 0 > n > f. Find A and B.",
         "P 的最后一行是 (0 0 1 0)，所以 w = z；第三行是 (0 0 A B)。除法之后，z = n 的点和 z = f 的点都应保持各自的 z；0 > n > f。求 A 和 B。",
     ),
     hints: &[
@@ -21,7 +21,7 @@ pub(super) static THIRD_ROW_OF_P: Exercise = Exercise {
             "除法之后 z' = (A z + B)/z = A + B/z。",
         ),
         words(
-            "A + B/n = n and A + B/f = f: subtract them, and A falls out.",
+            "Subtract A + B/n = n and A + B/f = f to eliminate A.",
             "A + B/n = n，A + B/f = f：两式相减可消去 A。",
         ),
     ],
@@ -30,25 +30,25 @@ pub(super) static THIRD_ROW_OF_P: Exercise = Exercise {
         mistake(
             "sign-of-b",
             Wrong::Places(&[(0, 1, "n*f")]),
-            "the sign of B is wrong: from A = n + f and A + B/n = n follows B/n = −f",
+            "the sign of B is wrong: A = n + f and A + B/n = n give B/n = −f",
             "B 的符号不对：由 A = n + f 和 A + B/n = n 得 B/n = −f",
         ),
         mistake(
             "sign-of-a",
             Wrong::Places(&[(0, 0, "-(n+f)")]),
-            "the sign of A is wrong: put z = n into A + B/z",
+            "the sign of A is wrong: insert z = n into A + B/z",
             "A 的符号不对：把 z = n 代入 A + B/z 验证",
         ),
         mistake(
             "both-signs",
             Wrong::Negated,
-            "both signs are turned: this third row belongs to the bottom row (0 0 −1 0)",
+            "both signs are reversed: this third row belongs to the bottom row (0 0 −1 0)",
             "两个符号都反了：这样的第三行要配最后一行 (0 0 −1 0)",
         ),
         mistake(
             "a-and-b-exchanged",
             Wrong::Answer("-n*f, n+f"),
-            "A and B are exchanged: A multiplies z, B multiplies w",
+            "A and B are swapped: A multiplies z, and B multiplies w",
             "A 与 B 互换了：A 乘 z，B 乘 w",
         ),
         mistake(
@@ -60,7 +60,7 @@ pub(super) static THIRD_ROW_OF_P: Exercise = Exercise {
         mistake(
             "not-divided",
             Wrong::Answer("1, 0"),
-            "the divide is forgotten: this row keeps z, but z is divided by w = z afterwards and becomes 1",
+            "the divide is missing: this row keeps z, but z is then divided by w = z and becomes 1",
             "忘了除法：这一行保持 z，但随后 z 要除以 w = z，结果成为 1",
         ),
         mistake(
@@ -78,7 +78,7 @@ pub(super) static THIRD_ROW_OF_P: Exercise = Exercise {
         mistake(
             "m5-subscript",
             Wrong::Written(&["f_n", "n_f"]),
-            "f_n is a subscript, as the textbook prints it (M5): the product of f and n is meant, `n*f`",
+            "f_n is a subscript, as misprinted in the textbook (M5): write the product of n and f as `n*f`",
             "f_n 写成了下标，与教科书印错的一样（M5）：应是 f 与 n 的乘积 `n*f`",
         ),
         mistake(
@@ -106,11 +106,11 @@ pub(super) static ORDER_OF_DEPTHS: Exercise = Exercise {
     number: 4,
     title: words("The order of depths", "深度的次序"),
     question: words(
-        "P takes z to z' = n + f − f n/z. To see that it keeps the order of depths, write the difference z1' − z2' with the factor (z1 − z2).",
+        "P takes z to z' = n + f − f n/z. To see that this preserves the order of depths, write the difference z1' − z2' with the factor (z1 − z2).",
         "P 把 z 映为 z' = n + f − f n/z。为说明它保持深度的次序，把差 z1' − z2' 写成含因子 (z1 − z2) 的形式。",
     ),
     hints: &[
-        words("n + f falls out of the difference.", "相减时 n + f 消去。"),
+        words("n + f cancels in the difference.", "相减时 n + f 消去。"),
         words(
             "1/z2 − 1/z1 = (z1 − z2)/(z1 z2). What is the sign of the factor if all four numbers are negative?",
             "1/z2 − 1/z1 = (z1 − z2)/(z1 z2)。四个数都为负时，这个因子是正还是负？",
@@ -121,7 +121,7 @@ pub(super) static ORDER_OF_DEPTHS: Exercise = Exercise {
         mistake(
             "sign",
             Wrong::Negated,
-            "the sign is turned: −f n/z1 + f n/z2 = f n (z1 − z2)/(z1 z2), and the order is kept",
+            "the sign is reversed: −f n/z1 + f n/z2 = f n (z1 − z2)/(z1 z2), and the order is preserved",
             "符号反了：−f n/z1 + f n/z2 = f n (z1 − z2)/(z1 z2)，次序保持不变",
         ),
         mistake(
@@ -145,7 +145,7 @@ pub(super) static ORDER_OF_DEPTHS: Exercise = Exercise {
         mistake(
             "m5-subscript",
             Wrong::Written(&["f_n", "n_f"]),
-            "f_n is a subscript, as the textbook prints it (M5): write the product of f and n as `n*f`",
+            "f_n is a subscript, as misprinted in the textbook (M5): write the product of f and n as `n*f`",
             "f_n 写成了下标，与教科书印错的一样（M5）：f 与 n 的乘积请写成 `n*f`",
         ),
     ],
@@ -164,12 +164,12 @@ pub(super) static INVERSE_OF_P: Exercise = Exercise {
     number: 6,
     title: words("The inverse of P", "P 的逆矩阵"),
     question: words(
-        "P has the rows (n 0 0 0), (0 n 0 0), (0 0 n+f −f n), (0 0 1 0). Write its inverse; as a map of homogeneous points it is right up to a factor.",
+        "P has the rows (n 0 0 0), (0 n 0 0), (0 0 n+f −f n), (0 0 1 0). Write its inverse. For homogeneous points, any multiple of it is the same map.",
         "P 的各行是 (n 0 0 0)、(0 n 0 0)、(0 0 n+f −f n)、(0 0 1 0)。写出它的逆矩阵；作为齐次点的变换，它可以差一个因子。",
     ),
     hints: &[
         words(
-            "P takes (x, y, z, 1) to (n x, n y, (n + f) z − f n, z): the last number is the old z.",
+            "P takes (x, y, z, 1) to (n x, n y, (n + f) z − f n, z): the last coordinate is the old z.",
             "P 把 (x, y, z, 1) 映为 (n x, n y, (n + f) z − f n, z)：最后一个数就是原来的 z。",
         ),
         words(
@@ -188,19 +188,19 @@ pub(super) static INVERSE_OF_P: Exercise = Exercise {
         mistake(
             "near-and-far-exchanged",
             Wrong::Places(&[(0, 0, "n"), (1, 1, "n")]),
-            "near and far are exchanged: with n f in the third row, x and y have the factor f",
+            "near and far are swapped: with n f in the third row, x and y have the factor f",
             "近平面与远平面互换了：第三行为 n f 时，x 和 y 的因子是 f",
         ),
         mistake(
             "last-row-sign",
             Wrong::Places(&[(3, 2, "1")]),
-            "the −1 of the last row has lost its sign: multiply by P and look at the last row",
+            "the −1 in the last row lacks its sign: multiply by P and look at the last row",
             "最后一行的 −1 丢了负号：与 P 相乘，看最后一行",
         ),
         mistake(
             "entries-inverted",
             Wrong::Answer("1/n 0 0 0; 0 1/n 0 0; 0 0 1/(n+f) -1/(n*f); 0 0 1 0"),
-            "each entry was inverted by itself: only diagonal matrices are inverted so",
+            "each entry was inverted separately, which works only for diagonal matrices",
             "逐个元素取了倒数：只有对角矩阵才能这样求逆",
         ),
         mistake(
@@ -212,13 +212,13 @@ pub(super) static INVERSE_OF_P: Exercise = Exercise {
         mistake(
             "m5-subscript",
             Wrong::Written(&["f_n", "n_f"]),
-            "f_n is a subscript, as the textbook prints it (M5): write the product of f and n as `n*f`",
+            "f_n is a subscript, as misprinted in the textbook (M5): write the product of f and n as `n*f`",
             "f_n 写成了下标，与教科书印错的一样（M5）：f 与 n 的乘积请写成 `n*f`",
         ),
         mistake(
             "last-row-negated",
             Wrong::Places(&[(3, 2, "1"), (3, 3, "-(n+f)")]),
-            "the whole last row has the wrong sign: multiply by P, and all rows must have the same factor",
+            "the whole last row has the wrong sign: multiply by P; all rows must have the same factor",
             "最后一行整行的符号不对：与 P 相乘，各行的因子应相同",
         ),
         mistake(
@@ -266,55 +266,55 @@ pub(super) static NEAR_CORNER: Exercise = Exercise {
         mistake(
             "divided-too-early",
             Wrong::Answer("1, 1, 1, 1"),
-            "this is divided already: before the divide w = z = n",
+            "this is already divided: before the divide w = z = n",
             "这已经除过了：除法之前 w = z = n",
         ),
         mistake(
             "divided-too-early",
             Wrong::Answer("1, 1, 1"),
-            "this is the point after the divide: before it there are four numbers, and w = z = n",
+            "this is the point after the divide: before the divide it has four coordinates, and w = z = n",
             "这是除法之后的点：除法之前有四个数，且 w = z = n",
         ),
         mistake(
             "w-lost",
             Wrong::Places(&[(0, 3, "1")]),
-            "w is lost: the bottom row of M_per is (0 0 1 0), so w = z = n",
+            "w is missing: the bottom row of M_per is (0 0 1 0), so w = z = n",
             "w 丢失了：M_per 的最后一行是 (0 0 1 0)，所以 w = z = n",
         ),
         mistake(
             "sign-of-w",
             Wrong::Negated,
-            "this is the image by −M_per, whose w is positive ahead of the eye: the same place, but M_per has w = z",
+            "this is the image under −M_per, whose w is positive in front of the eye: it is the same point, but M_per has w = z",
             "这是 −M_per 的像，它使视点前方的 w 为正：位置相同，但 M_per 的 w = z",
         ),
         mistake(
             "m8-depth-reversed",
             Wrong::Places(&[(0, 2, "-n")]),
-            "near and far are exchanged as in OpenGL (M8): here z = n maps to +1",
+            "near and far are swapped, as in OpenGL (M8): here z = n maps to +1",
             "近平面与远平面按 OpenGL 的方式互换了（M8）：这里 z = n 映为 +1",
         ),
         mistake(
             "p-only",
             Wrong::Answer("n*r, n*t, n*n, n"),
-            "this is the image by P alone: M_orth is missing",
+            "this is the image under P: M_orth is missing",
             "这只是 P 的像：还缺 M_orth",
         ),
         mistake(
             "not-mapped",
             Wrong::Answer("r, t, n, 1"),
-            "this is the point itself: P keeps it, but M_orth takes it to the corner of the cube",
+            "this is the original point: P keeps it, but M_orth takes it to the corner of the cube",
             "这是点本身：P 保持它不动，但 M_orth 要把它映为立方体的角点",
         ),
         mistake(
             "only-w-multiplied",
             Wrong::Answer("r, t, n, n"),
-            "w is right, but x, y and z are the point's own: P multiplies them by n, and M_orth takes them on to the corner of the cube",
+            "w is correct, but x, y and z are unchanged: P multiplies them by n, and M_orth maps the result to the corner of the cube",
             "w 正确，但 x、y、z 仍是点自身的：P 使它们乘上 n，M_orth 再把它们映为立方体的角点",
         ),
         mistake(
             "only-w-kept",
             Wrong::Answer("1, 1, 1, n"),
-            "x, y and z are divided already, and w is not: before the divide all four have the same factor",
+            "x, y and z are already divided, but w is not: before the divide all four have the same factor",
             "x、y、z 已经除过，而 w 没有：除法之前四个数有同一个因子",
         ),
     ],
@@ -323,7 +323,7 @@ pub(super) static NEAR_CORNER: Exercise = Exercise {
     samples: &[&[4.0, 2.0, -1.0], &[1.7, -0.9, -0.4], &[-3.5, 6.0, -2.5]],
     answer: |letters| {
         let [r, t, n] = letters.try_into().ok()?;
-        // The other sides cancel: any that form a volume work.
+        // The other sides cancel, so any sides that form a volume will do.
         let map = m_per(r - 3.0, r, t - 2.0, t, n, 3.0 * n).ok()?;
         let image: [f64; 4] = map.transform_point(Point::new(r, t, n)).into();
         Some(vec![image.to_vec()])
@@ -352,55 +352,55 @@ pub(super) static P_OF_ONE_AND_TWO: Exercise = Exercise {
         mistake(
             "near-and-far-exchanged",
             Wrong::Places(&[(0, 0, "2"), (1, 1, "2")]),
-            "near and far are exchanged: x and y have the factor n",
+            "near and far are swapped: x and y have the factor n",
             "近平面与远平面互换了：x 和 y 的因子是 n",
         ),
         mistake(
             "difference-for-sum",
             Wrong::Places(&[(2, 2, "1-2")]),
-            "n − f instead of n + f",
+            "this has n − f instead of n + f",
             "n + f 处写成了 n − f",
         ),
         mistake(
             "w-lost",
             Wrong::Places(&[(3, 2, "0"), (3, 3, "1")]),
-            "w is lost: with the last row (0 0 0 1) w stays 1, and nothing gets smaller with distance",
+            "w is wrong: with the last row (0 0 0 1) w stays 1, and nothing gets smaller with distance",
             "w 丢失了：最后一行为 (0 0 0 1) 时 w 恒为 1，远处的物体不会变小",
         ),
         mistake(
             "m14-bottom-row",
             Wrong::Places(&[(3, 3, "1")]),
-            "the bottom row ends with 1, as the lesson prints it (M14): w would be z + 1",
+            "the bottom row ends with 1, as misprinted in the lesson (M14), so w would be z + 1",
             "最后一行以 1 结尾，与教程印错的一样（M14）：w 会成为 z + 1",
         ),
         mistake(
             "last-row-negated",
             Wrong::Places(&[(3, 2, "-1")]),
-            "the last row is negated: w = −z goes with a negated third row only",
+            "the last row is negated: w = −z requires a negated third row",
             "最后一行变了号：w = −z 时第三行也要变号",
         ),
         mistake(
             "negated",
             Wrong::Negated,
-            "this is −P: the same map, but w has the other sign, and clipping would keep points behind the eye",
+            "this is −P, the same map with the opposite sign of w: clipping would keep points behind the eye",
             "这是 −P：变换相同，但 w 的符号相反，裁剪会保留视点背后的部分",
         ),
         mistake(
             "m9-negative-planes",
             Wrong::Answer("-1 0 0 0; 0 -1 0 0; 0 0 -3 -2; 0 0 1 0"),
-            "this is P for n = −1 and f = −2: n and f are +1 and +2 here, although the chapter has 0 > n > f (M9)",
+            "this is P for n = −1 and f = −2, but here n and f are +1 and +2, although the chapter has 0 > n > f (M9)",
             "这是 n = −1、f = −2 时的 P：这里 n 和 f 是 +1 和 +2，虽然教科书该章规定 0 > n > f（M9）",
         ),
         mistake(
             "opengl-signs",
             Wrong::Answer("1 0 0 0; 0 1 0 0; 0 0 -3 -2; 0 0 -1 0"),
-            "these are the signs of OpenGL's matrices, with w = −z: P has w = z, and n + f in its third row",
+            "these are the signs of OpenGL matrices with w = −z, but P has w = z and n + f in its third row",
             "这是 OpenGL 矩阵的符号，w = −z：P 的 w = z，第三行含 n + f",
         ),
         mistake(
             "image-turned",
             Wrong::Answer("1 0 0 0; 0 1 0 0; 0 0 -3 2; 0 0 -1 0"),
-            "with w = −z and x, y as they were the image is turned by 180°: P has w = z",
+            "with w = −z and unchanged x and y the image is rotated by 180°: P has w = z",
             "w = −z 而 x、y 不变时，像转了 180°：P 的 w = z",
         ),
         TRANSPOSED,
@@ -415,12 +415,12 @@ pub(super) static IMAGE_OF_A_POINT: Exercise = Exercise {
     number: 9,
     title: words("The image of a point", "点的像"),
     question: words(
-        "P for n = 1 and f = 2 has the rows (1 0 0 0), (0 1 0 0), (0 0 3 −2), (0 0 1 0). Give the image of (x, y, z, 1): first the homogeneous point, then, behind a `;`, the point after the divide.",
+        "P for n = 1 and f = 2 has the rows (1 0 0 0), (0 1 0 0), (0 0 3 −2), (0 0 1 0). Enter the image of (x, y, z, 1): first the homogeneous point and then, after a `;`, the point after the divide.",
         "n = 1、f = 2 时 P 的各行是 (1 0 0 0)、(0 1 0 0)、(0 0 3 −2)、(0 0 1 0)。给出 (x, y, z, 1) 的像：先写齐次点，再在 `;` 之后写除法之后的点。",
     ),
     hints: &[
         words(
-            "Each row times (x, y, z, 1) is one coordinate; the last one is w.",
+            "Each row times (x, y, z, 1) is a coordinate; the last coordinate is w.",
             "每一行乘以 (x, y, z, 1) 得到一个坐标；最后一个是 w。",
         ),
         words("Divide the first three by w.", "前三个坐标除以 w。"),
@@ -436,19 +436,19 @@ pub(super) static IMAGE_OF_A_POINT: Exercise = Exercise {
         mistake(
             "z-not-divided",
             Wrong::Places(&[(1, 2, "3*z-2")]),
-            "z is not divided: the divide takes all three coordinates",
+            "z is not divided: the divide applies to all three coordinates",
             "z 没有除：三个坐标都要做除法",
         ),
         mistake(
             "m1-coordinate-lost",
             Wrong::Places(&[(1, 0, "1/z"), (1, 1, "1/z")]),
-            "the point's own x and y are lost, as in the printed y_s = d/z (M1): they are x/z and y/z",
+            "x and y of the point are missing, as in the misprint y_s = d/z (M1): the result is x/z and y/z",
             "点自身的 x 和 y 丢失了，与印错的 y_s = d/z 一样（M1）：应为 x/z 和 y/z",
         ),
         mistake(
             "w-lost",
             Wrong::Places(&[(0, 3, "1")]),
-            "w is lost: the bottom row (0 0 1 0) makes w = z",
+            "w is missing: the bottom row (0 0 1 0) gives w = z",
             "w 丢失了：最后一行 (0 0 1 0) 使 w = z",
         ),
         mistake(
@@ -460,7 +460,7 @@ pub(super) static IMAGE_OF_A_POINT: Exercise = Exercise {
         mistake(
             "no-divide",
             Wrong::Answer("x, y, 3*z-2, 1; x, y, 3*z-2"),
-            "w is lost, and so nothing is divided: the bottom row (0 0 1 0) gives w",
+            "w is missing, so nothing is divided: the bottom row (0 0 1 0) gives w",
             "w 丢失了，因此没有做除法：w 由最后一行 (0 0 1 0) 给出",
         ),
     ],

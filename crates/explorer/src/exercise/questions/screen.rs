@@ -9,7 +9,7 @@ use homog::{ClipRange, PixelCenters, PixelConvention, Point, YAxis};
 use raster::{Frame, Opacity, Samples, ScreenVertex};
 use viewport::Viewport;
 
-/// The position of (1/4, 3/10) in an image of 200 × 100 pixels.
+/// Returns the position of (1/4, 3/10) in an image of 200 × 100 pixels.
 fn position(y: YAxis, centers: PixelCenters) -> Option<Entries> {
     let viewport = Viewport::image_for(200, 100, ClipRange::CHAPTER)
         .ok()?
@@ -22,7 +22,7 @@ pub(super) static PIXEL_POSITION: Exercise = Exercise {
     number: 20,
     title: words("A position in the image", "图像中的位置"),
     question: words(
-        "In an image of 200 × 100 pixels, pixel (i, j) covers [i, i + 1) × [j, j + 1), and rows are counted from the top. At which position, in pixels, is the point (x, y) = (1/4, 3/10) of normalized device coordinates, y up?",
+        "In an image of 200 × 100 pixels, pixel (i, j) covers [i, i + 1) × [j, j + 1), and rows are counted from the top. At which position, in pixels, is the point (x, y) = (1/4, 3/10) in normalized device coordinates, where y is up?",
         "200 × 100 像素的图像中，像素 (i, j) 覆盖 [i, i + 1) × [j, j + 1)，行自上而下计数。规范化设备坐标（y 向上）的点 (x, y) = (1/4, 3/10) 位于图像的什么位置（以像素计）？",
     ),
     hints: &[
@@ -40,37 +40,37 @@ pub(super) static PIXEL_POSITION: Exercise = Exercise {
         mistake(
             "rows-from-the-bottom",
             Wrong::Computed(|_| position(YAxis::Up, PixelCenters::Half)),
-            "you counted the rows from the bottom: here they are counted from the top, so y is turned",
+            "you counted the rows from the bottom: here they are counted from the top, so y is flipped",
             "你把行当成自下而上计数了：这里自上而下，y 要反向",
         ),
         mistake(
             "centers-at-whole-numbers",
             Wrong::Computed(|_| position(YAxis::Down, PixelCenters::Integer)),
-            "the centers are at whole numbers, as in the chapter: here pixel 0 begins at 0, and its center is at ½",
+            "the centers are at integers, as in the chapter: here pixel 0 begins at 0, and its center is at ½",
             "像素中心取在了整数处，如教科书那样：这里像素 0 从 0 开始，中心在 ½",
         ),
         mistake(
             "chapter-viewport",
             Wrong::Computed(|_| position(YAxis::Up, PixelCenters::Integer)),
-            "this is the chapter's viewport: rows from the bottom, centers at whole numbers",
+            "this is the chapter's viewport, with rows from the bottom and centers at integers",
             "这是教科书的视口：行自下而上，像素中心在整数处",
         ),
         mistake(
             "range-forgotten",
             Wrong::Answer("25, 15"),
-            "multiplied by half of the size, but the middle of the image is missing: x = 0 is at 100",
+            "multiplied by half the size, but the center of the image is missing: x = 0 is at 100",
             "只乘了尺寸的一半，没有加图像的中心：x = 0 位于 100",
         ),
         mistake(
             "zero-to-one",
             Wrong::Answer("50, 30"),
-            "taken for coordinates from 0 to 1: they go from −1 to 1",
+            "treated as coordinates from 0 to 1, but they run from −1 to 1",
             "当成了 0 到 1 的坐标：范围是 −1 到 1",
         ),
         mistake(
             "size-less-one",
             Wrong::Answer("5/4*199/2, 7/10*99/2"),
-            "the scale has the size less one: borders go to borders, 200 pixels from −1 to 1",
+            "the scale uses the size minus one: borders map to borders, so −1 to 1 covers 200 pixels",
             "比例用了尺寸减一：边界对应边界，−1 到 1 共 200 像素",
         ),
     ],
@@ -84,12 +84,12 @@ pub(super) static TOP_LEFT_RULE: Exercise = Exercise {
     number: 22,
     title: words("The top-left rule", "左上填充规则"),
     question: words(
-        "Pixel (i, j) has its center at (i + ½, j + ½), and y runs down. The triangle with the corners (½, ½), (9/2, ½), (½, 9/2) has centers on all of its edges. By the top-left rule, how many pixels are its own?",
+        "Pixel (i, j) has its center at (i + ½, j + ½), and y runs down. The triangle with the corners (½, ½), (9/2, ½), (½, 9/2) has pixel centers on all of its edges. By the top-left rule, how many pixels belong to it?",
         "像素 (i, j) 的中心在 (i + ½, j + ½)，y 向下。三角形的顶点为 (½, ½)、(9/2, ½)、(½, 9/2)，它的每条边上都有像素中心。按左上填充规则，它拥有多少个像素？",
     ),
     hints: &[
         words(
-            "A center on an edge belongs to the triangle if the edge is a left one, or a horizontal one at the top.",
+            "A center on an edge belongs to the triangle if the edge is a left edge or a horizontal top edge.",
             "边上的中心属于该三角形，当且仅当该边是左边，或是位于上方的水平边。",
         ),
         words(
@@ -102,49 +102,49 @@ pub(super) static TOP_LEFT_RULE: Exercise = Exercise {
         mistake(
             "closed",
             Wrong::Answer("15"),
-            "all three edges were counted: the neighbor at the right edge would draw these pixels again",
+            "all three edges were counted: the neighbor at the right edge would draw these pixels a second time",
             "三条边都算上了：右侧边上的相邻三角形会重复绘制这些像素",
         ),
         mistake(
             "open",
             Wrong::Answer("3"),
-            "no edge was counted: left and top edges are the triangle's own",
+            "no edge was counted: left and top edges belong to the triangle",
             "一条边也没有算：左边和上边属于该三角形",
         ),
         mistake(
             "bottom-right",
             Wrong::Answer("6"),
-            "the right edge was counted and the top and left ones were not: it is the other way round",
+            "the right edge was counted but the top and left edges were not: it must be the opposite",
             "算了右边，没有算上边和左边：应当相反",
         ),
         mistake(
             "area",
             Wrong::Answer("8"),
-            "this is the area: pixels are counted by their centers",
+            "this is the area, but pixels are counted by their centers",
             "这是面积：像素要按中心来数",
         ),
         mistake(
             "corner-lost",
             Wrong::Answer("9"),
-            "the corner (½, ½) is on the top and on the left edge, and the triangle's own",
+            "the corner (½, ½) is on the top edge and on the left edge, so it belongs to the triangle",
             "顶点 (½, ½) 同时在上边和左边上，属于该三角形",
         ),
         mistake(
             "one-end-of-the-right-edge",
             Wrong::Answer("11"),
-            "one end of the right edge was counted: a center on two edges is the triangle's own only if both are top or left ones",
+            "one end of the right edge was counted: a center on two edges belongs to the triangle only if both are top or left edges",
             "右侧边的一个端点算上了：同时在两条边上的中心，只有两条边都是上边或左边时才属于该三角形",
         ),
         mistake(
             "ends-of-the-right-edge",
             Wrong::Answer("12"),
-            "both ends of the right edge were counted: a center on two edges is the triangle's own only if both are top or left ones",
+            "both ends of the right edge were counted: a center on two edges belongs to the triangle only if both are top or left edges",
             "右侧边的两个端点都算上了：同时在两条边上的中心，只有两条边都是上边或左边时才属于该三角形",
         ),
         mistake(
             "nearly-closed",
             Wrong::Answer("14"),
-            "centers of the right edge were counted, all but one center of the closed triangle: none with i + j = 4 is its own",
+            "centers on the right edge were counted, and only one center of the closed triangle was not: no center with i + j = 4 belongs to it",
             "右侧边上的中心算上了，只比闭三角形少一个：i + j = 4 的中心都不属于它",
         ),
     ],

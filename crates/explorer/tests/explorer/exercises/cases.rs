@@ -1,11 +1,11 @@
-//! Answers to the exercises: correct ones, known mistakes, and others.
+//! Answers to the exercises: correct answers, known mistakes and unknown mistakes.
 
-/// Correct answers, and wrong ones with their mistakes.
+/// Correct answers, and wrong answers with their mistakes.
 pub(super) struct Case {
     pub(super) number: u32,
     pub(super) right: &'static [&'static str],
     pub(super) mistaken: &'static [(&'static str, &'static str)],
-    /// An unknown wrong answer, and the verdict on it.
+    /// An unknown wrong answer and its verdict.
     pub(super) unknown: (&'static str, &'static str),
 }
 
@@ -27,7 +27,7 @@ pub(super) const CHAPTER: [Case; 11] = [
         ],
         unknown: (
             "nx/2 0 0 (nx-1)/2; 0 -ny/2 0 ny; 0 0 -1 0; 0 0 0 1",
-            "not right: 2 of 16 entries: for nx = 640, ny = 480 your row 2, column 4 gives 480; your row 3, column 3 gives -1, only its sign is wrong",
+            "incorrect: 2 of 16 entries: for nx = 640, ny = 480 your row 2, column 4 gives 480; your row 3, column 3 gives -1, where only the sign is wrong",
         ),
     },
     Case {
@@ -104,7 +104,7 @@ pub(super) const CHAPTER: [Case; 11] = [
             ("-(n+f)/(n-f), -2n f/(n-f)", "opengl-row"),
             ("-(f+n)/(f-n), -2*f*n/(f-n)", "opengl-row"),
         ],
-        unknown: ("A=n+f; B=2f", "not right: for n = -1, f = -5 your B gives -10"),
+        unknown: ("A=n+f; B=2f", "incorrect: for n = -1, f = -5 your B gives -10"),
     },
     Case {
         number: 4,
@@ -144,7 +144,7 @@ pub(super) const CHAPTER: [Case; 11] = [
         ],
         unknown: (
             "h*a, h*b, h*c, h+1",
-            "not right: for a = 3, b = 5, c = -2, h = 4 your w gives 5",
+            "incorrect: for a = 3, b = 5, c = -2, h = 4 your w gives 5",
         ),
     },
     Case {
@@ -192,7 +192,7 @@ pub(super) const CHAPTER: [Case; 11] = [
             ("(r, t, n, n)", "only-w-multiplied"),
             ("1, 1, 1, n", "only-w-kept"),
         ],
-        unknown: ("n, n, n, -n", "w gives 1, only its sign is wrong"),
+        unknown: ("n, n, n, -n", "w gives 1, where only the sign is wrong"),
     },
     Case {
         number: 8,
@@ -281,7 +281,7 @@ pub(super) const CHAPTER: [Case; 11] = [
             ("wR t/(wR + t(wr - wR))", "divisor-from-the-other-end"),
             ("t(wR-wr)/(wr+t(wR-wr))", "difference-of-weights"),
         ],
-        unknown: ("wR*t/(wr-t*(wR-wr))", "not right: for wr = 1, wR = 3, t = 0.4 your f gives 6"),
+        unknown: ("wR*t/(wr-t*(wR-wr))", "incorrect: for wr = 1, wR = 3, t = 0.4 your f gives 6"),
     },
 ];
 
@@ -296,7 +296,7 @@ pub(super) const OWN: [Case; 13] = [
             ("1, -3, 4", "z-not-divided"),
             ("1, 3, 2", "signs-of-y-and-z"),
         ],
-        unknown: ("1, -3, 2", "z gives 2, only its sign is wrong"),
+        unknown: ("1, -3, 2", "z gives 2, where only the sign is wrong"),
     },
     Case {
         number: 13,
@@ -309,7 +309,7 @@ pub(super) const OWN: [Case; 13] = [
             ("-3, 2, -4", "not-rotated"),
             ("3, 2, -4", "axes-of-the-world"),
         ],
-        unknown: ("4, 0, -3", "not right: your y gives 0"),
+        unknown: ("4, 0, -3", "incorrect: your y gives 0"),
     },
     Case {
         number: 14,
@@ -342,7 +342,7 @@ pub(super) const OWN: [Case; 13] = [
             ("1, -2", "direction-itself"),
             ("1/8, -1/4", "distance-divided"),
         ],
-        unknown: ("1/2, 1", "y gives 1, only its sign is wrong"),
+        unknown: ("1/2, 1", "y gives 1, where only the sign is wrong"),
     },
     Case {
         number: 16,
@@ -355,7 +355,7 @@ pub(super) const OWN: [Case; 13] = [
             ("40/21", "factor-two-lost"),
             ("sqrt(80)", "geometric-mean"),
         ],
-        unknown: ("19", "not right: your D gives 19"),
+        unknown: ("19", "incorrect: your D gives 19"),
     },
     Case {
         number: 17,
@@ -411,7 +411,7 @@ pub(super) const OWN: [Case; 13] = [
             ("50, 30", "zero-to-one"),
             ("124.375, 34.65", "size-less-one"),
         ],
-        unknown: ("35, 125", "not right: 2 of 2 entries: your x gives 35; your y gives 125"),
+        unknown: ("35, 125", "incorrect: 2 of 2 entries: your x gives 35; your y gives 125"),
     },
     Case {
         number: 21,
