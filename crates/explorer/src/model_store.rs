@@ -24,7 +24,8 @@ pub(crate) struct LoadedScene {
 }
 
 impl LoadedScene {
-    /// The views of the scene, at least one: the camera's view, or a view for each viewport or eye.
+    /// Returns the views of the scene (at least one): the camera's view, or a view for each
+    /// viewport or eye.
     pub(crate) fn views(&self) -> Vec<&Scene> {
         match self.scene.insets.get(self.first_view..) {
             None | Some([]) => vec![&self.scene],

@@ -2,7 +2,7 @@
 
 use serde_json::{Value as Json, json};
 
-/// A fixed text in both languages.
+/// Fixed text in both languages.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Words {
     /// The text in English.
@@ -11,7 +11,7 @@ pub struct Words {
     pub zh: &'static str,
 }
 
-/// A fixed text in both languages.
+/// Creates fixed text in both languages.
 pub(crate) const fn words(en: &'static str, zh: &'static str) -> Words {
     Words { en, zh }
 }
@@ -40,7 +40,7 @@ pub struct Sentence {
     pub zh: String,
 }
 
-/// A sentence in both languages.
+/// Creates a sentence in both languages.
 pub(crate) fn sentence(en: impl Into<String>, zh: impl Into<String>) -> Sentence {
     Sentence { en: en.into(), zh: zh.into() }
 }

@@ -1,4 +1,4 @@
-//! The lessons of the chapter on viewing: its two view volumes and the depth between its planes.
+//! Lessons on the viewing chapter: its two view volumes and the depth between the planes.
 
 use super::PARALLEL_PANES;
 use super::effects::{distortion, planes_only_clip};
@@ -10,7 +10,7 @@ use crate::words::{Sentence, sentence, words};
 use explain::ApiConventions;
 use scene_file::file::ProjectionFile;
 
-/// The settings that the chapter's lessons share.
+/// The settings shared by the chapter's lessons.
 const USUAL: Lesson =
     Lesson { source: Source::Chapter, conventions: ApiConventions::Chapter, ..Lesson::USUAL };
 
@@ -27,7 +27,7 @@ const fn plane_f(default: f64) -> Parameter {
 /// The window of the chapter.
 const WINDOW: [&str; 4] = ["l", "r", "b", "t"];
 
-/// The distances of the planes, as used in scene files; n and f are coordinates.
+/// Returns the distances of the planes, as used in scene files; n and f are coordinates.
 fn planes(values: &Values<'_>) -> [f64; 2] {
     values.scene_numbers(["n", "f"]).map(|z| -z)
 }
@@ -38,7 +38,7 @@ pub(super) static ORTHOGRAPHIC_VOLUME: Lesson = Lesson {
     items: &["C7", "C8", "C34"],
     title: words("Orthographic view volume", "正交视见体"),
     statement: words(
-        "The box [l, r] × [b, t] × [f, n] of camera space becomes the canonical view volume [−1, 1]³ by a scale and a translation. The camera looks along −z, so 0 > n > f. w stays 1: nothing shrinks with distance.",
+        "A scale and a translation map the box [l, r] × [b, t] × [f, n] in camera space to the canonical view volume [−1, 1]³. The camera looks along −z, so 0 > n > f. Because w stays 1, nothing shrinks with distance.",
         "观察坐标系中的长方体 [l, r] × [b, t] × [f, n] 经缩放和平移变成规范视见体 [−1, 1]³。相机看向 −z，所以 0 > n > f。w 始终为 1：物体不随距离变小。",
     ),
     parameters: &[
@@ -59,7 +59,7 @@ pub(super) static ORTHOGRAPHIC_VOLUME: Lesson = Lesson {
         let size = values.number("r") - values.number("l");
         let pixels = decimals(f64::from(facts.size[0]) / size, 1);
         let mut all = vec![sentence(
-            format!("One unit is {pixels} pixels wide, at every distance."),
+            format!("One unit is {pixels} pixels wide at every distance."),
             format!("一个单位在任何距离上都是 {pixels} 像素宽。"),
         )];
         all.extend(distortion(facts));
@@ -75,7 +75,7 @@ pub(super) static PERSPECTIVE_VOLUME: Lesson = Lesson {
     items: &["C22", "C23", "C27", "C29"],
     title: words("Perspective view volume", "透视视见体"),
     statement: words(
-        "P keeps the plane z = n as it is and squeezes the planes behind it, until the truncated pyramid is the box of the orthographic view; then M_orth does the rest: M_per = M_orth P. The window [l, r] × [b, t] lies on z = n.",
+        "P leaves the plane z = n unchanged and shrinks the planes behind it, so that the truncated pyramid becomes the box of the orthographic view. M_orth does the rest: M_per = M_orth P. The window [l, r] × [b, t] is on z = n.",
         "P 保持 z = n 平面不变，并压缩它后面的平面，使视锥体变成正交视见体的长方体；其余由 M_orth 完成：M_per = M_orth P。窗口 [l, r] × [b, t] 位于 z = n 上。",
     ),
     parameters: &[
@@ -93,7 +93,7 @@ pub(super) static PERSPECTIVE_VOLUME: Lesson = Lesson {
         let [n, f] = ["n", "f"].map(|key| values.number(key));
         let shrink = decimals(n / f, 3);
         let mut all = vec![sentence(
-            format!("P leaves z = {n} as it is; on z = {f} it scales x and y by n/f = {shrink}."),
+            format!("P leaves z = {n} unchanged; on z = {f} it scales x and y by n/f = {shrink}."),
             format!("P 保持 z = {n} 不变；在 z = {f} 上把 x、y 缩小为 n/f = {shrink} 倍。"),
         )];
         all.extend(opening_angle(facts));
@@ -113,13 +113,13 @@ fn opening_angle(facts: &Facts) -> Option<Sentence> {
     ))
 }
 
-/// The middle of the depths, and its image under P.
+/// The midpoint of the depths and its image under P.
 pub(super) static MIDPOINT_DEPTH: Lesson = Lesson {
     id: "midpoint-depth",
     items: &["C41", "C48"],
     title: words("Depth of the midpoint", "中点的深度"),
     statement: words(
-        "P keeps the order of depths but not their ratios: the middle z = (n + f)/2 maps to (n² + f²)/(n + f), which is nearer to f. The farther apart n and f are, the more of the range is spent near the eye.",
+        "P preserves the order of depths but not their ratios: the midpoint z = (n + f)/2 maps to (n² + f²)/(n + f), which is closer to f. The farther apart n and f are, the more of the range is used near the eye.",
         "P 保持深度的次序，但不保持比例：中点 z = (n + f)/2 映为 (n² + f²)/(n + f)，更靠近 f。n 与 f 相差越大，深度范围就越多地用在近处。",
     ),
     parameters: &[plane_n(-4.0), plane_f(-40.0)],
@@ -131,7 +131,7 @@ pub(super) static MIDPOINT_DEPTH: Lesson = Lesson {
         let [middle, image] = [middle, image].map(|z| decimals(z, 3));
         vec![sentence(
             format!(
-                "The middle z = {middle} maps to {image}; in the canonical view volume, where near is 1 and far −1, that is {depth} and not 0."
+                "The midpoint z = {middle} maps to {image}. In the canonical view volume, where near is 1 and far is −1, that is {depth} and not 0."
             ),
             format!(
                 "中点 z = {middle} 映为 {image}；在近平面为 1、远平面为 −1 的规范视见体中，深度是 {depth}，而不是 0。"

@@ -1,4 +1,4 @@
-//! The chapter's exercises that can be drawn.
+//! Drawings for the chapter's exercises.
 
 use super::HOUSE;
 use crate::facts::Facts;
@@ -9,7 +9,7 @@ use crate::words::{Sentence, sentence, words};
 use explain::ApiConventions;
 use scene_file::file::{CameraFile, LabelSize, OverlayFile, ProjectionFile, ViewFile};
 
-/// The ends of the segment of exercise 11: along the ridge of the house.
+/// The ends of the segment in exercise 11, along the ridge of the house.
 const RIDGE_ENDS: [[f64; 3]; 2] = [[0.0, 4.38, 3.15], [0.0, 4.38, -3.15]];
 
 /// Exercises 2, 7, 10 and 11.
@@ -19,7 +19,7 @@ pub(super) static EXERCISES: Lesson = Lesson {
     items: &["C39", "C44", "C46", "C47"],
     title: words("Exercises", "习题"),
     statement: words(
-        "Figures to the chapter's exercises: 2, M_vp M_orth maps a window to pixels; 7, M_per takes the corner (r, t, n) to (1, 1, 1); 10, the camera at (0, 1, 0) that looks down; 11, where the point at fraction t of a segment has its image.",
+        "Figures for the chapter's exercises. 2: M_vp M_orth maps a window to pixels. 7: M_per takes the corner (r, t, n) to (1, 1, 1). 10: the camera at (0, 1, 0) looks down. 11: the image of the point at fraction t of a segment.",
         "本章习题的图：2，M_vp M_orth 把窗口映射到像素；7，M_per 把角点 (r, t, n) 映为 (1, 1, 1)；10，位于 (0, 1, 0) 向下看的相机；11，线段上比例 t 处的点的像在哪里。",
     ),
     models: &[HOUSE, CRATE],
@@ -34,7 +34,7 @@ pub(super) static EXERCISES: Lesson = Lesson {
                 Choice { value: "2", label: words("2: window to pixels", "2：窗口到像素") },
                 Choice {
                     value: "10",
-                    label: words("10: a camera that looks down", "10：向下看的相机"),
+                    label: words("10: a camera looking down", "10：向下看的相机"),
                 },
                 Choice {
                     value: "11", label: words("11: f(t) of a segment", "11：线段的 f(t)")
@@ -43,7 +43,8 @@ pub(super) static EXERCISES: Lesson = Lesson {
         ),
         number("t", words("t, for exercise 11", "t，用于习题 11"), "", [0.0, 1.0], [0.01, 0.5]),
     ],
-    // The corner (r, t, n) of exercise 7 in the world: eye (0, 2, 12), window 2 and 1.25 on n = −4.
+    // The corner (r, t, n) of exercise 7 in the world, with the eye at (0, 2, 12) and a window with
+    // r = 2 and t = 1.25 on n = −4.
     pin: [2.0, 3.25, 8.0],
     conventions: ApiConventions::Chapter,
     describe: |values| match values.choice("exercise") {
@@ -74,7 +75,7 @@ pub(super) static EXERCISES: Lesson = Lesson {
     ..Lesson::USUAL
 };
 
-/// The model of exercise 10: a cube whose top is at y = 1.
+/// The model in exercise 10: a cube whose top is at y = 1.
 const CRATE: &str = "models/crate.glb";
 
 fn straight_ahead(projection: ProjectionFile) -> LessonScene {
@@ -82,7 +83,7 @@ fn straight_ahead(projection: ProjectionFile) -> LessonScene {
     model_scene(HOUSE, camera.with_projection(projection))
 }
 
-/// Text at the end of a leader line.
+/// Returns text at the end of a leader line.
 fn label(at: [f64; 3], text: &str) -> OverlayFile {
     OverlayFile::Label {
         at: at.into(),
@@ -117,7 +118,7 @@ fn exercise_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
             )]
         }
         "10" => vec![sentence(
-            "w = (0, 1, 0), u = t × w = (0, 0, 1), v = w × u = (1, 0, 0): x of the world points up in the picture, z to the right.",
+            "w = (0, 1, 0), u = t × w = (0, 0, 1), v = w × u = (1, 0, 0): in the picture, the x axis of the world points up and the z axis points to the right.",
             "w = (0, 1, 0)，u = t × w = (0, 0, 1)，v = w × u = (1, 0, 0)：世界的 x 轴在图像中向上，z 轴向右。",
         )],
         "11" => {
@@ -130,7 +131,7 @@ fn exercise_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
             let (start, end) = (decimals(start, 2), decimals(end, 2));
             vec![sentence(
                 format!(
-                    "w is {start} at a and {end} at b: the point at {t} of the segment has its image at f(t) = {image} of the segment's image."
+                    "w is {start} at a and {end} at b. The image of the point at {t} of the segment is at f(t) = {image} of the segment's image."
                 ),
                 format!(
                     "a 处 w 为 {start}，b 处 w 为 {end}：线段上 {t} 处的点，其像位于线段的像的 f(t) = {image} 处。"
@@ -139,7 +140,7 @@ fn exercise_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
         }
         _ => vec![sentence(
             format!(
-                "The corner (r, t, n) of the window maps to (1, 1, 1), and to the upper right corner of the picture: ({}, {}).",
+                "The corner (r, t, n) of the window maps to (1, 1, 1) and to the upper right corner of the picture: ({}, {}).",
                 decimals(width - 0.5, 1),
                 decimals(height - 0.5, 1)
             ),

@@ -6,17 +6,17 @@ use crate::lesson_scene::model_scene;
 use crate::words::{Sentence, sentence, words};
 use scene_file::file::{CameraFile, ProjectionFile};
 
-/// A floor that passes under the eye.
+/// A floor that extends under the eye.
 const FLOOR: &str = "models/floor.glb";
 
-/// C36: the tear that results if the divide by w precedes clipping.
+/// C36: the tearing that results if the divide by w precedes clipping.
 pub(super) static TEAR: Lesson = Lesson {
     id: "tear",
     source: Source::Chapter,
     items: &["C36", "C54"],
     title: words("Clip before the divide", "先裁剪，后做透视除法"),
     statement: words(
-        "Behind the eye w is negative. Divided by it, a point comes out upside down and in front, and a triangle with corners on both sides is torn through infinity. So clipping comes first, where w is still a coordinate.",
+        "Behind the eye w is negative. A point divided by it appears upside down and in front of the eye, and a triangle with corners on both sides is torn through infinity. So clip first, while w is still a coordinate.",
         "视点之后 w 为负。除以它，点会上下颠倒，出现在前方；两侧都有顶点的三角形会被撕裂到无穷远。所以先裁剪，这时 w 还是一个坐标。",
     ),
     models: &[FLOOR],
@@ -65,11 +65,11 @@ fn tear_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
     )];
     sentences.push(match values.choice("order") {
         "divide" => sentence(
-            "Divided first, they land in empty space: the view volume pane shows what would be drawn.",
+            "If divided first, they end up in empty space: the view volume pane shows what would be drawn.",
             "如果先做透视除法，它们会落到本来没有东西的地方：视见体窗格显示会画出什么。",
         ),
         _ => sentence(
-            "Clipped first, every corner that is left has w > 0.",
+            "If clipped first, every remaining corner has w > 0.",
             "先裁剪，剩下的每个顶点都有 w > 0。",
         ),
     });

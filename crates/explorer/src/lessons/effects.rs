@@ -1,15 +1,16 @@
-//! Sentences that several lessons share: distortion by a different aspect ratio, clipping planes.
+//! Sentences shared by several lessons: distortion by a different aspect ratio, and clipping
+//! planes.
 
 use crate::facts::Facts;
 use crate::number_text::decimals;
 use crate::words::{Sentence, sentence};
 
-/// The distortion caused by the window's shape, if any.
+/// Describes the distortion caused by the window's shape, if any.
 pub(super) fn distortion(facts: &Facts) -> Option<Sentence> {
     let stretch = facts.picture_aspect() / facts.window_aspect()?;
     if (stretch - 1.0).abs() < 5e-3 {
         return Some(sentence(
-            "The window has the shape of the picture: nothing is distorted.",
+            "The window and the picture have the same shape, so nothing is distorted.",
             "窗口与图像的宽高比相同：没有变形。",
         ));
     }
@@ -18,7 +19,7 @@ pub(super) fn distortion(facts: &Facts) -> Option<Sentence> {
     let stretch = decimals(stretch, 2);
     Some(sentence(
         format!(
-            "The window is {window} : 1 and the picture {picture} : 1: everything is {stretch} \
+            "The window is {window} : 1 but the picture is {picture} : 1, so everything is {stretch} \
              times as wide as it should be."
         ),
         format!(
@@ -27,7 +28,7 @@ pub(super) fn distortion(facts: &Facts) -> Option<Sentence> {
     ))
 }
 
-/// The parts of the model that the near and the far plane cut off.
+/// Describes the parts of the model that the near and far planes clip.
 pub(super) fn planes_only_clip(facts: &Facts) -> Vec<Sentence> {
     let (Some([nearest, farthest]), [Some(near), Some(far)]) = (facts.model_range, facts.planes)
     else {
@@ -38,23 +39,25 @@ pub(super) fn planes_only_clip(facts: &Facts) -> Vec<Sentence> {
     let mut all = Vec::new();
     if near > farthest {
         all.push(sentence(
-            format!("near {near_text}: the whole model is before the near plane and cut off."),
+            format!(
+                "near {near_text}: the whole model is in front of the near plane and is clipped."
+            ),
             format!("近平面 {near_text}：整个模型都在近平面之前，全部被裁掉。"),
         ));
     } else if near > nearest {
         all.push(sentence(
-            format!("near {near_text}: the front corner, at distance {nearest_text}, is cut off."),
+            format!("near {near_text}: the front corner, at distance {nearest_text}, is clipped."),
             format!("近平面 {near_text}：距离 {nearest_text} 处的前角被裁掉。"),
         ));
     }
     if far < nearest {
         all.push(sentence(
-            format!("far {far_text}: the whole model is behind the far plane and cut off."),
+            format!("far {far_text}: the whole model is behind the far plane and is clipped."),
             format!("远平面 {far_text}：整个模型都在远平面之后，全部被裁掉。"),
         ));
     } else if far < farthest {
         all.push(sentence(
-            format!("far {far_text}: the back, as far as {farthest_text}, is cut off."),
+            format!("far {far_text}: the back, at distances up to {farthest_text}, is clipped."),
             format!("远平面 {far_text}：最远到 {farthest_text} 的后部被裁掉。"),
         ));
     }

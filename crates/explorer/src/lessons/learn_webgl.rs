@@ -1,4 +1,4 @@
-//! The lessons of *Learn WebGL* on projections: perspective, frustum, ortho.
+//! Lessons from *Learn WebGL* on projections: perspective, frustum and ortho.
 
 use super::effects::{distortion, planes_only_clip};
 use super::{HOUSE, PARALLEL_PANES};
@@ -9,13 +9,13 @@ use crate::number_text::{decimals, scene_number};
 use crate::words::{Sentence, sentence, words};
 use scene_file::file::{CameraFile, InvalidNumber, ProjectionFile};
 
-/// C62: the field of view magnifies, a wrong aspect ratio distorts, near and far only clip.
+/// C62: the field of view magnifies, a wrong aspect ratio distorts, and near and far only clip.
 pub(super) static PERSPECTIVE: Lesson = Lesson {
     id: "perspective",
     items: &["C61", "C62", "C70", "C92", "C94"],
     title: words("Perspective", "透视投影"),
     statement: words(
-        "A smaller field of view enlarges. An aspect ratio that is not the picture's distorts. The near and far planes only clip: they move nothing.",
+        "A smaller field of view enlarges. An aspect ratio that differs from the picture's distorts. The near and far planes only clip and do not move anything.",
         "视场角越小，物体越大。宽高比与图像不一致时，物体会变形。近平面和远平面只裁剪，不移动任何物体。",
     ),
     parameters: &[
@@ -46,8 +46,8 @@ pub(super) static PERSPECTIVE: Lesson = Lesson {
     ..Lesson::USUAL
 };
 
-/// A perspective by its angle, through a window of another shape if the aspect ratio does not match
-/// the picture.
+/// Returns a perspective with a field of view. If the aspect ratio does not match the picture, the
+/// window has a different shape.
 fn perspective(values: &Values<'_>) -> Result<ProjectionFile, InvalidNumber> {
     let [fov, aspect, near] = ["fov", "aspect", "near"].map(|key| values.number(key));
     let planes = values.scene_numbers(PLANES);
@@ -60,13 +60,13 @@ fn perspective(values: &Values<'_>) -> Result<ProjectionFile, InvalidNumber> {
     ProjectionFile::frustum([-r, r, -t, t], planes)
 }
 
-/// C63, C64: the window stays, so near changes the angle; the moving apex (M12).
+/// C63, C64: the window keeps its size, so near changes the angle; the moving apex (M12).
 pub(super) static FRUSTUM: Lesson = Lesson {
     id: "frustum",
     items: &["C63", "C64", "C66", "M12"],
     title: words("Frustum", "视锥体（frustum）"),
     statement: words(
-        "The window on the near plane keeps its size, so the distance of the near plane changes the lens angle; the far plane only clips. Left, right, bottom and top move the window. The lesson's createFrustum moves the apex behind the window's center instead of shearing the volume: another picture unless the window is centered.",
+        "The window on the near plane keeps its size, so the distance of the near plane changes the lens angle, while the far plane only clips. Left, right, bottom and top move the window. The lesson's createFrustum moves the apex behind the window's center instead of shearing the volume, so the picture differs unless the window is centered.",
         "近平面上的窗口大小不变，所以近平面的距离会改变视场角；远平面只裁剪。左、右、下、上移动窗口。教程中的 createFrustum 把顶点移到窗口中心的正后方，而不是对视锥体作错切：除非窗口居中，否则图像不同。",
     ),
     parameters: &[
@@ -82,7 +82,7 @@ pub(super) static FRUSTUM: Lesson = Lesson {
             &[
                 Choice {
                     value: "eye",
-                    label: words("in the eye (glFrustum)", "在视点（glFrustum）"),
+                    label: words("at the eye (glFrustum)", "在视点（glFrustum）"),
                 },
                 Choice {
                     value: "moved",
@@ -127,15 +127,15 @@ fn frustum_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
     let [x, y] = center.map(scene_number);
     all.push(match (values.choice("apex"), is_centered) {
         (_, true) => sentence(
-            "The window is centered on the line of sight: both kinds of frustum are the same.",
+            "The window is centered on the line of sight, so both kinds of frustum are the same.",
             "窗口以视线为中心：两种视锥体完全相同。",
         ),
         ("moved", false) => sentence(
-            format!("The apex has moved to ({x}, {y}), right behind the window's center: the eye is not where the camera is, and the picture agrees with glFrustum's only on the near plane."),
+            format!("The apex has moved to ({x}, {y}), directly behind the window's center. The eye is no longer at the camera, and the picture matches glFrustum only on the near plane."),
             format!("顶点移到了窗口中心正后方的 ({x}, {y})：视点不在相机处，图像只在近平面上与 glFrustum 一致。"),
         ),
         _ => sentence(
-            format!("The window's center is at ({x}, {y}), beside the line of sight: the volume is sheared, and the apex stays in the eye."),
+            format!("The window's center is at ({x}, {y}), off the line of sight, so the volume is sheared and the apex stays at the eye."),
             format!("窗口中心在 ({x}, {y})，偏离视线：视锥体经过错切，顶点仍在视点。"),
         ),
     });
@@ -150,7 +150,7 @@ pub(super) static ORTHO: Lesson = Lesson {
     items: &["C90", "C94"],
     title: words("Orthographic projection", "正交投影"),
     statement: words(
-        "A box of the world is shown without foreshortening: an object twice as far away looks as large. A smaller window enlarges; near and far only clip, and near may even be behind the camera.",
+        "A box in the world is shown without foreshortening: an object twice as far away has the same size. A smaller window enlarges. Near and far only clip, and near may even be behind the camera.",
         "长方体视见体中的物体没有近大远小：远一倍的物体同样大。窗口越小，物体越大；近平面和远平面只裁剪，近平面甚至可以在相机后面。",
     ),
     parameters: &[

@@ -1,4 +1,4 @@
-//! The lessons of *Learn WebGL* on eyes, viewports, the mouse and depth.
+//! Lessons from *Learn WebGL* on stereo, viewports, the mouse and depth.
 
 use super::effects::{distortion, planes_only_clip};
 use super::{ALL_PANES, HOUSE};
@@ -20,11 +20,11 @@ pub(super) static STEREO: Lesson = Lesson {
     items: &["C65"],
     title: words("Stereo pair", "立体像对"),
     statement: words(
-        "Two eyes look in one direction through off-axis windows that agree at the convergence distance. A point there has no parallax; a nearer one appears out of the picture. The eyes are not turned towards each other, and the apex is not moved: both would give vertical parallax or another picture.",
+        "Two eyes look in the same direction through off-axis windows that coincide at the convergence distance. A point at that distance has no parallax; a nearer point appears in front of the picture. The eyes are not turned toward each other, and the apex is not moved, because that would cause vertical parallax or a different picture.",
         "两只眼睛朝同一方向，透过在会聚距离上重合的离轴窗口观看。会聚距离处没有视差；更近的物体凸出画面。眼睛不向内转动，也不移动顶点：那样会产生垂直视差或不同的图像。",
     ),
     parameters: &[
-        number("eyes", words("distance of the eyes", "两眼间距"), "", [0.02, 1.5], [0.02, 0.6]),
+        number("eyes", words("eye separation", "两眼间距"), "", [0.02, 1.5], [0.02, 0.6]),
         number(
             "convergence",
             words("convergence distance", "会聚距离"),
@@ -58,8 +58,8 @@ pub(super) static STEREO: Lesson = Lesson {
 fn stereo_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
     let Some([nearest, farthest]) = facts.model_range else { return Vec::new() };
     let [eyes, convergence] = ["eyes", "convergence"].map(|key| values.number(key));
-    // On the plane of convergence, the image of a point at distance D is e (1 − c / D) farther
-    // right for the right eye.
+    // On the plane of convergence, the right eye's image of a point at distance D is e (1 − c / D)
+    // farther to the right.
     let parallax = |distance: f64| eyes * (1.0 - convergence / distance);
     let sentence_for = |distance: f64, what: [&str; 2]| {
         let (shift, text) = (parallax(distance), decimals(distance, 2));
@@ -67,14 +67,14 @@ fn stereo_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
         match shift < 0.0 {
             true => sentence(
                 format!(
-                    "{} (distance {text}): crossed parallax {amount}, it appears in front of the picture.",
+                    "{} (distance {text}): crossed parallax {amount}, so it appears in front of the picture.",
                     what[0]
                 ),
                 format!("{}（距离 {text}）：交叉视差 {amount}，凸出画面。", what[1]),
             ),
             false => sentence(
                 format!(
-                    "{} (distance {text}): parallax {amount}, it appears behind the picture.",
+                    "{} (distance {text}): parallax {amount}, so it appears behind the picture.",
                     what[0]
                 ),
                 format!("{}（距离 {text}）：视差 {amount}，位于画面之后。", what[1]),
@@ -93,7 +93,7 @@ pub(super) static VIEWPORT: Lesson = Lesson {
     items: &["C59", "C99"],
     title: words("Viewport", "视口"),
     statement: words(
-        "The viewport transform maps x and y from −1 … 1 to a rectangle of the picture, as glViewport(x, y, width, height) does; y counts from the bottom. A rectangle of another shape than the window distorts.",
+        "The viewport transform maps x and y from −1 … 1 to a rectangle of the picture, like glViewport(x, y, width, height), where y is counted from the bottom. A rectangle whose shape differs from the window distorts.",
         "视口变换把 −1 … 1 的 x、y 映射到图像中的一个矩形，如 glViewport(x, y, width, height)；y 自下而上数。矩形与窗口的宽高比不同时，物体会变形。",
     ),
     parameters: &[
@@ -128,13 +128,14 @@ pub(super) static VIEWPORT: Lesson = Lesson {
     ..Lesson::USUAL
 };
 
-/// The rectangle in fractions of the picture, from its lower left corner, clamped to the borders.
+/// Returns the rectangle in fractions of the picture, from the lower left corner, clamped to the
+/// borders.
 fn viewport_rectangle(values: &Values<'_>) -> [f64; 4] {
     let [x, y, width, height] = ["x", "y", "width", "height"].map(|key| values.number(key) / 100.0);
     [x, y, width.min(1.0 - x), height.min(1.0 - y)]
 }
 
-/// A viewport with a border.
+/// Returns a viewport with a border.
 pub(super) fn framed_viewport(
     at: [f64; 4],
     projection: ProjectionFile,
@@ -148,11 +149,11 @@ pub(super) fn framed_viewport(
     })
 }
 
-/// The remark on a scene that shows models only in its viewports.
+/// The remark for a scene that shows models only in its viewports.
 pub(super) const AROUND_VIEWPORTS: &str =
-    ": the scene's own camera looks away, so that only the viewport shows the model";
+    ": the main camera looks away, so that only the viewport shows the model";
 
-/// A scene that shows models only in its viewports.
+/// Returns a scene that shows models only in its viewports.
 pub(super) fn around_viewports(viewports: Vec<ViewportFile>) -> LessonScene {
     let camera = CameraFile::look_to([0.0, 0.0, 100.0], [0.0, 0.0, 1.0]);
     let projection = ProjectionFile::perspective(35.0, [1.0, 2.0])?;
@@ -165,14 +166,14 @@ pub(super) static PICKING: Lesson = Lesson {
     items: &["C26", "C97"],
     title: words("Picking", "拾取"),
     statement: words(
-        "A pixel goes back: to −1 … 1, then by the inverse matrix to a point on the near plane and one on the far plane, divided by w. The line through both is the line of sight; the first triangle on it is what is picked.",
+        "A pixel is mapped back to −1 … 1, and then by the inverse matrix and a divide by w to a point on the near plane and a point on the far plane. The line through both is the line of sight, and the first triangle on it is picked.",
         "像素沿观察流水线返回：先映射到 −1 … 1，再用逆矩阵求出近平面和远平面上的点，并除以 w。过这两点的直线就是拾取射线；射线上的第一个三角形就是被拾取的物体。",
     ),
     parameters: &[
-        number("x", words("x of the mouse", "鼠标 x"), "%", [0.0, 100.0], [0.5, 50.0]),
+        number("x", words("mouse x", "鼠标 x"), "%", [0.0, 100.0], [0.5, 50.0]),
         number(
             "y",
-            words("y of the mouse, from the top", "鼠标 y（自上而下）"),
+            words("mouse y, from the top", "鼠标 y（自上而下）"),
             "%",
             [0.0, 100.0],
             [0.5, 60.0],
@@ -200,7 +201,7 @@ pub(super) static PICKING: Lesson = Lesson {
             Some(hit) => {
                 let hit = text(hit.into());
                 sentence(
-                    format!("It first meets the model at {hit}."),
+                    format!("It first hits the model at {hit}."),
                     format!("它首先在 {hit} 处与模型相交。"),
                 )
             }
@@ -212,13 +213,13 @@ pub(super) static PICKING: Lesson = Lesson {
     ..Lesson::USUAL
 };
 
-/// C67, C68: how distance becomes depth.
+/// C67, C68: depth as a function of distance.
 pub(super) static DEPTH_TABLE: Lesson = Lesson {
     id: "depth-table",
     items: &["C67", "C68"],
     title: words("Depth after the divide", "透视除法之后的深度"),
     statement: words(
-        "Depth is not linear in distance: z = c₁/D + c₂ with c₁ = 2FN/(N − F), c₂ = (F + N)/(F − N). Half of its range is spent on the distances from N to 2FN/(F + N). Moving the near plane out helps; moving the far plane in hardly does.",
+        "Depth is not linear in distance: z = c₁/D + c₂ with c₁ = 2FN/(N − F), c₂ = (F + N)/(F − N). Half of its range is used for distances from N to 2FN/(F + N). Moving the near plane out helps; moving the far plane in hardly makes a difference.",
         "深度与距离不是线性关系：z = c₁/D + c₂，c₁ = 2FN/(N − F)，c₂ = (F + N)/(F − N)。一半的深度范围用在 N 到 2FN/(F + N) 的距离上。把近平面移远有用；把远平面移近几乎无用。",
     ),
     parameters: &[
@@ -234,7 +235,7 @@ pub(super) static DEPTH_TABLE: Lesson = Lesson {
         let half = decimals(2.0 * far * near / (far + near), 4);
         let mut all = vec![sentence(
             format!(
-                "Depth 0, half of the range, is at distance {half}; the far plane is at {far}."
+                "Depth 0, the middle of the range, is at distance {half}; the far plane is at {far}."
             ),
             format!("深度 0（一半的范围）在距离 {half} 处；远平面在 {far} 处。"),
         )];
@@ -245,13 +246,13 @@ pub(super) static DEPTH_TABLE: Lesson = Lesson {
     ..Lesson::USUAL
 };
 
-/// The part of the depth range that the model occupies.
+/// Describes the part of the depth range that the model occupies.
 fn used_depths(facts: &Facts) -> Option<Sentence> {
     let [near, far] = facts.model_range?;
     let [low, high] = [facts.depth_at(near)?, facts.depth_at(far)?];
     let percent = decimals(50.0 * (low.min(1.0) - high.max(-1.0)), 1);
     Some(sentence(
-        format!("The model takes {percent} % of the depth range."),
+        format!("The model occupies {percent}% of the depth range."),
         format!("模型占用了 {percent} % 的深度范围。"),
     ))
 }

@@ -1,4 +1,4 @@
-//! The lesson for any model.
+//! The lesson for the user's own model.
 
 use crate::facts::Facts;
 use crate::lesson::{Choice, Lesson, Source, choice, number};
@@ -7,13 +7,13 @@ use crate::number_text::decimals;
 use crate::words::{Sentence, sentence, words};
 use scene_file::file::{EnvironmentFile, ProjectionFile, StyleFile};
 
-/// The user's own model, with any projection.
+/// The user's own model in any projection.
 pub(super) static MODEL: Lesson = Lesson {
     id: "model",
     source: Source::Own,
     title: words("Your own model", "自己的模型"),
     statement: words(
-        "Any model by any projection: what holds for the house holds for it too.",
+        "Any model in any projection: everything that holds for the house also holds for your model.",
         "任何模型都可以用任何投影来看：对房子成立的，对它也成立。",
     ),
     models: &[],
@@ -54,7 +54,7 @@ pub(super) static MODEL: Lesson = Lesson {
             _ => ProjectionFile::perspective(fov, None)?,
         };
         let angles = ["azimuth", "elevation"].map(|key| values.number(key));
-        // Classical projections have their own direction.
+        // Classical projections determine their direction.
         let from = (!projection.is_classical()).then_some(angles);
         let mut scene =
             model_scene(values.model.unwrap_or_default(), framed(projection, 5.0, from)?)?;
@@ -67,7 +67,7 @@ pub(super) static MODEL: Lesson = Lesson {
     ..Lesson::USUAL
 };
 
-/// Size and distance of the model.
+/// Describes the size and distance of the model.
 pub(super) fn describe_model(facts: &Facts) -> Vec<Sentence> {
     let count = facts.triangles[0];
     let mut all = vec![sentence(
@@ -77,14 +77,16 @@ pub(super) fn describe_model(facts: &Facts) -> Vec<Sentence> {
     if facts.loaded.models.triangles.is_reduced() {
         let drawn = facts.loaded.models.triangles.drawn().len();
         all.push(sentence(
-            format!("The world and the view volume show {drawn} triangles of the same shape."),
+            format!(
+                "The world and view volume panes show a simplified model with {drawn} triangles."
+            ),
             format!("世界窗格和视见体窗格用形状相同的 {drawn} 个三角形显示。"),
         ));
     }
     if let Some([near, far]) = facts.model_range {
         let [near, far] = [near, far].map(|distance| decimals(distance, 3));
         all.push(sentence(
-            format!("It is {near} to {far} ahead of the camera."),
+            format!("It is {near} to {far} in front of the camera."),
             format!("它在相机前方 {near} 到 {far} 处。"),
         ));
     }

@@ -1,4 +1,4 @@
-//! The lesson for any scene file.
+//! The lesson for the user's own scene file.
 
 use crate::lesson::{Lesson, Source};
 use crate::lessons::own_model;
@@ -10,7 +10,7 @@ pub(super) static SCENE: Lesson = Lesson {
     source: Source::Own,
     title: words("Your own scene", "自己的场景"),
     statement: words(
-        "Any scene file with its own camera, lights and style: what its view volume holds, and the way of its points.",
+        "Any scene file with its own camera, lights and style: the contents of its view volume, and the path of its points through the pipeline.",
         "任何场景文件，连同它自己的相机、光源和样式：它的视见体包含什么，其中的点经过哪些变换。",
     ),
     models: &[],

@@ -1,4 +1,4 @@
-//! The lessons of the slides on normalization, window and viewport, and height fields.
+//! Lessons from the slides on normalization, window and viewport, and height fields.
 
 use super::learn_webgl_screen::{AROUND_VIEWPORTS, around_viewports, framed_viewport};
 use super::{ALL_PANES, HOUSE};
@@ -20,13 +20,13 @@ pub(super) static NORMALIZATION: Lesson = Lesson {
     items: &["C87", "C88", "C89"],
     title: words("Normalization", "投影规范化"),
     statement: words(
-        "Any frustum becomes the canonical view volume in three steps: a shear puts the center line on −z, a scale makes the sides x = ±z and y = ±z, and the perspective matrix makes it a cube. One clipper then serves every projection.",
+        "Any frustum becomes the canonical view volume in three steps: a shear moves the center line to −z, a scale changes the sides to x = ±z and y = ±z, and the perspective matrix turns it into a cube. A single clipper then serves every projection.",
         "任何视锥体都可以分三步变成规范视见体：错切把中心线移到 −z 上，缩放使侧面成为 x = ±z、y = ±z，透视矩阵再把它变成立方体。这样一个裁剪程序就能用于所有投影。",
     ),
     parameters: &[
         choice(
             "step",
-            words("steps done", "完成的步骤"),
+            words("completed steps", "完成的步骤"),
             &[
                 Choice {
                     value: "3",
@@ -75,13 +75,13 @@ pub(super) static NORMALIZATION: Lesson = Lesson {
     ..USUAL
 };
 
-/// WV-1, WV-2: stretched, or at a single scale with bars beside it.
+/// WV-1, WV-2: stretched, or at a single scale with bars at the sides.
 pub(super) static WINDOW_VIEWPORT: Lesson = Lesson {
     id: "window-viewport",
     items: &["C95", "C96"],
     title: words("Window to viewport", "窗口到视口的变换"),
     statement: words(
-        "The window of the world is moved to the origin, scaled by sx and sy, and moved to the viewport: T · S · T. With sx = sy shapes are kept; a viewport of another shape then has bars (letterbox) or is not filled.",
+        "The window in the world is moved to the origin, scaled by sx and sy, and moved to the viewport: T · S · T. With sx = sy shapes are preserved, but a viewport with a different shape has bars (letterbox).",
         "世界窗口先平移到原点，再按 sx、sy 缩放，然后平移到视口：T · S · T。sx = sy 时形状不变；视口形状不同时会留边（letterbox）。",
     ),
     parameters: &[
@@ -98,28 +98,10 @@ pub(super) static WINDOW_VIEWPORT: Lesson = Lesson {
                 },
             ],
         ),
-        number(
-            "window_width",
-            words("width of the window", "窗口宽"),
-            "",
-            [4.0, 16.0],
-            [0.1, 10.0],
-        ),
-        number(
-            "window_height",
-            words("height of the window", "窗口高"),
-            "",
-            [4.0, 12.0],
-            [0.1, 6.0],
-        ),
-        number("width", words("width of the viewport", "视口宽"), "%", [20.0, 100.0], [1.0, 50.0]),
-        number(
-            "height",
-            words("height of the viewport", "视口高"),
-            "%",
-            [20.0, 100.0],
-            [1.0, 90.0],
-        ),
+        number("window_width", words("window width", "窗口宽"), "", [4.0, 16.0], [0.1, 10.0]),
+        number("window_height", words("window height", "窗口高"), "", [4.0, 12.0], [0.1, 6.0]),
+        number("width", words("viewport width", "视口宽"), "%", [20.0, 100.0], [1.0, 50.0]),
+        number("height", words("viewport height", "视口高"), "%", [20.0, 100.0], [1.0, 90.0]),
     ],
     describe: |values| {
         let [width, height] = ["window_width", "window_height"].map(|key| 0.5 * values.number(key));
@@ -142,11 +124,11 @@ pub(super) static WINDOW_VIEWPORT: Lesson = Lesson {
             .map(|(pixels, key)| decimals(pixels / values.number(key), 2));
         vec![match sx == sy {
             true => sentence(
-                format!("sx = sy = {sx} pixels a unit: shapes are kept."),
+                format!("sx = sy = {sx} pixels per unit: shapes are preserved."),
                 format!("sx = sy = {sx} 像素/单位：形状不变。"),
             ),
             false => sentence(
-                format!("sx = {sx} and sy = {sy} pixels a unit: shapes are distorted."),
+                format!("sx = {sx} and sy = {sy} pixels per unit: shapes are distorted."),
                 format!("sx = {sx}，sy = {sy} 像素/单位：形状改变。"),
             ),
         }]
@@ -154,14 +136,14 @@ pub(super) static WINDOW_VIEWPORT: Lesson = Lesson {
     ..USUAL
 };
 
-/// Width and height of the viewport in pixels.
+/// Returns the width and height of the viewport in pixels.
 fn viewport(values: &Values<'_>) -> [f64; 2] {
     let [width, height] = values.size.map(f64::from);
     [0.01 * values.number("width") * width, 0.01 * values.number("height") * height]
 }
 
-/// Width and height in pixels of the window's image: the viewport, or the largest rectangle in it
-/// with the window's shape.
+/// Returns the width and height in pixels of the window's image: the viewport, or the largest
+/// rectangle in it with the window's shape.
 fn shown_pixels(values: &Values<'_>) -> [f64; 2] {
     let viewport = viewport(values);
     if values.choice("fit") == "stretch" {
@@ -178,7 +160,7 @@ pub(super) static MEXICAN_HAT: Lesson = Lesson {
     items: &["C98"],
     title: words("Mexican hat", "墨西哥帽"),
     statement: words(
-        "The indices of a grid are a window too: i from 0 to n − 1 maps to x = 2 i/(n − 1) − 1 from −1 to 1, and the height over each point makes a mesh.",
+        "The indices of a grid are also a window: i from 0 to n − 1 maps to x = 2 i/(n − 1) − 1 from −1 to 1. The heights of the points form a mesh.",
         "网格的下标也构成一个窗口：i 从 0 到 n − 1 映为 x = 2 i/(n − 1) − 1，从 −1 到 1；每个点上的高度构成网格曲面。",
     ),
     models: &[HAT, HAT_LINES],
@@ -220,7 +202,7 @@ pub(super) static MEXICAN_HAT: Lesson = Lesson {
     },
     consequences: |_, _| {
         vec![sentence(
-            "The grid has 49 × 49 points: i = 0, 24, 48 go to x = −1, 0, 1; each of the 48 × 48 squares is two triangles, 4608 in all.",
+            "The grid has 49 × 49 points: i = 0, 24 and 48 map to x = −1, 0 and 1. Each of the 48 × 48 squares has two triangles, 4608 in total.",
             "网格有 49 × 49 个点：i = 0、24、48 映为 x = −1、0、1；48 × 48 个方格各分成两个三角形，共 4608 个。",
         )]
     },

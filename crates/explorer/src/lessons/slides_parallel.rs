@@ -1,4 +1,4 @@
-//! The lessons of the slides on parallel projections: multiview, axonometric, oblique.
+//! Lessons from the slides on parallel projections: multiview, axonometric and oblique.
 
 use super::PARALLEL_PANES;
 use crate::lesson::{Choice, Lesson, Source, Values, choice, number};
@@ -12,13 +12,13 @@ use scene_file::file::{CameraFile, OverlayFile, ProjectionFile, ViewportFile, Vi
 /// The settings that these lessons share.
 const USUAL: Lesson = Lesson { source: Source::Slides, panes: PARALLEL_PANES, ..Lesson::USUAL };
 
-/// MV-1 to MV-3: onto the principal planes.
+/// MV-1 to MV-3: projections onto the principal planes.
 pub(super) static MULTIVIEW: Lesson = Lesson {
     id: "multiview",
     items: &["C75"],
     title: words("Multiview projection", "三视图"),
     statement: words(
-        "Each view projects orthographically onto a principal plane: the front onto XOY leaves z out, the side onto YOZ leaves x out, the top onto ZOX leaves y out. Faces parallel to the plane keep their true shape; no single view shows the whole.",
+        "Each view projects orthographically onto a principal plane: the front onto XOY drops z, the side onto YOZ drops x, and the top onto ZOX drops y. Faces parallel to the plane keep their true shape, but no single view shows everything.",
         "每个视图都正交投影到一个坐标平面：主视图投影到 XOY 面，去掉 z；侧视图投影到 YOZ 面，去掉 x；俯视图投影到 ZOX 面，去掉 y。平行于投影平面的面保持真实形状；单个视图不能表示整个物体。",
     ),
     parameters: &[choice(
@@ -49,7 +49,7 @@ pub(super) static MULTIVIEW: Lesson = Lesson {
             "top" => [("x", "z", "y")],
             _ => {
                 return vec![sentence(
-                    "The views are at one scale: widths agree between front and top, heights between front and side.",
+                    "The views have the same scale: widths match between front and top, and heights match between front and side.",
                     "各视图比例相同：主、俯视图长对正，主、侧视图高平齐。",
                 )];
             }
@@ -57,7 +57,7 @@ pub(super) static MULTIVIEW: Lesson = Lesson {
         let [(a, b, lost)] = lost;
         vec![sentence(
             format!(
-                "{a} and {b} are in true length; every point loses its {lost}, so the matrix is singular."
+                "{a} and {b} have true length; every point loses its {lost}, so the matrix is singular."
             ),
             format!("{a} 和 {b} 为真实长度；每个点都失去了 {lost}，所以矩阵是奇异的。"),
         )]
@@ -65,7 +65,7 @@ pub(super) static MULTIVIEW: Lesson = Lesson {
     ..USUAL
 };
 
-/// Front, top, side and an isometric view at one scale.
+/// Returns front, top, side and isometric views at the same scale.
 fn four_views() -> LessonScene {
     let view = |[left, top]: [f64; 2], projection: ProjectionFile, caption: &str| {
         Ok(ViewportFile {
@@ -92,7 +92,7 @@ pub(super) static AXONOMETRIC: Lesson = Lesson {
     items: &["C76"],
     title: words("Axonometric projection", "轴测投影"),
     statement: words(
-        "The object is turned by α about y and tilted by β about x, then projected orthographically: all three axes show. Equal foreshortening of three axes is isometric, of two dimetric, of none trimetric; the squares of the factors always sum to 2.",
+        "The object is rotated by α about y and tilted by β about x, and then projected orthographically, so all three axes are visible. If all three axes have equal foreshortening the projection is isometric, if two do it is dimetric, and otherwise it is trimetric. The squares of the factors always sum to 2.",
         "物体先绕 y 轴旋转 α，再绕 x 轴旋转 β，然后正交投影：三个轴都可见。三个轴向伸缩系数相等为正等测，两个相等为正二测，都不等为正三测；系数的平方和恒为 2。",
     ),
     parameters: &[
@@ -101,7 +101,8 @@ pub(super) static AXONOMETRIC: Lesson = Lesson {
     ],
     describe: |values| {
         let [alpha, beta] = ["alpha", "beta"].map(|key| values.number(key));
-        // Straight from above, the direction does not determine which way is up in the picture.
+        // Seen directly from above, the direction does not determine which way is up in the
+        // picture.
         let from = Some([alpha, beta.min(89.9)]);
         let camera = framed(ProjectionFile::ORTHOGRAPHIC, 10.0, from)?;
         Ok(SceneFile { camera, ..with_axes(ProjectionFile::ORTHOGRAPHIC)? })
@@ -110,7 +111,7 @@ pub(super) static AXONOMETRIC: Lesson = Lesson {
     ..USUAL
 };
 
-/// The house as a line drawing, with the axes of the world.
+/// Returns the house as a line drawing with the world axes.
 fn with_axes(projection: ProjectionFile) -> LessonScene {
     let axes = OverlayFile::Axes { length: Some(5.0.try_into()?) };
     Ok(SceneFile { overlays: vec![axes], ..line_drawing(projection, 10.0)? })
@@ -145,13 +146,13 @@ pub(super) static OBLIQUE: Lesson = Lesson {
     items: &["C77", "C78"],
     title: words("Oblique projection", "斜投影"),
     statement: words(
-        "The projectors are parallel to each other, but not perpendicular to the picture: the front keeps its true shape, and depth recedes at the angle φ with the length L₁ = cot α. Cavalier has L₁ = 1, cabinet ½; L₁ = 0 is orthographic.",
+        "The projectors are parallel to each other but not perpendicular to the picture. The front keeps its true shape, and depth recedes at angle φ with length L₁ = cot α. L₁ is 1 in a cavalier projection, ½ in a cabinet projection, and 0 in an orthographic projection.",
         "投影线互相平行但不垂直于投影平面：正面保持真实形状，深度沿角 φ 方向以长度 L₁ = cot α 画出。斜等测 L₁ = 1，斜二测 L₁ = ½；L₁ = 0 就是正交投影。",
     ),
     parameters: &[
         number(
             "length",
-            words("L₁, drawn length of depth", "L₁，单位深度画出的长度"),
+            words("L₁, drawn length per unit of depth", "L₁，单位深度画出的长度"),
             "",
             [0.0, 1.5],
             [0.01, 1.0],

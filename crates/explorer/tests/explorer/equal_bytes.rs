@@ -1,4 +1,4 @@
-//! Identical bytes: from bands and the whole picture, from PNG and the scene renderer, from two
+//! Identical bytes from bands and whole pictures, from PNG and the scene renderer, and from two
 //! explorers.
 
 use super::{explorer_with_models, json, lessons, scenes_folder};
@@ -6,7 +6,7 @@ use explorer::Explorer;
 use pipeline::{Origin, Scene};
 
 #[test]
-fn bands_are_parts_of_the_whole() {
+fn bands_match_the_whole_picture() {
     let mut explorer = explorer_with_models();
     for (what, state) in [
         ("picture", "lesson=frustum"),
@@ -28,7 +28,7 @@ fn bands_are_parts_of_the_whole() {
 /// A saved picture has the same bytes as `alberti render` with the displayed scene file, which is
 /// formatted as by `alberti scene fmt` and has no lints.
 #[test]
-fn a_png_is_that_of_the_scene_file() {
+fn a_png_matches_the_rendered_scene_file() {
     let mut explorer = explorer_with_models();
     for lesson in lessons(&mut explorer).iter().filter(|lesson| lesson["models"][0].is_string()) {
         let id = lesson["id"].as_str().expect("an id");
@@ -49,9 +49,9 @@ fn a_png_is_that_of_the_scene_file() {
     }
 }
 
-/// The user's own scene file is drawn as the program draws it with the displayed flags.
+/// The user's own scene file is drawn as the program would draw it with the displayed flags.
 #[test]
-fn a_scene_file_is_drawn_as_it_is() {
+fn scene_files_are_drawn_unchanged() {
     let mut explorer = Explorer::new();
     for name in ["house.glb", "teapot.glb", "table.glb", "crate.glb"] {
         let path = format!("models/{name}");
@@ -77,7 +77,7 @@ fn a_scene_file_is_drawn_as_it_is() {
 
 /// Answers do not depend on earlier requests.
 #[test]
-fn kept_scenes_change_no_answer() {
+fn cached_scenes_do_not_change_answers() {
     let mut used = explorer_with_models();
     let queries = [
         "what=world&size=64x40&lesson=frustum&near=2",

@@ -1,4 +1,4 @@
-//! Requests that cannot be answered give errors, and the next request works.
+//! Requests that cannot be answered return errors, and the next request works.
 
 use super::{explorer_with_models, json, scenes_folder};
 use explorer::Explorer;
@@ -34,14 +34,14 @@ fn missing_models_are_reported() {
 }
 
 #[test]
-fn names_of_files_stay_in_the_folder() {
+fn file_names_outside_the_folder_are_rejected() {
     let mut explorer = Explorer::new();
     for name in ["", "/etc/passwd", "../a.glb", "a/../../b.glb"] {
         assert_eq!(explorer.add_file(name, Vec::new()).expect_err(name).code, "malformed_value");
     }
 }
 
-/// A glTF file finds its buffer in the same in-memory folder, and nothing outside it.
+/// A glTF file finds its buffer in the same in-memory folder but nothing outside it.
 #[test]
 fn companions_of_a_model_are_found() {
     let mut explorer = Explorer::new();
@@ -69,7 +69,7 @@ fn companions_of_a_model_are_found() {
 }
 
 #[test]
-fn files_that_are_replaced_are_loaded_anew() {
+fn replaced_files_are_reloaded() {
     let mut explorer = explorer_with_models();
     let read = |name: &str| std::fs::read(scenes_folder().join("models").join(name)).expect(name);
     let query = "what=state&lesson=model&model=own.glb";
@@ -80,7 +80,7 @@ fn files_that_are_replaced_are_loaded_anew() {
 }
 
 #[test]
-fn a_pixel_must_be_given_and_be_in_the_picture() {
+fn missing_and_outside_pixels_are_rejected() {
     let mut explorer = explorer_with_models();
     let query = "what=pick&lesson=frustum";
     assert_eq!(code(&mut explorer, query), "malformed_query");
@@ -88,9 +88,9 @@ fn a_pixel_must_be_given_and_be_in_the_picture() {
     assert_eq!(code(&mut explorer, query), "nothing_there");
 }
 
-/// Queries with changed bytes are answered or rejected; none causes a panic.
+/// Queries with changed bytes are answered or rejected but never cause a panic.
 #[test]
-fn damaged_queries_are_answered_or_refused() {
+fn corrupted_queries_are_answered_or_rejected() {
     let mut explorer = explorer_with_models();
     let queries = [
         "what=state&v=1&lesson=frustum&near=2&pin=0,1,2&orbit=10,20",
@@ -112,7 +112,7 @@ fn damaged_queries_are_answered_or_refused() {
             let at = random(query.len());
             query[at] = b"0123456789.,-=&%ex"[random(18)];
         }
-        // A large picture takes long and shows nothing more.
+        // Large pictures are slow and add nothing to the test.
         let query = String::from_utf8(query).expect("ASCII");
         if !query.contains("size=9x7") && !query.starts_with("what=state") {
             continue;

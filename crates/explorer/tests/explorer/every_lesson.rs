@@ -1,5 +1,4 @@
-//! Every lesson: its defaults and the ends of its ranges give pictures, and its texts are in both
-//! languages.
+//! Every lesson: default and extreme values produce pictures, and all text is in both languages.
 
 use super::{explorer_with_models, json, lessons};
 use explorer::Explorer;
@@ -23,7 +22,7 @@ fn extreme_states(lesson: &Json) -> Vec<String> {
     states
 }
 
-/// The number of pixels whose color differs from the upper left pixel.
+/// Counts the pixels whose color differs from the upper left pixel.
 fn drawn_pixels(pixels: &[u8]) -> usize {
     let pixels = pixels.as_chunks::<4>().0;
     pixels.iter().filter(|pixel| **pixel != pixels[0]).count()
@@ -37,7 +36,7 @@ fn drawn(explorer: &mut Explorer, what: &str, state: &str) -> usize {
 }
 
 #[test]
-fn defaults_and_extremes_give_pictures() {
+fn default_and_extreme_values_produce_pictures() {
     let mut explorer = explorer_with_models();
     let own = std::fs::read(super::scenes_folder().join("models/teapot.glb")).expect("a teapot");
     explorer.add_file("teapot.glb", own).expect("a name");
@@ -78,7 +77,7 @@ fn defaults_and_extremes_give_pictures() {
 }
 
 #[test]
-fn every_lesson_is_a_line_drawing_too() {
+fn every_lesson_can_be_a_line_drawing() {
     let mut explorer = explorer_with_models();
     for lesson in lessons(&mut explorer).iter().filter(|lesson| lesson["models"][0].is_string()) {
         let id = lesson["id"].as_str().expect("an id");
@@ -88,7 +87,7 @@ fn every_lesson_is_a_line_drawing_too() {
     }
 }
 
-/// The text of an object in both languages: neither is empty, and the Chinese one is Chinese.
+/// Asserts that an object has text in both languages and that the Chinese text is Chinese.
 fn assert_both_languages(words: &Json, what: &str) {
     let [en, zh] = ["en", "zh"].map(|language| words[language].as_str().expect("a text"));
     assert!(!en.is_empty() && en.is_ascii() || en.chars().all(|c| !is_chinese(c)), "{what}: {en}");
@@ -100,7 +99,7 @@ fn is_chinese(c: char) -> bool {
 }
 
 #[test]
-fn texts_are_in_both_languages() {
+fn all_text_is_in_both_languages() {
     let mut explorer = explorer_with_models();
     for lesson in lessons(&mut explorer) {
         let id = lesson["id"].as_str().expect("an id");
@@ -123,7 +122,7 @@ fn texts_are_in_both_languages() {
 
 /// A slider's default and maximum are on its steps.
 #[test]
-fn sliders_can_show_their_defaults() {
+fn slider_defaults_and_maxima_are_on_steps() {
     let mut explorer = explorer_with_models();
     for lesson in lessons(&mut explorer) {
         for parameter in lesson["parameters"].as_array().expect("parameters") {

@@ -10,12 +10,12 @@ use explorer::Explorer;
 use serde_json::Value as Json;
 use std::path::{Path, PathBuf};
 
-/// The scene folder, which contains `models`.
+/// Returns the scene folder, which contains `models`.
 fn scenes_folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
 }
 
-/// An explorer with all lesson models.
+/// Creates an explorer with all lesson models.
 fn explorer_with_models() -> Explorer {
     let mut explorer = Explorer::new();
     for name in ["house", "crate", "mexican_hat", "mexican_hat_lines", "floor"] {
@@ -26,26 +26,26 @@ fn explorer_with_models() -> Explorer {
     explorer
 }
 
-/// The answer to a request, as JSON.
+/// Returns the answer to a request as JSON.
 fn json(explorer: &mut Explorer, query: &str) -> Json {
     let answer = explorer.answer(query).expect(query);
     assert_eq!(answer.content_type, "application/json");
     serde_json::from_slice(&answer.bytes).expect("JSON")
 }
 
-/// The facts of a state.
+/// Returns the facts of a state.
 fn facts(explorer: &mut Explorer, state: &str) -> Json {
     json(explorer, &format!("what=state&{state}"))["facts"].take()
 }
 
-/// The sentences of a state in English.
+/// Returns the English sentences of a state.
 fn consequences(explorer: &mut Explorer, state: &str) -> Vec<String> {
     let state = json(explorer, &format!("what=state&{state}"));
     let sentences = state["consequences"].as_array().expect("a list").iter();
     sentences.map(|sentence| sentence["en"].as_str().expect("English").to_owned()).collect()
 }
 
-/// The lessons of the catalog.
+/// Returns the lessons of the catalog.
 fn lessons(explorer: &mut Explorer) -> Vec<Json> {
     json(explorer, "what=lessons")["lessons"].as_array().expect("a list").clone()
 }

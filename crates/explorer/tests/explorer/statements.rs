@@ -1,4 +1,4 @@
-//! Checks the statements of the lessons against numbers computed here from the formulas.
+//! Checks the statements of the lessons against numbers that are computed here from the formulas.
 
 use super::{consequences, explorer_with_models, facts, json};
 use explorer::Explorer;
@@ -18,7 +18,7 @@ fn numbers(values: &Json) -> Vec<f64> {
     values.iter().map(|value| value.as_f64().expect("a number")).collect()
 }
 
-/// C64: for a fixed window the angle is 2 atan((t − b) / 2n); far changes only the clipping.
+/// C64: for a fixed window the angle is 2 atan((t − b) / 2n), and far changes only the clipping.
 #[test]
 fn near_changes_the_angle_of_a_frustum_and_far_only_clips() {
     let mut explorer = explorer_with_models();
@@ -31,7 +31,7 @@ fn near_changes_the_angle_of_a_frustum_and_far_only_clips() {
         let query = format!("what=picture&size=80x50&lesson=frustum&far={far}");
         explorer.answer(&query).expect("a picture").bytes
     };
-    // Behind the house, the far plane does not change a single pixel; within it, it clips.
+    // Behind the house, the far plane does not change a single pixel; within the house, it clips.
     let behind = picture(&mut explorer, 20.0);
     assert!(picture(&mut explorer, 60.0) == behind);
     assert!(picture(&mut explorer, 11.5) != behind);
@@ -40,8 +40,8 @@ fn near_changes_the_angle_of_a_frustum_and_far_only_clips() {
     assert_eq!(near["fov_y_degrees"], far["fov_y_degrees"]);
 }
 
-/// C64, M12: left and right move the window; the true frustum keeps its apex in the eye, the
-/// lesson's moves it to ((l + r) / 2, (b + t) / 2).
+/// C64, M12: left and right move the window. The true frustum keeps its apex at the eye; the
+/// lesson's frustum moves it to ((l + r) / 2, (b + t) / 2).
 #[test]
 fn the_apex_moves_only_in_the_lessons_own_frustum() {
     let mut explorer = explorer_with_models();
@@ -67,9 +67,9 @@ fn the_apex_moves_only_in_the_lessons_own_frustum() {
     assert!(said.iter().any(|sentence| sentence.contains("moved to (1, 0.75)")), "{said:?}");
 }
 
-/// C62: the field of view magnifies, another aspect ratio distorts, near and far only clip.
+/// C62: the field of view magnifies, a different aspect ratio distorts, and near and far only clip.
 #[test]
-fn a_small_field_of_view_enlarges_and_a_wrong_aspect_distorts() {
+fn a_small_field_of_view_enlarges_and_a_wrong_aspect_ratio_distorts() {
     let mut explorer = explorer_with_models();
     let ndc = |explorer: &mut Explorer, state: &str| {
         let state = json(explorer, &format!("what=state&lesson=perspective&{state}"));
@@ -88,7 +88,7 @@ fn a_small_field_of_view_enlarges_and_a_wrong_aspect_distorts() {
     }
     let said = consequences(&mut explorer, "lesson=perspective&near=9");
     assert!(
-        said.iter().any(|all| all.contains("front corner") && all.contains("cut off")),
+        said.iter().any(|all| all.contains("front corner") && all.contains("is clipped")),
         "{said:?}"
     );
     let clipped = facts(&mut explorer, "lesson=perspective&near=9");
@@ -107,9 +107,9 @@ fn every_triangle_is_counted_once() {
     }
 }
 
-/// C65: both eyes agree on the plane of convergence, and the apex of neither moves vertically.
+/// C65: both eyes agree on the plane of convergence, and neither apex moves vertically.
 #[test]
-fn parallax_is_the_formula_of_the_off_axis_pair() {
+fn parallax_matches_the_formula_for_off_axis_pairs() {
     let mut explorer = explorer_with_models();
     let state = "lesson=stereo&eyes=0.5&convergence=10";
     let facts = facts(&mut explorer, state);
@@ -120,7 +120,7 @@ fn parallax_is_the_formula_of_the_off_axis_pair() {
     assert!(said[0].contains(&expected), "{expected}: {said:?}");
 }
 
-/// C94: a parallel projection has no apex and w stays 1; z of the planes is 1 and −1.
+/// C94: a parallel projection has no apex, w stays 1, and the planes are at z = 1 and −1.
 #[test]
 fn w_stays_1_in_an_orthographic_view() {
     let mut explorer = explorer_with_models();
@@ -134,7 +134,7 @@ fn w_stays_1_in_an_orthographic_view() {
 
 /// Exercise 7: M_per (r, t, n, 1) = (n, n, n, n), so the corner is at (1, 1, 1).
 #[test]
-fn the_corner_of_the_window_goes_to_1_1_1() {
+fn the_window_corner_maps_to_1_1_1() {
     let mut explorer = explorer_with_models();
     let state = json(&mut explorer, "what=state&lesson=exercises&exercise=7");
     for ndc in numbers(&state["journey"]["spaces"][4]["value"]) {
@@ -142,7 +142,7 @@ fn the_corner_of_the_window_goes_to_1_1_1() {
     }
 }
 
-/// C68: n = 2, f = 40: depth 0 at 80/21, and the table's ends are −1 and 1.
+/// C68: for n = 2 and f = 40, depth 0 is at 80/21, and the table ends are −1 and 1.
 #[test]
 fn half_of_the_depth_range_is_at_the_harmonic_mean() {
     let mut explorer = explorer_with_models();
@@ -158,16 +158,16 @@ fn half_of_the_depth_range_is_at_the_harmonic_mean() {
     }
 }
 
-/// PE-1: the middle of the depths maps to (n² + f²) / (n + f).
+/// PE-1: the midpoint of the depths maps to (n² + f²) / (n + f).
 #[test]
-fn the_middle_of_the_depths_moves_towards_far() {
+fn the_midpoint_of_the_depths_moves_toward_far() {
     let mut explorer = explorer_with_models();
     let said = consequences(&mut explorer, "lesson=midpoint-depth&n=-4&f=-40");
     let image = -((16.0_f64 + 1600.0) / 44.0 * 1000.0).round() / 1000.0;
     assert!(said[0].contains("z = -22") && said[0].contains(&image.to_string()), "{said:?}");
 }
 
-/// AX-1: isometric at 45° and asin(1/√3), factors √(2/3).
+/// AX-1: isometric at 45° and asin(1/√3), with factors of √(2/3).
 #[test]
 fn equal_foreshortening_is_isometric() {
     let mut explorer = explorer_with_models();
@@ -181,9 +181,9 @@ fn equal_foreshortening_is_isometric() {
     assert!(said[0].contains("trimetric"), "{said:?}");
 }
 
-/// C36: some corners are behind the eye, and everything left after clipping has w > 0.
+/// C36: some corners are behind the eye, and all remaining corners have w > 0 after clipping.
 #[test]
-fn a_floor_past_the_eye_has_corners_with_negative_w() {
+fn a_floor_that_passes_the_eye_has_corners_with_negative_w() {
     let mut explorer = explorer_with_models();
     let behind = facts(&mut explorer, "lesson=tear&z=0")["behind_eye"].as_u64();
     assert!(behind > Some(100), "{behind:?}");
@@ -193,9 +193,9 @@ fn a_floor_past_the_eye_has_corners_with_negative_w() {
     assert!(torn != clipped);
 }
 
-/// The point that a pixel shows is projected to that pixel.
+/// The point picked at a pixel projects to that pixel.
 #[test]
-fn a_picked_point_is_seen_where_it_was_picked() {
+fn picked_points_project_to_the_picked_pixel() {
     let mut explorer = explorer_with_models();
     for (lesson, pixel) in
         [("frustum", [300, 200]), ("viewport", [250, 200]), ("stereo", [480, 200])]
@@ -219,19 +219,19 @@ fn a_picked_point_is_seen_where_it_was_picked() {
     }
 }
 
-/// UN-2: the line of sight of the mouse meets the surface that the pixel there shows.
+/// UN-2: the line of sight through the mouse hits the surface that is visible there.
 #[test]
-fn picking_hits_what_is_seen() {
+fn picking_hits_the_visible_surface() {
     let mut explorer = explorer_with_models();
     let said = consequences(&mut explorer, "lesson=picking&x=50&y=60");
-    assert!(said[1].starts_with("It first meets the model at ("), "{said:?}");
+    assert!(said[1].starts_with("It first hits the model at ("), "{said:?}");
     let said = consequences(&mut explorer, "lesson=picking&x=2&y=2");
     assert_eq!(said[1], "It misses the model.");
 }
 
 /// VP-1: x_s = x + (x_ndc + 1) w / 2, y_s = y + (y_ndc + 1) h / 2 from the bottom.
 #[test]
-fn screen_coordinates_begin_at_the_corner_of_the_viewport() {
+fn screen_coordinates_start_at_the_viewport_corner() {
     let mut explorer = explorer_with_models();
     let query = "what=state&size=600x400&lesson=viewport&x=10&y=20&width=50&height=60";
     let spaces = json(&mut explorer, query)["journey"]["spaces"].take();
@@ -242,7 +242,7 @@ fn screen_coordinates_begin_at_the_corner_of_the_viewport() {
 
 /// IN-1: f(t) is the position of the point at t on the image of the segment.
 #[test]
-fn f_of_t_is_the_fraction_of_the_image() {
+fn f_of_t_is_the_fraction_along_the_image() {
     let mut explorer = explorer_with_models();
     let mut seen = |t: f64| {
         let query = format!("what=state&lesson=exercises&exercise=11&t={t}");
@@ -256,9 +256,9 @@ fn f_of_t_is_the_fraction_of_the_image() {
     assert!(fraction > 0.5 && said[0].contains(&expected), "{expected}: {said:?}");
 }
 
-/// OB-1, TWO-1, WV-2: the numbers in the classical lessons.
+/// OB-1, TWO-1, WV-2: numbers in the classical lessons.
 #[test]
-fn classical_projections_are_named_by_their_numbers() {
+fn classical_lessons_state_the_expected_numbers() {
     let mut explorer = explorer_with_models();
     for (state, expected) in [
         ("lesson=oblique", "α = 45°: cavalier"),

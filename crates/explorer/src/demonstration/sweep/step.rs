@@ -94,7 +94,7 @@ impl SweepBase {
         Ok(Self { camera, projection: lens, points, center, distance })
     }
 
-    /// Camera and projection with the parameter at a value, and a note.
+    /// Returns the camera and projection for a value of the parameter, with a note.
     ///
     /// Every step starts from the original view and not from the previous step, so errors do not
     /// accumulate and a single step equals the same step of a longer sweep.

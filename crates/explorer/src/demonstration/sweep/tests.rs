@@ -36,7 +36,7 @@ fn assert_near(a: f64, b: f64) {
     assert!((a - b).abs() <= 1e-9 * a.abs().max(b.abs()).max(1.0), "{a} {b}");
 }
 
-/// A point off the line of sight, at the depth of the center.
+/// Returns a point off the line of sight, at the depth of the center.
 fn point_beside(view_projection: &ViewProjection, middle: Point<World>) -> Point<World> {
     middle + view_projection.camera.u() * 1.5 + view_projection.camera.v()
 }
