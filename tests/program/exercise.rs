@@ -57,12 +57,17 @@ fn verdicts_have_an_exit_code_and_name_the_mistake() {
         ("16", "3.8", 1, "incorrect: this is the lesson's rounded value"),
         ("16", "3.81", 1, "incorrect: this is rounded; "),
         ("8", "1 0 0 0\n0 1 0 0\n0 0 3 -2\n0 0 1 0", 0, "correct\n"),
-        ("8", "1 0 0 0; 0 1 0 0; 0 0 3 -2; 0 0 1 5", 1, "incorrect: your row 4, column 4 gives 5"),
+        (
+            "8",
+            "1 0 0 0; 0 1 0 0; 0 0 3 -2; 0 0 1 5",
+            1,
+            "incorrect: your value for row 4, column 4 is 5",
+        ),
         ("21", "100 0 -190; 0 50 70; 0 0 1", 1, "M18"),
         ("4", "f*n*[z1-z2]/(z1*z2)", 0, "correct\n"),
         ("3", "n+f, -f_n", 1, "incorrect: f_n is a subscript"),
         ("7", "n*(1,1,1,1)", 0, "correct\n"),
-        ("17", "1/3", 1, "incorrect: your d gives 0.333333\n"),
+        ("17", "1/3", 1, "incorrect: your value for d is 0.333333\n"),
     ] {
         let run = run(&sandbox, &[number, "--answer", answer]);
         assert_eq!((run.code, run.stderr.as_str()), (code, ""), "{number}, {answer}");

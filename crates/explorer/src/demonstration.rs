@@ -54,7 +54,7 @@ pub enum DemonstrationError {
         /// The reason and the remedy.
         reason: String,
     },
-    /// A value is out of the parameter's range.
+    /// A value is outside the parameter's range.
     #[error("`{vary}` cannot be {value}: {reason}")]
     InvalidValue {
         /// The parameter.

@@ -43,7 +43,7 @@ pub struct Exercise {
     pub number: u32,
     /// The title.
     pub title: Words,
-    /// The question, self-contained.
+    /// The complete question.
     pub question: Words,
     /// Hints, from vague to specific.
     pub hints: &'static [Words],
@@ -94,7 +94,7 @@ impl Exercise {
             }
         };
         if self.letters.is_empty() {
-            en += ", in numbers such as `2/3` or `sqrt(2)`";
+            en += ", with numbers such as `2/3` or `sqrt(2)`";
             zh += "，用 `2/3` 或 `sqrt(2)` 这样的数";
         } else {
             let letters = self.letters.join(", ");
@@ -117,7 +117,7 @@ impl Exercise {
 
     /// Compares an answer with the correct answer and with common mistakes.
     ///
-    /// Numbers may differ by 1e-9 of an entry's value.
+    /// Numbers may differ by up to 1e-9 of an entry's value.
     ///
     /// # Errors
     /// If the text is not an answer because it contains other symbols or the wrong number of

@@ -135,7 +135,7 @@ fn primitive(material: usize, topology: Topology, positions: &[[f32; 3]]) -> Pri
     }
 }
 
-/// Surfaces are lit; lines are not.
+/// Returns a material. Surfaces are lit, but lines are not.
 fn material(name: &str, color: [u8; 3], unlit: bool) -> Material {
     let [r, g, b] = color.map(|code| srgb_to_linear_table()[usize::from(code)]);
     Material {

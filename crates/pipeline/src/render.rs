@@ -1,4 +1,4 @@
-//! Rendering of a resolved scene to a picture.
+//! Rendering: turns a resolved scene into a picture.
 //!
 //! # Tour: one triangle of one model, from file to pixel
 //!
@@ -27,7 +27,7 @@
 //!    space (`clip/src/triangle.rs`). Other back faces are culled by the sign of their area as they
 //!    enter the frame: `Frame::add_mesh_runs` (`raster/src/frame.rs`).
 //! 8. **Vertex processing for shading.** `VertexArrays::write_vertices`
-//!    (`render/vertex_processing.rs`): computes positions, normals and tangents in world space.
+//!    (`render/vertex_processing.rs`) computes positions, normals and tangents in world space.
 //! 9. **Binning into tiles.** `bin_triangles` (`raster/src/tile_bins.rs`) sorts triangles into
 //!    tiles of 64 × 64 pixels, which the threads process (`raster/src/tile_loop.rs`).
 //! 10. **Coverage and depth test.** `rasterize_triangle` (`raster/src/rasterize.rs`) evaluates edge
@@ -102,7 +102,7 @@ pub use write_png::{BitDepth, WritePngError, rows_per_band};
 use crate::Picture;
 use scene::Scene;
 
-/// A scene that cannot be rendered.
+/// The reason why a scene cannot be rendered.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RenderError {
@@ -135,7 +135,7 @@ impl From<hidden_line::DrawError> for RenderError {
     }
 }
 
-/// Renders a scene with up to `threads` threads; their number does not change the picture.
+/// Renders a scene with up to `threads` threads. The number of threads does not change the picture.
 ///
 /// ```
 /// # use pipeline::scene::file::{CameraFile, LightFile};

@@ -33,7 +33,8 @@ pub enum Motion {
     },
     /// The models follow their glTF animations.
     Animations {
-        /// For each model of the scene, the index of its animation; `None` keeps it still.
+        /// The index of the animation for each model of the scene; `None` means that the model does
+        /// not move.
         animations: Vec<Option<usize>>,
         /// The time of the first frame in seconds.
         from: f64,
@@ -44,7 +45,7 @@ pub enum Motion {
 
 /// A frame sequence, ready to render.
 ///
-/// Immutable while it renders: workers share it by reference.
+/// It is immutable while it renders, because workers share it by reference.
 #[derive(Debug)]
 pub struct Sequence {
     /// The source of the scene, for error messages.
@@ -59,8 +60,8 @@ pub struct Sequence {
     frame_count: usize,
     /// The point that a turntable's axis passes through.
     pivot: Point<World>,
-    /// The camera of each frame, if it moves; otherwise empty, and the scene's camera applies to
-    /// all frames.
+    /// The camera of each frame if the camera moves; otherwise empty, and the scene's camera
+    /// applies to all frames.
     view_projections: Vec<ViewProjection>,
 }
 
@@ -83,8 +84,8 @@ pub enum SequenceError<E> {
 
 /// Number of moments in the motion that an automatic camera is fitted to.
 ///
-/// A turntable with 16 samples misses the maximum extent of a corner by at most 1 − cos(π/16), 2 %
-/// of its radius.
+/// A turntable with 16 samples misses the maximum extent of a corner by at most 1 − cos(π/16),
+/// which is 2% of its radius.
 const FRAMING_SAMPLES: usize = 16;
 /// Number of frames per worker that may be started before the oldest frame is delivered. It limits
 /// the memory for frames that finish out of order.
@@ -297,7 +298,7 @@ enum FrameError {
     Scene(#[from] ResolveError),
 }
 
-/// The frames between start and delivery.
+/// The frames that are started but not yet delivered.
 #[derive(Default)]
 struct Queue {
     /// The next frame to start; equal to the frame count if all are started or the sequence is
@@ -365,7 +366,7 @@ impl<'a> FrameWorker<'a> {
 
     /// Poses the models for a frame and renders it on this thread.
     ///
-    /// Insets show the models in the pose of the main view, not in a separate one.
+    /// Insets show the models in the same pose as the main view.
     fn render_frame(
         &mut self,
         frame: usize,

@@ -125,9 +125,9 @@ impl DepthTable {
 
     /// Returns densely sampled rows, evenly spaced on the distance axis.
     ///
-    /// D(s) = N (E / N)^(s / samples) on a logarithmic axis, N + (E − N) s / samples on a linear
-    /// axis. The first and last samples are exactly the planes, without the rounding error of
-    /// `exp`. Distances whose depth cannot be represented are dropped.
+    /// D(s) = N (E / N)^(s / samples) on a logarithmic axis, and N + (E − N) s / samples on a
+    /// linear axis. The first and last samples are exactly the planes, without the rounding error
+    /// of `exp`. Distances whose depth cannot be represented are dropped.
     fn sample_rows(&self, spacing: Spacing) -> Vec<DepthRow> {
         let [near, end] = self.distance_range();
         let ratio = libm::log(end) - libm::log(near);

@@ -255,7 +255,7 @@ mod tests {
         DepthTable::new(near, far, convention, format).expect("a table")
     }
 
-    /// C68: near 2, far 40, as the lesson prints it.
+    /// C68: near 2 and far 40, as printed in the lesson.
     #[test]
     fn the_table_matches_the_lesson() {
         let table = table(2.0, 40.0, Convention::OPENGL, DepthFormat::FixedPoint(24));

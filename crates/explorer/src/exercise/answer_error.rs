@@ -1,4 +1,4 @@
-//! Errors in answers that cannot be read.
+//! Errors for answers that cannot be parsed.
 
 use crate::words::{Sentence, sentence};
 use std::error::Error;

@@ -148,7 +148,7 @@ fn split_plain_rows(text: &str, count: usize) -> Result<Vec<Vec<String>>, Answer
     rows.map(split).collect()
 }
 
-/// Rows such as `(1 0) (0 1)` or `(1, 0), (0, 1)`, if all are in parentheses.
+/// Returns rows such as `(1 0) (0 1)` or `(1, 0), (0, 1)`, if all rows are in parentheses.
 fn rows_in_parentheses(text: &str) -> Option<Vec<&str>> {
     let groups = top_groups(text);
     let mut end = 0;
@@ -176,7 +176,7 @@ fn without_matrix_name(text: &str) -> &str {
     }
 }
 
-/// Rows without their names, if all have one, as in `u = …; v = …; w = …`.
+/// Removes the names of rows, if all rows have names, as in `u = …; v = …; w = …`.
 fn without_row_names(rows: Vec<&str>) -> Result<Vec<&str>, AnswerError> {
     let values: Vec<&str> =
         rows.iter().filter_map(|row| Some(row.split_once('=')?.1.trim())).collect();

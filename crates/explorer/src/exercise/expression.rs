@@ -57,7 +57,7 @@ fn without_name<'a>(written: &'a str, name: &str) -> Option<&'a str> {
 /// Evaluates an expression for these values of its symbols.
 ///
 /// # Errors
-/// If it is not an expression, or has no finite value.
+/// If the text is not an expression or has no finite value.
 pub(super) fn evaluate(entry: &str, letters: Letters<'_>) -> Result<f64, AnswerError> {
     let characters: Vec<char> = entry.chars().collect();
     let mut parser = Parser { entry, characters: &characters, at: 0, depth: 0, letters };
@@ -95,7 +95,7 @@ impl Parser<'_> {
         self.characters.get(self.at).copied()
     }
 
-    /// Skips the character if it is the next one.
+    /// Skips the next character if it is this one.
     fn pass(&mut self, expected: char) -> bool {
         let found = self.peek() == Some(expected);
         self.at += usize::from(found);

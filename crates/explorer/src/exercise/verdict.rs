@@ -104,7 +104,7 @@ fn different(differences: &[Difference], count: usize, letters: &[(&str, f64)]) 
         letters.iter().map(letter).collect::<Vec<_>>().join(comma)
     };
     if !letters.is_empty() {
-        en = format!("for {} {en}", at(", "));
+        en = format!("for {}, {en}", at(", "));
         zh = format!("取 {} 时，{zh}", at("，"));
     }
     let wrong = differences.len();
@@ -119,10 +119,12 @@ impl Difference {
     fn to_sentence(&self) -> Sentence {
         let value = decimals(self.value, 6);
         let Sentence { en, zh } = &self.name;
-        let (mut en, mut zh) =
-            (format!("your {en} gives {value}"), format!("你的{}等于 {value}", between_han(zh)));
+        let (mut en, mut zh) = (
+            format!("your value for {en} is {value}"),
+            format!("你的{}等于 {value}", between_han(zh)),
+        );
         if self.is_negated {
-            en += ", where only the sign is wrong";
+            en += " (only the sign is wrong)";
             zh += "，只有符号不对";
         }
         sentence(en, zh)

@@ -10,7 +10,7 @@ fn code(explorer: &mut Explorer, query: &str) -> &'static str {
 }
 
 #[test]
-fn a_broken_model_is_an_error_and_the_next_request_works() {
+fn broken_models_are_errors_and_the_next_request_works() {
     let mut explorer = explorer_with_models();
     explorer.add_file("broken.glb", b"glTF, but not really".to_vec()).expect("a name");
     explorer.add_file("empty.glb", Vec::new()).expect("a name");
@@ -43,7 +43,7 @@ fn file_names_outside_the_folder_are_rejected() {
 
 /// A glTF file finds its buffer in the same in-memory folder but nothing outside it.
 #[test]
-fn companions_of_a_model_are_found() {
+fn files_that_a_model_refers_to_are_found() {
     let mut explorer = Explorer::new();
     let document = |uri: &str| {
         format!(

@@ -4,7 +4,7 @@ use super::{explorer_with_models, json, lessons};
 use explorer::Explorer;
 use serde_json::Value as Json;
 
-/// Requests that set one parameter after another to the ends of its range, or to each choice.
+/// Returns requests that set one parameter at a time to the ends of its range or to each choice.
 fn extreme_states(lesson: &Json) -> Vec<String> {
     let id = lesson["id"].as_str().expect("an id");
     let mut states = vec![format!("lesson={id}")];

@@ -33,7 +33,7 @@ fn correct_answers_are_accepted_in_several_notations() {
 }
 
 #[test]
-fn every_mistake_has_its_own_message() {
+fn every_mistake_has_a_distinct_message() {
     for Case { number, mistaken, .. } in cases() {
         let mut told = BTreeMap::new();
         for (answer, id) in *mistaken {

@@ -22,7 +22,7 @@ use std::sync::Arc;
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct RenderContext<'a> {
-    /// Models, camera, lights and style.
+    /// The models, camera, lights and style.
     pub scene: &'a Scene,
     /// The mip chains of the scene's models. If the models are clones that are posed differently,
     /// use the chains of the original models.
@@ -30,7 +30,7 @@ pub struct RenderContext<'a> {
     /// The maximum number of threads for rendering, at least 1. It does not change a single bit of
     /// the result.
     pub threads: usize,
-    /// The stopwatch of the stages.
+    /// The stopwatch for the stages.
     timings: Option<&'a Timings>,
     /// The monitor, which receives progress and may cancel the rendering.
     pub(super) monitor: Option<&'a Arc<dyn Monitor>>,

@@ -28,7 +28,7 @@ pub(super) struct DrawCall<'a> {
     pub(super) mesh: &'a ProjectedMesh,
     /// The frame that gets the primitives.
     pub(super) frame: &'a mut Frame,
-    /// Opaque, alpha-tested or translucent.
+    /// The opacity: opaque, alpha-tested or translucent.
     pub(super) opacity: Opacity,
     /// The winding of back faces, if they are culled.
     pub(super) cull_mode: CullMode,

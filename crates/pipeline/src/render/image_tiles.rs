@@ -1,5 +1,4 @@
-//! Image tiles: pictures larger than the rasterizer's grid are divided into tiles. Also regions of
-//! pictures.
+//! Image tiles, which divide pictures larger than the rasterizer's grid, and regions of pictures.
 //!
 //! ```text
 //!   ┌───────────────┬──────┐   The rasterizer's grid ends at 16,384 pixels. A larger picture is
@@ -42,7 +41,7 @@ pub(crate) fn validate_region(image: ImageSpec, region: PixelRect) -> Result<(),
 /// One tile of a picture, at most 16,384 pixels per side.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct ImageTile {
-    /// Its pixels in the picture.
+    /// The rectangle in the picture.
     pub(super) rect: PixelRect,
     /// The width and height of the picture, or `None` if this tile covers all of it.
     image_size: Option<[u32; 2]>,
@@ -68,7 +67,7 @@ impl ImageTile {
 pub(super) struct TileRegion {
     /// The tile.
     pub(super) tile: ImageTile,
-    /// Its pixels in the picture.
+    /// The rectangle in the picture.
     pub(super) rect: PixelRect,
 }
 
@@ -99,7 +98,7 @@ impl TileRegion {
         self.rect.area()
     }
 
-    /// Copies its pixels into the region, row by row.
+    /// Copies the pixels of this part into the region, row by row.
     pub(super) fn copy_into_region<P: Copy>(&self, pixels: &[P], region: PixelRect, all: &mut [P]) {
         let (width, region_width) = (self.rect.width as usize, region.width as usize);
         let left = (self.rect.x - region.x) as usize;

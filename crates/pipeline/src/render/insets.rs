@@ -45,7 +45,7 @@ pub(super) fn covers_region(insets: &[Inset], region: PixelRect) -> bool {
 /// the picture.
 ///
 /// The border replaces pixels at the inset's edge. A cyan inset replaces green and blue and keeps
-/// red (anaglyph). Alpha is the larger alpha of the two pixels.
+/// red (anaglyph). The result has the larger alpha of the two pixels.
 pub(super) fn composite_into<C: Channel>(
     inset: &Inset,
     pixels: &Picture<C>,

@@ -111,7 +111,7 @@ struct TilePasses<'a, 'r> {
     context: RenderContext<'a>,
     /// The part of the tile that the region needs.
     tile_region: TileRegion,
-    /// The memory of frames.
+    /// The buffers for frames.
     memory: &'r mut RenderBuffers,
 }
 

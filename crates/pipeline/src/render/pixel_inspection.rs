@@ -3,8 +3,8 @@
 //! The pixel is rendered again as a region of 1 × 1 pixel, bit for bit as in the picture, with a
 //! surface that records every shading call.
 //!
-//! It answers "why does this pixel have this color?": the triangles and nodes visible in it, their
-//! barycentric weights, and the linear color that each contributes.
+//! It answers "why does this pixel have this color?": it lists the triangles and nodes visible in
+//! the pixel, their barycentric weights, and the linear color that each one contributes.
 
 use super::RenderError;
 use super::context::RenderContext;
@@ -109,7 +109,7 @@ pub fn inspect_pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelFragme
     Ok(Some(PixelFragments { color, fragments: fragments.collect() }))
 }
 
-/// Primitive id, weights and color of a shading call.
+/// The primitive id, weights and color of a shading call.
 type RecordedFragment = (u32, [f32; 3], [f32; 4]);
 
 /// Draws a frame of one pixel and records its shading calls.
@@ -125,7 +125,7 @@ fn record_fragments(
     (color[0], recorder.fragments.into_inner().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// A surface that forwards to another and records the fragments shaded in one pixel.
+/// A surface that forwards to another surface and records the fragments shaded in one pixel.
 ///
 /// The mutex is needed because the rasterizer shades from several threads through a shared
 /// reference.

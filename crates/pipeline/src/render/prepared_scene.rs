@@ -155,7 +155,7 @@ impl<'a> PreparedScene<'a> {
         all
     }
 
-    /// Renders a region of the picture, which takes the region's size.
+    /// Renders a region of the picture. `picture` is resized to the region.
     ///
     /// # Errors
     /// The region is empty, too large or outside the picture, the scene has too many primitives, or
@@ -301,7 +301,7 @@ impl<'a> PreparedScene<'a> {
         let (frame, background) = (&memory.frame, scene.image.background);
         context.measure("pixels", || C::draw_frame(frame, surface, background, threads, pixels));
         buffers.recycle_frame(memory);
-        // The next picture reuses its memory.
+        // The next picture reuses the memory.
         buffers.occlusion.last = own_occlusion;
         Ok(())
     }

@@ -79,7 +79,7 @@ pub(super) struct PrimitiveAssembler<'a> {
     pub(super) memory: FrameMemory<'a>,
     /// The id of the next point, line or triangle.
     pub(super) next_id: u32,
-    /// The number of the next draw call, including culled ones.
+    /// The number of the next draw call, counting culled draw calls.
     pub(super) next_part_id: u32,
 }
 
@@ -119,7 +119,7 @@ impl<'a> PrimitiveAssembler<'a> {
         for (index, model_instance) in scene.models.iter().enumerate() {
             for (instance, primitive) in model_instance.model.scene_primitives() {
                 if is_repeated[index] {
-                    // The ids of later draw calls do not change.
+                    // Ids are still allocated, so that the ids of later draw calls do not change.
                     self.allocate_ids(primitive)?;
                     continue;
                 }

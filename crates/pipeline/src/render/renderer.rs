@@ -123,7 +123,7 @@ pub(super) struct RenderBuffers {
     vertex_pool: Vec<Vec<Vertex>>,
     /// The shadow maps of the current scene and their memory.
     pub(super) shadow_maps: ShadowMapRenderer,
-    /// The memory of screen-space ambient occlusion.
+    /// The buffers for screen-space ambient occlusion.
     pub(super) occlusion: OcclusionBuffers,
 }
 
@@ -172,7 +172,7 @@ impl RenderBuffers {
             _ => Frame::for_region(PixelRect { x, y, width, height }, samples)?,
         };
         let frame = frame.with_threads(context.threads);
-        // It receives nothing until its pixels are counted.
+        // The monitor receives nothing until the pixels are counted.
         let monitor = context.monitor.map(|monitor| CancelOnly(Arc::clone(monitor)));
         Ok(FrameMemory {
             frame: with_monitor(frame, monitor),

@@ -18,7 +18,8 @@ use raster::ScreenProjection;
 use scene::Scene;
 use viewport::Viewport;
 
-/// World → clip → screen for one raster, and the volume that geometry is clipped against.
+/// The transform world → clip → screen for one raster, and the volume that geometry is clipped
+/// against.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ScreenTransform {
     /// World to clip space. For an image tile, the tile fills the view volume.

@@ -22,7 +22,7 @@ use light_fitting::LightCamera;
 use raster::{Frame, Samples};
 use shade::{DrawList, GroundOcclusion, Light, LightShadow, Shadow, ShadowMap};
 
-/// Shadow maps and the memory to render them, reused from picture to picture.
+/// Shadow maps and the buffers for rendering them, reused from picture to picture.
 #[derive(Debug, Default)]
 pub(super) struct ShadowMapRenderer {
     /// The frame of the last map.

@@ -34,7 +34,7 @@ fn shadows_of_bare_models_are_inside_the_picture() {
             let is_border = |x: u32, y: u32| x == 0 || y == 0 || x + 1 == width || y + 1 == height;
             let on_border = all.clone().filter(|&(x, y)| is_border(x, y));
             let most = on_border.map(|(x, y)| alpha(x, y)).max();
-            // The key light's shadow is missing; ambient occlusion fades slowly.
+            // The key light's shadow does not reach the border; ambient occlusion fades slowly.
             assert!(most < Some(MAX_BORDER_ALPHA), "{name} {size:?}: {most:?}");
             let shadow = |&(x, y): &(u32, u32)| {
                 let [r, g, b, a] = picture.pixels[(y * width + x) as usize];
@@ -68,7 +68,7 @@ fn without_ground_only_the_model_is_framed() {
 }
 
 #[test]
-fn shadows_of_low_light_do_not_push_the_model_away() {
+fn low_light_moves_the_camera_back_only_moderately() {
     let distance = |direction: &str| {
         let text = format!(
             r#"Scene(models: [(path: "crate.glb")], ground: Shadow(),

@@ -1,4 +1,4 @@
-//! Tests of the public interface of `pipeline`, linked once.
+//! Tests of the public interface of `pipeline`, linked into a single program.
 
 mod analytic;
 mod floor;

@@ -88,7 +88,7 @@ pub(super) static THIRD_ROW_OF_P: Exercise = Exercise {
                 "-(n+f)/(n-f), 2*n*f/(n-f)",
                 "-(n+f)/(f-n), -2*n*f/(f-n)",
             ]),
-            "this is like the third row of OpenGL's perspective, which takes near and far to −1 and +1: P keeps z = n and z = f",
+            "this resembles the third row of a perspective in OpenGL, which takes near and far to −1 and +1, but P keeps z = n and z = f",
             "这像 OpenGL 透视矩阵的第三行，它把近平面和远平面映为 −1 和 +1：P 应保持 z = n 和 z = f 不变",
         ),
     ],
@@ -248,7 +248,7 @@ pub(super) static NEAR_CORNER: Exercise = Exercise {
     number: 7,
     title: words("The corner (r, t, n)", "角点 (r, t, n)"),
     question: words(
-        "M_per = M_orth P takes the view volume with the window [l, r] × [b, t] on z = n to [−1, 1]³; 0 > n > f, and w = z. To which homogeneous point (x, y, z, w) does M_per take (r, t, n, 1), before the divide?",
+        "M_per = M_orth P takes the view volume with the window [l, r] × [b, t] on z = n to [−1, 1]³, where 0 > n > f and w = z. Where does M_per take (r, t, n, 1) before the divide, as a homogeneous point (x, y, z, w)?",
         "M_per = M_orth P 把 z = n 上以 [l, r] × [b, t] 为窗口的视见体映为 [−1, 1]³；0 > n > f，且 w = z。除法之前，M_per 把 (r, t, n, 1) 映为哪个齐次点 (x, y, z, w)？",
     ),
     hints: &[

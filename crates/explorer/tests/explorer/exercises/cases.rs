@@ -27,7 +27,7 @@ pub(super) const CHAPTER: [Case; 11] = [
         ],
         unknown: (
             "nx/2 0 0 (nx-1)/2; 0 -ny/2 0 ny; 0 0 -1 0; 0 0 0 1",
-            "incorrect: 2 of 16 entries: for nx = 640, ny = 480 your row 2, column 4 gives 480; your row 3, column 3 gives -1, where only the sign is wrong",
+            "incorrect: 2 of 16 entries: for nx = 640, ny = 480, your value for row 2, column 4 is 480; your value for row 3, column 3 is -1 (only the sign is wrong)",
         ),
     },
     Case {
@@ -77,7 +77,7 @@ pub(super) const CHAPTER: [Case; 11] = [
         ],
         unknown: (
             "nx/(r-l) 0 0 -1/2-r*nx/(r-l); 0 ny/(t-b) 0 -1/2-b*ny/(t-b); 0 0 2/(n-f) -(n+f)/(n-f); 0 0 0 1",
-            "your row 1, column 4 gives",
+            "your value for row 1, column 4 is",
         ),
     },
     Case {
@@ -104,7 +104,7 @@ pub(super) const CHAPTER: [Case; 11] = [
             ("-(n+f)/(n-f), -2n f/(n-f)", "opengl-row"),
             ("-(f+n)/(f-n), -2*f*n/(f-n)", "opengl-row"),
         ],
-        unknown: ("A=n+f; B=2f", "incorrect: for n = -1, f = -5 your B gives -10"),
+        unknown: ("A=n+f; B=2f", "incorrect: for n = -1, f = -5, your value for B is -10"),
     },
     Case {
         number: 4,
@@ -122,7 +122,7 @@ pub(super) const CHAPTER: [Case; 11] = [
             ("z1 - z2", "linear"),
             ("f_n/z2 - f_n/z1", "m5-subscript"),
         ],
-        unknown: ("n*f*(z1-z2)/(z1+z2)", "z2 = -3 your z1'-z2' gives -1"),
+        unknown: ("n*f*(z1-z2)/(z1+z2)", "z2 = -3, your value for z1'-z2' is -1"),
     },
     Case {
         number: 5,
@@ -144,7 +144,7 @@ pub(super) const CHAPTER: [Case; 11] = [
         ],
         unknown: (
             "h*a, h*b, h*c, h+1",
-            "incorrect: for a = 3, b = 5, c = -2, h = 4 your w gives 5",
+            "incorrect: for a = 3, b = 5, c = -2, h = 4, your value for w is 5",
         ),
     },
     Case {
@@ -169,7 +169,7 @@ pub(super) const CHAPTER: [Case; 11] = [
             ("f 0 0 0; 0 f 0 0; 0 0 0 n*f; 0 0 -1 -n-f", "sign-of-the-sum"),
             ("f 0 0 0; 0 f 0 0; 0 0 0 -n*f; 0 0 -1 n+f", "sign-of-the-product"),
         ],
-        unknown: ("f 0 0 0; 0 f 0 0; 0 0 0 n*f; 0 0 -1 n-f", "your row 4, column 4 gives 4"),
+        unknown: ("f 0 0 0; 0 f 0 0; 0 0 0 n*f; 0 0 -1 n-f", "your value for row 4, column 4 is 4"),
     },
     Case {
         number: 7,
@@ -192,7 +192,7 @@ pub(super) const CHAPTER: [Case; 11] = [
             ("(r, t, n, n)", "only-w-multiplied"),
             ("1, 1, 1, n", "only-w-kept"),
         ],
-        unknown: ("n, n, n, -n", "w gives 1, where only the sign is wrong"),
+        unknown: ("n, n, n, -n", "w is 1 (only the sign is wrong)"),
     },
     Case {
         number: 8,
@@ -216,7 +216,7 @@ pub(super) const CHAPTER: [Case; 11] = [
             ("1 0 0 0; 0 1 0 0; 0 0 -3 -2; 0 0 -1 0", "opengl-signs"),
             ("1 0 0 0; 0 1 0 0; 0 0 -3 2; 0 0 -1 0", "image-turned"),
         ],
-        unknown: ("1 0 0 0; 0 1 0 0; 0 0 3 -3; 0 0 1 0", "row 3, column 4 gives -3"),
+        unknown: ("1 0 0 0; 0 1 0 0; 0 0 3 -3; 0 0 1 0", "row 3, column 4 is -3"),
     },
     Case {
         number: 9,
@@ -234,7 +234,7 @@ pub(super) const CHAPTER: [Case; 11] = [
             ("x, y, 3z+2, z; x/z, y/z, 3+2/z", "sign-of-the-product"),
             ("x, y, 3z-2, 1; x, y, 3z-2", "no-divide"),
         ],
-        unknown: ("x, y, 3z-2, z; x/z, y/z, 3-z/2", "your z of part 2 gives 1"),
+        unknown: ("x, y, 3z-2, z; x/z, y/z, 3-z/2", "your value for z of part 2 is 1"),
     },
     Case {
         number: 10,
@@ -259,7 +259,7 @@ pub(super) const CHAPTER: [Case; 11] = [
             ("0 0 -1 0; -1 0 0 0; 0 1 0 -1; 0 0 0 1", "u-and-v-turned"),
             ("u=(0,0,1); v=(1,0,0); w=(0,1,0)", "axes-only"),
         ],
-        unknown: ("0 0 1 0; 1 0 0 0; 0 1 0 -2; 0 0 0 1", "row 3, column 4 gives -2"),
+        unknown: ("0 0 1 0; 1 0 0 0; 0 1 0 -2; 0 0 0 1", "row 3, column 4 is -2"),
     },
     Case {
         number: 11,
@@ -281,7 +281,10 @@ pub(super) const CHAPTER: [Case; 11] = [
             ("wR t/(wR + t(wr - wR))", "divisor-from-the-other-end"),
             ("t(wR-wr)/(wr+t(wR-wr))", "difference-of-weights"),
         ],
-        unknown: ("wR*t/(wr-t*(wR-wr))", "incorrect: for wr = 1, wR = 3, t = 0.4 your f gives 6"),
+        unknown: (
+            "wR*t/(wr-t*(wR-wr))",
+            "incorrect: for wr = 1, wR = 3, t = 0.4, your value for f is 6",
+        ),
     },
 ];
 
@@ -296,7 +299,7 @@ pub(super) const OWN: [Case; 13] = [
             ("1, -3, 4", "z-not-divided"),
             ("1, 3, 2", "signs-of-y-and-z"),
         ],
-        unknown: ("1, -3, 2", "z gives 2, where only the sign is wrong"),
+        unknown: ("1, -3, 2", "z is 2 (only the sign is wrong)"),
     },
     Case {
         number: 13,
@@ -309,7 +312,7 @@ pub(super) const OWN: [Case; 13] = [
             ("-3, 2, -4", "not-rotated"),
             ("3, 2, -4", "axes-of-the-world"),
         ],
-        unknown: ("4, 0, -3", "incorrect: your y gives 0"),
+        unknown: ("4, 0, -3", "incorrect: your value for y is 0"),
     },
     Case {
         number: 14,
@@ -330,7 +333,7 @@ pub(super) const OWN: [Case; 13] = [
             ("1, 1", "depth-dropped"),
             ("√3, 1", "foot-forgotten"),
         ],
-        unknown: ("1+√2, 2", "x gives 2.414214"),
+        unknown: ("1+√2, 2", "x is 2.414214"),
     },
     Case {
         number: 15,
@@ -342,7 +345,7 @@ pub(super) const OWN: [Case; 13] = [
             ("1, -2", "direction-itself"),
             ("1/8, -1/4", "distance-divided"),
         ],
-        unknown: ("1/2, 1", "y gives 1, where only the sign is wrong"),
+        unknown: ("1/2, 1", "y is 1 (only the sign is wrong)"),
     },
     Case {
         number: 16,
@@ -355,7 +358,7 @@ pub(super) const OWN: [Case; 13] = [
             ("40/21", "factor-two-lost"),
             ("sqrt(80)", "geometric-mean"),
         ],
-        unknown: ("19", "incorrect: your D gives 19"),
+        unknown: ("19", "incorrect: your value for D is 19"),
     },
     Case {
         number: 17,
@@ -367,7 +370,7 @@ pub(super) const OWN: [Case; 13] = [
             ("2/5", "infinite-far-plane"),
             ("1/2", "opengl-range"),
         ],
-        unknown: ("1/3", "d gives 0.333333"),
+        unknown: ("1/3", "d is 0.333333"),
     },
     Case {
         number: 18,
@@ -382,7 +385,7 @@ pub(super) const OWN: [Case; 13] = [
             ("0, 2/3", "left-plane-forgotten"),
             ("0, 1", "not-clipped"),
         ],
-        unknown: ("1/5, 1", "t1 gives 1"),
+        unknown: ("1/5, 1", "t1 is 1"),
     },
     Case {
         number: 19,
@@ -398,7 +401,7 @@ pub(super) const OWN: [Case; 13] = [
             ("34", "near-and-far-exchanged"),
             ("0", "inside"),
         ],
-        unknown: ("20", "your outcode gives 20"),
+        unknown: ("20", "your value for outcode is 20"),
     },
     Case {
         number: 20,
@@ -411,7 +414,10 @@ pub(super) const OWN: [Case; 13] = [
             ("50, 30", "zero-to-one"),
             ("124.375, 34.65", "size-less-one"),
         ],
-        unknown: ("35, 125", "incorrect: 2 of 2 entries: your x gives 35; your y gives 125"),
+        unknown: (
+            "35, 125",
+            "incorrect: 2 of 2 entries: your value for x is 35; your value for y is 125",
+        ),
     },
     Case {
         number: 21,
@@ -424,7 +430,7 @@ pub(super) const OWN: [Case; 13] = [
             ("1/100 0 19/10; 0 1/50 3/5; 0 0 1", "inverse"),
             ("100 0 0; 0 50 0; -190 -30 1", "transposed"),
         ],
-        unknown: ("100 0 -190; 0 50 -30; 0 1 1", "row 3, column 2 gives 1"),
+        unknown: ("100 0 -190; 0 50 -30; 0 1 1", "row 3, column 2 is 1"),
     },
     Case {
         number: 22,
@@ -439,7 +445,7 @@ pub(super) const OWN: [Case; 13] = [
             ("12", "ends-of-the-right-edge"),
             ("14", "nearly-closed"),
         ],
-        unknown: ("13", "your pixels gives 13"),
+        unknown: ("13", "your value for pixels is 13"),
     },
     Case {
         number: 23,
@@ -450,12 +456,12 @@ pub(super) const OWN: [Case; 13] = [
             ("17/8", "not-divided"),
             ("38/7", "from-the-other-end"),
         ],
-        unknown: ("3", "a gives 3"),
+        unknown: ("3", "a is 3"),
     },
     Case {
         number: 24,
         right: &["1/5", "t = 0.2"],
         mistaken: &[("1/2", "linear"), ("4/5", "forwards"), ("1/4", "ratio-of-weights")],
-        unknown: ("1/3", "t gives 0.333333"),
+        unknown: ("1/3", "t is 0.333333"),
     },
 ];

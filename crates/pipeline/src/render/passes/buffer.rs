@@ -1,7 +1,8 @@
 //! Pass buffers: the values of one pass for every pixel of a region.
 //!
-//! Floating-point passes hold f32, integer passes u32. They are written as NumPy arrays or
-//! OpenEXR images without loss, or as 16-bit PNG files quantized to the range of the values.
+//! Floating-point passes contain f32 values, and integer passes contain u32 values. They are saved
+//! losslessly as NumPy arrays or OpenEXR images, or as 16-bit PNG files quantized to the range of
+//! the values.
 
 use super::geometry::{Hit, SceneGeometry};
 use crate::render::image_tiles::TileRegion;
@@ -22,9 +23,9 @@ pub enum PassValues {
 pub struct PassBuffer {
     /// The meaning of the values.
     pub pass: Pass,
-    /// Width in pixels.
+    /// The width in pixels.
     pub width: u32,
-    /// Height in pixels.
+    /// The height in pixels.
     pub height: u32,
     /// The values.
     pub values: PassValues,

@@ -50,7 +50,7 @@ struct DrawGeometry<'a> {
     first_id: u32,
     /// One-based indices of the model, node, mesh and material; 0 means none.
     owner_ids: [u32; 4],
-    /// Indices and topology.
+    /// The primitive, with its indices and topology.
     primitive: &'a Primitive,
     /// The posed positions and normals.
     skinned: SkinnedPrimitive<'a>,
@@ -222,9 +222,9 @@ impl DrawGeometry<'_> {
 
 /// A point, line or triangle that is visible in pixels.
 pub(super) struct HitItem<'s, 'a> {
-    /// Its primitive id.
+    /// The primitive id.
     id: u32,
-    /// Its draw call.
+    /// The draw call.
     draw: &'s DrawGeometry<'a>,
     /// Vertex indices.
     vertices: [usize; 3],
@@ -262,7 +262,7 @@ impl HitItem<'_, '_> {
 struct SurfacePoint {
     /// Barycentric weights.
     weights: [f64; 3],
-    /// The point in the world.
+    /// The position in world space.
     position: Point<World>,
 }
 

@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | opaque | always |
 //! | masked (alpha test) | where alpha passes the cutoff |
-//! | blended or transmissive | never: no colored or partial shadows |
+//! | blended or transmissive | never; there are no colored or partial shadows |
 //!
 //! Points and lines do not cast shadows either. The pass has separate ids, because it skips
 //! primitives.

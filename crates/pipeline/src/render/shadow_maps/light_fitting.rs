@@ -22,7 +22,7 @@ use shade::{Light, Shadow};
 /// A light's camera, fitted to the scene.
 #[derive(Debug)]
 pub(super) struct LightCamera {
-    /// Camera and projection of the light.
+    /// The camera and projection of the light.
     pub(super) view_projection: ViewProjection,
     /// Width and height of the shadow map in texels.
     pub(super) size: [u32; 2],

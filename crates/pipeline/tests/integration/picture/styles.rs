@@ -156,7 +156,7 @@ fn clay_is_matte_in_the_light_of_the_scene() {
 }
 
 #[test]
-fn gouraud_is_clay_at_the_vertices_and_even_on_flat_faces() {
+fn gouraud_matches_clay_at_vertices_and_is_even_on_flat_faces() {
     // All normals of a crate's face are equal, so its light is even, as on every matte surface in
     // the sun.
     let (gouraud, clay) =
