@@ -356,7 +356,7 @@ fn drawings_are_verified() {
     let run = sandbox.run(&["render", "box.gltf", "-o", "box.svg", "--verify"]);
     assert_eq!(run.code, 0, "{}", run.stderr);
     // Nine edges of a box are visible, and no pixel is ambiguous.
-    let prefix = "verified: 0.0000 % of ";
+    let prefix = "verified: 0.0000% of ";
     assert!(run.stderr.starts_with(prefix), "{}", run.stderr);
     let length = run.stderr[prefix.len()..].split(' ').next().and_then(|px| px.parse::<f64>().ok());
     assert!(length.is_some_and(|px| px > 1000.0), "{}", run.stderr);

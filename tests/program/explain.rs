@@ -108,7 +108,7 @@ fn invisible_nodes_are_explained() {
     let behind = verdict("explain_behind", &|document| {
         document.json["nodes"][0]["rotation"] = json!([0, 1, 0, 0]);
     });
-    assert!(behind.contains("seen from behind"), "{behind}");
+    assert!(behind.contains("face away from the camera"), "{behind}");
     let mirrored = verdict("explain_mirrored", &|document| {
         document.json["nodes"][0]["scale"] = json!([-1, 1, 1]);
     });
@@ -145,7 +145,7 @@ fn a_pixel_is_traced_to_its_triangle() {
     let expected = [0.45, -0.25, 0.0];
     assert!(position.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-4), "{position:?}");
     let empty = explanation_json(&sandbox, &["--pixel", "0,0"]);
-    assert!(empty["verdict"].as_str().expect("words").contains("nothing is in it"));
+    assert!(empty["verdict"].as_str().expect("words").contains("only the background is in it"));
     let run = sandbox.run(&["explain", "scene.ron", "--pixel", "200,0"]);
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("200 x 100"), "{}", run.stderr);
@@ -201,8 +201,8 @@ fn a_page_marks_the_pixel_even_if_rows_run_upward() {
 fn the_page_states_its_units() {
     let sandbox = sandbox_with_scene("explain_introduction", |_| {});
     for (flags, words) in [
-        (&["explain", "scene.ron"][..], "units of the scene"),
-        (&["explain", "--planes", "1,2"], "divided by its own w"),
+        (&["explain", "scene.ron"][..], "in scene units"),
+        (&["explain", "--planes", "1,2"], "divided by its w"),
     ] {
         let run = sandbox.run(flags);
         assert!(run.stdout.replace('\n', " ").contains(words), "{flags:?}: {}", run.stdout);
@@ -212,7 +212,7 @@ fn the_page_states_its_units() {
         assert!(json["introduction"].as_str().is_some_and(|text| text.contains(words)));
     }
     let html = sandbox.run(&["explain", "scene.ron", "--html"]).stdout;
-    assert!(html.contains("units of the scene"), "{html}");
+    assert!(html.contains("in scene units"), "{html}");
 }
 
 #[test]

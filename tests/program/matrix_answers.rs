@@ -30,7 +30,7 @@ fn the_likeliest_reading_fits_the_program_of_origin() {
         ),
         (
             "0.8575 0 -0.5145 0 0.291 0.8246 -0.4851 0 0.4243 0.5657 0.7071 -7.0711 0 0 0 1",
-            "with the sign of row 2, column 1 turned, it is a camera transform: eye (3, 4, 5)",
+            "with the sign of row 2, column 1 flipped, it is a camera transform: eye (3, 4, 5)",
         ),
     ] {
         let found = report(&sandbox, "matrix", numbers);
@@ -96,10 +96,10 @@ fn errors_suggest_a_fix() {
 fn a_segment_through_the_eye_plane_has_one_verdict() {
     let sandbox = Sandbox::new("matrix_segment");
     let found = report(&sandbox, "explain --planes -1,-3 --segment 0,0,-1,0,0,1", "");
-    assert!(found.contains("w changes its sign between them"), "{found}");
-    assert!(!found.contains("f(t) says"), "{found}");
+    assert!(found.contains("w changes sign between them"), "{found}");
+    assert!(!found.contains("f(t) gives"), "{found}");
     let found = report(&sandbox, "explain --planes -1,-3 --segment 0,0,-1,0,0,-2", "");
-    assert!(found.contains("Both ends are mapped; f(t) says"), "{found}");
+    assert!(found.contains("Both ends are mapped; f(t) gives"), "{found}");
 }
 
 #[test]
