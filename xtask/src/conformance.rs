@@ -1,9 +1,11 @@
-//! `cargo xtask conformance`: the table of the topics in the sources and the tests that prove them.
+//! `cargo xtask conformance`: writes the table of the sources' topics and the tests that prove
+//! them.
 //!
 //! The table, `tests/CONFORMANCE.md`, is generated from the source text of the tests. With
-//! `--check` it is compared instead of written. Either way, it is a failure if a math crate has no
-//! test of an item it is responsible for, or if a test names an unknown item. The book marks every
-//! topic on the page that covers it, and its pages are the evidence for topics outside mathematics.
+//! `--check` it is compared instead of written. In both modes, the command fails if a math crate
+//! has no test for an item it is responsible for, or if a test names an unknown item. The book
+//! marks every topic on the page that covers it, and its pages are the evidence for topics outside
+//! mathematics.
 
 mod book;
 mod items;
@@ -24,7 +26,7 @@ use vectors::VECTORS;
 
 const TABLE_PATH: &str = "tests/CONFORMANCE.md";
 const BOOK_PATH: &str = "book/src";
-/// The path of the sources' inventory, from the root, unless `INVENTORY` sets another.
+/// The path of the sources' inventory, relative to the root; `INVENTORY` overrides it.
 const INVENTORY_PATH: &str = "../shared/inventory.md";
 
 /// Writes the table, or compares it with `--check`; fails if a topic has no test.
@@ -35,7 +37,7 @@ pub fn run_conformance(arguments: &[String]) -> Outcome {
         _ => return Err(format!("unknown arguments `{}`", arguments.join(" "))),
     };
     let sources = rust_files()?;
-    // The tests of this tool prove nothing about the mathematics, and contain sample tests.
+    // The tests of this tool prove nothing about the mathematics, and some contain sample tests.
     let of_crates = sources.iter().filter(|source| !source.path.starts_with("xtask/"));
     let tests: Vec<Test> =
         of_crates.flat_map(|source| scan::scan_tests(&source.path, &source.text)).collect();
@@ -61,16 +63,16 @@ pub fn run_conformance(arguments: &[String]) -> Outcome {
     Err(format!("{} faults\n  {}", faults.len(), faults.join("\n  ")))
 }
 
-/// Items without a test in a complete crate that is responsible for them.
+/// Finds items without a test in a complete crate that is responsible for them.
 fn missing_items(tests: &[Test]) -> Vec<String> {
     let lines = items::all_items().flat_map(|item| {
         let missing = item.complete_owners().filter(|owner| !table::has_test(item, owner, tests));
-        missing.map(|owner| format!("{owner} has no test of {}: {}", item.id, item.title))
+        missing.map(|owner| format!("{owner} has no test for {}: {}", item.id, item.title))
     });
     lines.collect()
 }
 
-/// Tests that name unknown items.
+/// Finds tests that name unknown items.
 fn unknown_items(tests: &[Test]) -> Vec<String> {
     let lines = tests.iter().flat_map(|test| {
         let strange = test.ids.iter().filter(|id| items::all_items().all(|item| item.id != **id));
@@ -79,7 +81,7 @@ fn unknown_items(tests: &[Test]) -> Vec<String> {
     lines.collect()
 }
 
-/// Topics that are not in all three of the inventory, the table and the marks in the book.
+/// Finds topics that are missing from the inventory, the table or the marks in the book.
 fn differing_lists(document: &str, marks: Option<&BookMarks>) -> Result<Vec<String>, String> {
     let topics: BTreeSet<String> =
         items::ITEMS.iter().chain(items::MISPRINTS.iter()).map(|item| item.id.clone()).collect();
@@ -101,12 +103,12 @@ fn differing_lists(document: &str, marks: Option<&BookMarks>) -> Result<Vec<Stri
     Ok(faults)
 }
 
-/// The runners name their files as `("file", function)`.
+/// Finds vector files without a runner. Runners name their files as `("file", function)`.
 fn vectors_without_runner(sources: &[Source]) -> Vec<String> {
     let runners = sources.iter().filter(|source| source.path.starts_with("tests/vectors/"));
     let runners: String = runners.map(|source| source.text.as_str()).collect();
     let strange = VECTORS.iter().filter(|(name, _)| !runners.contains(&format!("(\"{name}\", ")));
-    strange.map(|(name, _)| format!("no runner in tests/vectors is for {name}")).collect()
+    strange.map(|(name, _)| format!("no runner in tests/vectors reads {name}")).collect()
 }
 
 fn coverage_summary(tests: &[Test], marks: Option<&BookMarks>) -> String {

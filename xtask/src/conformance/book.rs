@@ -1,4 +1,4 @@
-//! The marks of topics in the pages of the book: code spans such as `C14` and `M11b` in
+//! Topic marks in the pages of the book: code spans such as `C14` and `M11b` in
 //! `book/src/*.md`.
 
 use super::scan::is_item_id;
@@ -8,9 +8,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// The page of misprints, which marks every one of them.
+/// The errata page, which marks every misprint.
 const MISPRINT_PAGE: &str = "printed-wrong";
-/// The table of topics is generated from the marks and does not count as one of the pages.
+/// The topic index, which is generated from the marks and is not counted as a page.
 const GENERATED_PAGE: &str = "topics";
 
 /// The pages of the book that mark each topic.
@@ -20,7 +20,7 @@ pub struct BookMarks {
 }
 
 impl BookMarks {
-    /// The marks of all pages in a folder; `None` if there is no such folder.
+    /// Reads the marks of all pages in a folder; returns `None` if the folder does not exist.
     pub fn read(folder: &Path) -> Result<Option<Self>, String> {
         if !folder.is_dir() {
             return Ok(None);
@@ -44,12 +44,12 @@ impl BookMarks {
         }
     }
 
-    /// The pages that mark a topic, sorted.
+    /// Returns the pages that mark a topic, sorted.
     pub fn pages_of(&self, id: &str) -> impl Iterator<Item = &str> {
         self.pages.get(id).into_iter().flatten().map(String::as_str)
     }
 
-    /// Missing and unknown marks, given all topics.
+    /// Finds missing and unknown marks, given all topics.
     pub fn faults(&self, topics: &BTreeSet<String>) -> Vec<String> {
         let unmarked = topics.iter().filter(|id| !self.pages.contains_key(*id));
         let unmarked = unmarked.map(|id| format!("no page of the book marks {id}"));
@@ -65,7 +65,7 @@ impl BookMarks {
     }
 }
 
-/// The topics of an inventory: the first cells of its tables.
+/// Returns the topics in an inventory: the first cells of its tables.
 pub fn inventory_topics(text: &str) -> BTreeSet<String> {
     let cells = text.lines().filter_map(|line| line.strip_prefix("| ")?.split(" |").next());
     cells.filter(|cell| is_item_id(cell)).map(str::to_owned).collect()
@@ -83,7 +83,7 @@ pub fn compare_topics(name: &str, found: &BTreeSet<String>, known: &BTreeSet<Str
     Err(format!("{name} lacks [{missing}] and also has [{strange}]"))
 }
 
-/// The ids in code spans, outside fenced blocks.
+/// Returns the ids in code spans outside fenced blocks.
 fn marked_ids(text: &str) -> BTreeSet<String> {
     let mut in_fence = false;
     let mut ids = BTreeSet::new();
@@ -107,14 +107,14 @@ mod tests {
     }
 
     #[test]
-    fn marks_are_code_spans_outside_of_blocks() {
+    fn marks_are_code_spans_outside_blocks() {
         let text =
             "`C14` Text, `M11b` and `C2`, `$C3$`, C4, `C5 x`.\n```rust\n`C6`\n```\n> `M28`\n";
         assert_eq!(marked_ids(text), set(&["C14", "C2", "M11b", "M28"]));
     }
 
     #[test]
-    fn topics_without_a_mark_and_marks_without_a_topic_are_faults() {
+    fn missing_and_unknown_marks_are_reported() {
         let mut marks = BookMarks::default();
         marks.add_page("points", "`C1` `M1` `C9`");
         marks.add_page("printed-wrong", "`M1`");
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn lists_of_topics_are_compared() {
+    fn topic_lists_are_compared() {
         let found =
             inventory_topics("| id | where |\n|---|---|\n| C1 | x |\n| M11b | y |\n| MV | z |\n");
         assert_eq!(found, set(&["C1", "M11b"]));

@@ -1,4 +1,4 @@
-//! Test functions and the items that they name, read from source text.
+//! Finds test functions, and the items that they name, in source text.
 //!
 //! A test names an item in one of two ways: by a word in its own name (`c16_the_unit_square`,
 //! `misprint_m11_…`, `exercise_8_and_9_…`) or in the doc comment above it (`/// C31, M28: …`).
@@ -9,17 +9,17 @@ use std::collections::BTreeSet;
 /// A test function and the items that it names.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Test {
-    /// The file, from the root.
+    /// The path of the file, relative to the root.
     pub path: String,
     /// The name of the function.
     pub name: String,
-    /// Ids such as `C16`, `M11b` or `exercise 3`.
+    /// The ids, such as `C16`, `M11b` or `exercise 3`.
     pub ids: BTreeSet<String>,
 }
 
 impl Test {
-    /// The crate whose topics it tests: `recognition` reads the matrices of `projection`, and tests
-    /// of `explain` and cross-crate tests count for the pipeline.
+    /// Returns the crate whose topics a test covers: `recognition` reads the matrices of
+    /// `projection`, and tests of `explain` and cross-crate tests count for the pipeline.
     pub fn owner(&self) -> &str {
         let folder = self.path.strip_prefix("crates/").and_then(|rest| rest.split('/').next());
         match folder {
@@ -30,7 +30,7 @@ impl Test {
     }
 }
 
-/// The tests of a file.
+/// Finds the tests in a file.
 pub fn scan_tests(path: &str, text: &str) -> Vec<Test> {
     let (mut found, mut docs, mut marked) = (Vec::new(), String::new(), false);
     for line in text.lines().map(str::trim) {
@@ -63,7 +63,7 @@ fn capitalize_word(word: &str) -> String {
     letters.next().map(|first| first.to_ascii_uppercase()).into_iter().chain(letters).collect()
 }
 
-/// The ids among words: C16, M11b, and numbers that follow `exercise`.
+/// Finds ids among words: C16, M11b, and numbers that follow `exercise`.
 fn named_ids(words: impl Iterator<Item = String>) -> BTreeSet<String> {
     let (mut ids, mut exercise) = (BTreeSet::new(), false);
     for word in words.filter(|word| !word.is_empty()) {
@@ -81,7 +81,7 @@ fn named_ids(words: impl Iterator<Item = String>) -> BTreeSet<String> {
     ids
 }
 
-/// A letter, a number and, for a misprint, an optional letter.
+/// Parses an id: a letter, a number and, for a misprint, an optional letter.
 pub fn is_item_id(word: &str) -> bool {
     let number = |rest: &str| !rest.is_empty() && rest.bytes().all(|byte| byte.is_ascii_digit());
     let misprint = |rest: &str| number(rest) || number(rest.trim_end_matches(['b', 'c']));
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn the_folder_tells_the_owner() {
+    fn the_folder_determines_the_owner() {
         let owner = |path: &str| scan_tests(path, "#[test]\nfn x() {")[0].owner().to_owned();
         assert_eq!(owner("crates/clip/src/a.rs"), "clip");
         assert_eq!(owner("tests/program/main.rs"), "pipeline");

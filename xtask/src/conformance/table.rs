@@ -1,4 +1,4 @@
-//! The Markdown document `tests/CONFORMANCE.md`.
+//! Writes the Markdown document `tests/CONFORMANCE.md`.
 
 use super::book::BookMarks;
 use super::items::{EXERCISES, ITEMS, Item, MISPRINTS};
@@ -23,7 +23,7 @@ crates has no test for a topic that it implements.
 [exact vectors](vectors/data/README.md) are a second, independent test. Topics outside mathematics are covered by a page of the book.
 ";
 
-/// The whole document.
+/// Writes the whole document.
 pub fn conformance_document(tests: &[Test], marks: Option<&BookMarks>) -> String {
     let mut text = OPENING.to_owned();
     let sections: [(&str, &[Item]); 3] =
@@ -38,7 +38,7 @@ pub fn conformance_document(tests: &[Test], marks: Option<&BookMarks>) -> String
     text
 }
 
-/// A line for each file with a test of the item, for the vectors, and for missing tests.
+/// Writes a line for each file with a test of the item, for the vectors, and for missing tests.
 fn item_proofs(item: &Item, tests: &[Test], marks: Option<&BookMarks>) -> Vec<String> {
     let mut files: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for test in tests.iter().filter(|test| test.ids.contains(&item.id)) {
@@ -75,8 +75,8 @@ pub fn has_test(item: &Item, owner: &str, tests: &[Test]) -> bool {
     tests.iter().any(|test| test.owner() == owner && test.ids.contains(&item.id))
 }
 
-/// Whether a crate has a test that names the item. For topics outside mathematics: whether the book
-/// has a page that marks it.
+/// Returns whether a crate has a test that names the item. For topics outside mathematics: whether
+/// the book has a page that marks it.
 pub fn has_evidence(item: &Item, owner: &str, tests: &[Test], marks: Option<&BookMarks>) -> bool {
     if owner == DOCUMENTS {
         return marks.is_some_and(|marks| marks.pages_of(&item.id).next().is_some());

@@ -1,7 +1,7 @@
-//! The items that each file of `tests/vectors/data` tests, as a second witness to the tests of the
-//! crates.
+//! The items that each file in `tests/vectors/data` tests, as independent evidence beside the tests
+//! of the crates.
 
-/// The name of a file of vectors, and the items it tests.
+/// The name of a vector file, and the items it tests.
 pub const VECTORS: &[(&str, &[&str])] = &[
     ("clip_polygon", &["C4", "C31", "M28"]),
     ("clip_segment", &["C4", "C31", "C36", "C54", "M28"]),
