@@ -1,20 +1,20 @@
 //! Builds the book: a preprocessor for mdBook, and the commands that `cargo xtask book` runs.
 //!
 //! ```text
-//! mdbook-alberti                         the preprocessor: a book on stdin, a book on stdout
-//! mdbook-alberti supports RENDERER       whether it serves a renderer: all
-//! mdbook-alberti build --program FILE    both editions, or --language CODE; --partial: pages may be missing
-//! mdbook-alberti pot FOLDER              templates of the catalogs, one for each page
-//! mdbook-alberti update [PAGE…]          the catalogs with the messages of the pages as they are
-//! mdbook-alberti check-po [PAGE…]        faults of the catalogs
-//! mdbook-alberti coverage [--assert N]   how much of each page is translated
-//! mdbook-alberti check                   links, sizes, ids and topics of what was built
+//! mdbook-alberti                         run as a preprocessor: reads a book from stdin, writes it to stdout
+//! mdbook-alberti supports RENDERER       report that a renderer is supported: all are
+//! mdbook-alberti build --program FILE    build both editions, or --language CODE; --partial allows missing pages
+//! mdbook-alberti pot FOLDER              write catalog templates, one for each page
+//! mdbook-alberti update [PAGE…]          update the catalogs to the current pages
+//! mdbook-alberti check-po [PAGE…]        list errors in the catalogs
+//! mdbook-alberti coverage [--assert N]   print the translated percentage of each page
+//! mdbook-alberti check                   check links, sizes, ids and topics of the built editions
 //!
-//!   --book DIR      the folder of book.toml [default: book]
-//!   --source DIR    the folder of the pages [default: BOOK/src]
-//!   --po DIR        the folder of the catalogs [default: BOOK/po]
-//!   --project DIR   the folder in which the commands of the pages run [default: .]
-//!   --out DIR       the folder of the editions [default: target/book]
+//!   --book DIR      the folder that contains book.toml [default: book]
+//!   --source DIR    the folder that contains the pages [default: BOOK/src]
+//!   --po DIR        the folder that contains the catalogs [default: BOOK/po]
+//!   --project DIR   the working directory of the commands in the pages [default: .]
+//!   --out DIR       the output folder for the editions [default: target/book]
 //! ```
 
 mod arguments;

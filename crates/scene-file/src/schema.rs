@@ -3,9 +3,9 @@
 //!
 //! ```text
 //!  scene_struct! { pub struct ModelFile as "Model" { pub path: String, pub scale: Scale = … } }
-//!        ├─► struct ModelFile            what resolution works with
-//!        ├─► impl Serialize, Deserialize reads and writes it by `ron` and every other format of serde
-//!        └─► ModelFile::ENTRY          fields, types, doc comments: the checker, `alberti scene doc`
+//!        ├─► struct ModelFile            the type that resolution uses
+//!        ├─► impl Serialize, Deserialize for `ron` and every other serde format
+//!        └─► ModelFile::ENTRY            fields, types, doc comments: for the checker and `scene doc`
 //! ```
 //! A field with `= value`, or of type `Option`, may be omitted.
 //!

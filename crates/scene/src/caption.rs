@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  ┌──────────────┐
-//!  │              │   the view, as a picture without the strip has it
+//!  │              │   the view, as in a picture without the strip
 //!  │              │
 //!  ├┄┄┄┄┄┄┄┄┄┄┄┄┄┄┤
 //!  │    Front     │   the strip, in the color of the background

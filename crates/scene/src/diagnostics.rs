@@ -2,8 +2,8 @@
 //!
 //! ```text
 //!  part ─resolve─► Ok(value)    ─► Some(value)
-//!               └► Err(mistake) ─► None, and the mistake is kept: what depends on the part is left
-//!                                  out, for its mistakes could follow from that
+//!               └► Err(mistake) ─► None, and the mistake is collected; dependent parts are skipped,
+//!                                  because their mistakes could be consequences of this one
 //! ```
 
 use super::{Origin, ResolveError};

@@ -1,8 +1,8 @@
 //! Resolution of viewports and stereo pairs to insets: scenes within the scene.
 //!
 //! ```text
-//!   ┌───────────────┬───────┐   Each is a scene of its own with the models of the
-//!   │               │ inset │   main view: its camera, its style, its background,
+//!   ┌───────────────┬───────┐   Each is a separate scene with the models of the
+//!   │               │ inset │   main view, but its own camera, style, background,
 //!   │  the scene    ├───────┘   and an image of the rectangle's size.
 //!   └───────────────┘
 //! ```

@@ -6,7 +6,7 @@
 //! exit code 1.
 //!
 //! ```text
-//!  alberti --max-memory 1GiB render … ─► the same words, limited ─► picture, or killed
+//!  alberti --max-memory 1GiB render … ─► the same arguments, limited ─► picture, or killed
 //!        ▲ messages, exit code ◄──────────────────────┘
 //! ```
 

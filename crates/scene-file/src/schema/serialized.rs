@@ -1,7 +1,7 @@
 //! Scene file values in serde's data model, for `ron` and every other format.
 //!
 //! ```text
-//!  Deserializer ─► Reader(ValueType) ─► Data     fields and variants as they are declared
+//!  Deserializer ─► Reader(ValueType) ─► Data     with declared fields and variants
 //!  Data ─► Writer(ValueType) ─► Serializer       with type and variant names
 //! ```
 

@@ -4,7 +4,7 @@
 //! ```text
 //!   ┌──────────────────────────────┐
 //!   │  ①   ②   ③   ④              │     the view is as large as its region of the sheet allows;
-//!   │  ⑤  ┌────────┐  ⑥           │     the balloons are around it, as near as there is room
+//!   │  ⑤  ┌────────┐  ⑥           │     the balloons surround it as closely as space allows
 //!   │  ⑦  │  view  │  ⑧ ┌─────────┤
 //!   │     └────────┘    │  list   │
 //!   │  ⑨   ⑩   ⑪      ├─────────┤
