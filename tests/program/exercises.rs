@@ -151,7 +151,7 @@ fn answers_in_the_exercise_text_are_correct() {
         .collect();
     assert_eq!(commands.len(), 5, "{commands:?}");
     for command in commands {
-        assert_eq!(run_command(&sandbox, command, &["--language", "en"]), "right\n", "{command}");
+        assert_eq!(run_command(&sandbox, command, &["--language", "en"]), "correct\n", "{command}");
     }
     // Runs the samples in the section on checking.
     let (_, samples) = page.split_once("```text\n").expect("samples");

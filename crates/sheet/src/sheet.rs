@@ -1,5 +1,4 @@
-//! Drawing sheets: orthographic views of an object on paper, to scale, with a title block and
-//! overall dimensions.
+//! Drawing sheets: orthographic views on paper, to scale, with a title block and dimensions.
 //!
 //! ```text
 //!   first angle                              third angle
@@ -140,16 +139,14 @@ pub struct Sheet {
     /// The models count as symmetric if reflected vertices are on faces and reflected edges are on
     /// edges, within 1/20,000 of the models' diagonal.
     pub symmetry_lines: bool,
-    /// The objects that section planes do not cut, as indices of nodes with a mesh, counted over
-    /// all models.
+    /// The objects that section planes do not cut: indices of nodes with a mesh, over all models.
     pub uncut: Vec<u32>,
     /// The text of the title block.
     pub title_block: TitleBlockText,
     /// The pages that show the models as an assembly of parts; see
     /// [`draw_pages`](Self::draw_pages).
     pub assembly: AssemblyPages,
-    /// Views that add to or replace the principal and axonometric views, and local cuts or breaks
-    /// of views.
+    /// Views that add to or replace the principal and axonometric views, and local cuts or breaks.
     pub views: Vec<ViewRequest>,
     /// The border around the drawing area.
     pub frame: SheetFrame,
@@ -238,8 +235,7 @@ impl Sheet {
     /// Returns a technical drawing on this paper, in first-angle projection, with a left view, an
     /// isometric view and overall dimensions.
     ///
-    /// The line group grows with the paper: 0.35 mm up to A5, 0.5 mm up to A2, and 0.7 mm for
-    /// larger paper.
+    /// The line group grows with the paper: 0.35 mm up to A5, 0.5 mm up to A2, and 0.7 mm above.
     #[must_use]
     pub fn for_paper(paper: Paper, paper_name: impl Into<String>) -> Self {
         let group = match paper.width().max(paper.height()) {
@@ -345,8 +341,7 @@ impl Sheet {
         if own.is_empty() { model_names(models) } else { own.clone() }
     }
 
-    /// Returns warnings about views not shown as requested, and about characters missing from the
-    /// font.
+    /// Returns warnings about views not shown as requested, and about missing characters.
     fn warnings_of_layout(
         &self,
         plan: &ViewPlan,
@@ -402,8 +397,7 @@ impl Sheet {
         LineStyle { hidden_lines, face_fill, ..self.style }
     }
 
-    /// Adds the drawing of a view to the page, and prefixes its layer ids with the name of the
-    /// view.
+    /// Adds the drawing of a view to the page, and prefixes its layer ids with the view's name.
     fn add_view(
         &self,
         page: &mut SheetPage,
@@ -433,8 +427,7 @@ impl Sheet {
         page.warnings.extend(drawing.warnings.into_iter().map(SheetWarning::from));
     }
 
-    /// Draws the dimensions and other annotations of views, the scale bar, the frame and the title
-    /// block.
+    /// Draws the dimensions and annotations of views, the scale bar, the frame and the title block.
     fn draw_annotations(&self, page: &mut SheetPage, layout: &ViewLayout<'_>, ink: Ink) {
         for kind in AnnotationLayer::ALL {
             let mut layer = kind.to_layer(self.line_width_group(), self.lettering_height(), ink);

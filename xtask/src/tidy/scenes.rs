@@ -61,7 +61,7 @@ fn unmatched_names(
     for name in rows.difference(scenes) {
         faults.push(Violation::new(
             "scenes/README.md",
-            format!("the table has `{name}`, which is no scene"),
+            format!("the table has `{name}`, which is not a scene"),
         ));
     }
     faults

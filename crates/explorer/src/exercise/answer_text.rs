@@ -278,7 +278,7 @@ mod tests {
             "1 2 3; c=n*f; 4 5 6",
         ] {
             let error = split_answer(text, MATRIX).expect_err(text);
-            assert!(error.to_string().contains("omit `c"), "{text}: {error}");
+            assert!(error.to_string().contains("without `c"), "{text}: {error}");
         }
     }
 
