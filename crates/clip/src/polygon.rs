@@ -26,8 +26,8 @@ impl ClippedConvex {
         &self.points
     }
 
-    /// Returns the weights of the source vertices in vertex `i`, which sum to 1, or `None` if there
-    /// is no such vertex.
+    /// Returns the weights of the source vertices in vertex `i`, which sum to 1, or `None` if the
+    /// vertex does not exist.
     #[must_use]
     pub fn weights(&self, i: usize) -> Option<&[f64]> {
         self.weights.chunks_exact(self.sources.max(1)).nth(i)
