@@ -6,7 +6,7 @@
 
 use crate::references::picture::Picture;
 
-/// The difference between two pictures of the same size.
+/// The difference between two equally large pictures.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Score {
     /// The mean difference over all channels, from 0 to 255.

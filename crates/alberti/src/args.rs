@@ -172,7 +172,7 @@ pub(crate) struct RenderArgs {
         conflicts_with_all = ["view", "camera", "azimuth", "elevation", "eye", "extrinsics", "pose"]
     )]
     pub(crate) views: Vec<NamedView>,
-    /// Use one scale for all --views, so that lengths can be compared between the pictures of an
+    /// Use one scale for all --views, so that lengths can be compared between the pictures for an
     /// input
     ///
     /// It is the largest scale at which every view fits. It needs a parallel projection, such as

@@ -23,7 +23,7 @@ pub(super) struct BatchJob {
     pub(super) fault: Option<String>,
 }
 
-/// The pictures of one input, which are rendered in the same shard by the same worker.
+/// The pictures for one input, which are rendered in the same shard by the same worker.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct JobGroup {
     /// The pictures, of which there is at least one.

@@ -80,7 +80,7 @@ impl RunCounts {
             &mut text,
             "picture_bytes_total",
             "counter",
-            "Total size of the pictures of this run.",
+            "Total size of the pictures in this run.",
         );
         let _ = writeln!(text, "alberti_batch_picture_bytes_total {}", self.bytes);
         head(&mut text, "worker_restarts_total", "counter", "Workers that were replaced.");

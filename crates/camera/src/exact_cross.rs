@@ -2,7 +2,7 @@
 //!
 //! Each coordinate of t × g is a difference a b − c d. For directions 10⁻⁶ rad apart the two
 //! products agree to six digits, and rounding them first would leave only ten digits in the
-//! camera's right axis. Here the rounding errors of the products are computed and added back
+//! camera's right axis. Here the products' rounding errors are computed and added back
 //! (Dekker 1971, with Veltkamp's splitting). This makes u correct to the last digits for any
 //! accepted view-up.
 
@@ -26,7 +26,7 @@ pub(crate) fn scale_near_one(v: DVec3) -> DVec3 {
     DVec3::from_array(v.to_array().map(|c| libm::scalbn(c, -exponent)))
 }
 
-/// Returns a b − c d, for numbers of magnitude at most 1.
+/// Returns a b − c d, for magnitudes of at most 1.
 fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
     let (p, p_error) = two_product(a, b);
     let (q, q_error) = two_product(c, d);

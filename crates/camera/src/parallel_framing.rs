@@ -88,8 +88,8 @@ where
 /// (x − z a/c, y − z b/c) for projectors (a, b, c).
 ///
 /// # Errors
-/// Returns the errors of [`frame_parallel`], and an error if the projectors are not finite or have
-/// z ≥ 0.
+/// Returns the same errors as [`frame_parallel`], and an error if the projectors are not finite or
+/// have z ≥ 0.
 pub fn frame_oblique<I>(
     points: I,
     orientation: Basis,

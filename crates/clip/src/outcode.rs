@@ -161,7 +161,7 @@ impl BitOrAssign for Outcode {
 }
 
 impl fmt::Display for Outcode {
-    /// Writes the names of the planes joined by `+`, or `inside` if the set is empty.
+    /// Writes the plane names joined by `+`, or `inside` if the set is empty.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.is_inside() {
             return f.pad("inside");

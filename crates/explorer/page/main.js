@@ -128,7 +128,7 @@ function settled() {
   document.body.dataset.settled = state.query();
 }
 
-/** Shows the text and numbers of the state. */
+/** Shows the state as text and numbers. */
 function showState(answer) {
   shown = answer;
   hideNotice('engine');

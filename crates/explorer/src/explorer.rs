@@ -140,7 +140,7 @@ impl Explorer {
         Ok((text, LoadedScene { first_view: lesson.first_view, ..loaded }))
     }
 
-    /// Checks that all models of a state have been added.
+    /// Checks that all of a state's models have been added.
     fn check_models(&self, state: &LessonState) -> Result<(), ExplorerError> {
         let own = state.model.as_deref().filter(|_| state.lesson.models.is_empty());
         let missing =

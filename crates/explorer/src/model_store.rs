@@ -34,7 +34,7 @@ impl LoadedScene {
     }
 }
 
-/// The models of a scene and the data computed once from them.
+/// A scene's models and the data computed once from them.
 #[derive(Debug)]
 pub(crate) struct LoadedModels {
     /// The models as written in the scene file.

@@ -138,7 +138,7 @@ pub(crate) enum Containment {
     Outside,
 }
 
-/// The numbers of triangles that are inside, clipped and outside, and the planes responsible.
+/// How many triangles are inside, clipped and outside, and the planes responsible.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub(crate) struct Survey {
     pub(crate) inside: usize,

@@ -14,10 +14,10 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// The temporary files of this process.
+/// This process's temporary files.
 static OWN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-/// The temporary files of other processes, for each folder that this process has searched.
+/// Other processes' temporary files, for each folder that this process has searched.
 static FOREIGN: Mutex<BTreeMap<PathBuf, Vec<ForeignFile>>> = Mutex::new(BTreeMap::new());
 
 /// The age at which an unlocked temporary file counts as abandoned, even if its process is not
@@ -79,7 +79,7 @@ pub(crate) fn remove(path: &Path) {
     forget_partial_file(path);
 }
 
-/// Removes all temporary files of this process and calls `end`, which must end the process. No
+/// Removes all of this process's temporary files and calls `end`, which must end the process. No
 /// temporary file can be created in the meantime.
 ///
 /// Call this when a signal interrupts the program.
@@ -114,7 +114,8 @@ fn foreign_files(folder: &Path) -> Vec<ForeignFile> {
 }
 
 impl ForeignFile {
-    /// Parses a name such as `a.png.4711.part`; `None` for other names and files of this process.
+    /// Parses a name such as `a.png.4711.part`; `None` for other names and for this process's
+    /// files.
     fn from_name(name: OsString) -> Option<Self> {
         let name = name.into_string().ok()?;
         let (target, process) = name.strip_suffix(".part")?.rsplit_once('.')?;

@@ -14,7 +14,7 @@ pub fn is_terminal_control(character: char) -> bool {
 /// Prepares text for a message line. Control characters are written as in Rust, such as `\n` or
 /// `\u{1b}`.
 ///
-/// Untrusted files contain names of nodes, keys and other files. Such a name must not be able to
+/// Untrusted files contain node names, keys and file names. Such a name must not be able to
 /// move the cursor, color the screen or start a new line.
 ///
 /// ```

@@ -189,7 +189,7 @@ impl<'a> PrimitiveChecker<'a, '_> {
         });
         if counts[2] != counts[3] {
             let message = format_args!(
-                "the numbers of JOINTS sets ({}) and WEIGHTS sets ({}) differ",
+                "the JOINTS sets ({}) and WEIGHTS sets ({}) differ in number",
                 counts[2], counts[3]
             );
             self.report(&codes::MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH, "attributes", message);

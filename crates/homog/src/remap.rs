@@ -112,7 +112,7 @@ impl Homography {
     /// opposite corners `to` (WI-2).
     ///
     /// # Errors
-    /// Returns the errors of [`remap_interval`] for either axis.
+    /// Returns the same errors as [`remap_interval`], for either axis.
     pub fn windowing(from: [[f64; 2]; 2], to: [[f64; 2]; 2]) -> Result<Self, RemapError> {
         let axis =
             |name, i: usize| scale_and_offset(name, [from[0][i], from[1][i]], [to[0][i], to[1][i]]);
@@ -126,7 +126,7 @@ impl<A: Space, B: Space> Affine<A, B> {
     /// corners `to` (WI-3). The target box may be flat or mirrored.
     ///
     /// # Errors
-    /// Returns the errors of [`remap_interval`] for any of the three axes.
+    /// Returns the same errors as [`remap_interval`], for any of the three axes.
     pub fn windowing(from: [Point<A>; 2], to: [Point<B>; 2]) -> Result<Self, RemapError> {
         let (from, to) = (from.map(<[f64; 3]>::from), to.map(<[f64; 3]>::from));
         let axis =

@@ -161,7 +161,7 @@ fn write_image(pdf: &mut Pdf, [color, mask]: [Ref; 2], picture: &Picture) {
 
 /// Writes the page object, its resources and its content stream.
 ///
-/// `layers` and `pictures` are the numbers of layers and images on earlier pages, from which object
+/// `layers` and `pictures` count the layers and images on earlier pages, from which object
 /// ids follow.
 fn write_page(
     pdf: &mut Pdf,

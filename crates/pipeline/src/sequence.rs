@@ -94,7 +94,7 @@ const FRAMING_SAMPLES: usize = 16;
 const FRAMES_AHEAD: usize = 2;
 
 impl Sequence {
-    /// Prepares a sequence of `frames` pictures of the scene that `file` describes. An automatic
+    /// Prepares a sequence of `frames` pictures for the scene that `file` describes. An automatic
     /// camera is fitted to the whole motion.
     ///
     /// # Errors

@@ -59,8 +59,8 @@ impl ApexMovedFrustum {
     /// on the near plane.
     ///
     /// # Errors
-    /// Returns the errors of [`Frustum::new`], and an error if `far` is infinite, which the lesson
-    /// does not support.
+    /// Returns the same errors as [`Frustum::new`], and an error if `far` is infinite, which the
+    /// lesson does not support.
     pub fn new(
         left: f64,
         right: f64,

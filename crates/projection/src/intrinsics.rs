@@ -64,8 +64,8 @@ impl Intrinsics {
     /// last entry.
     ///
     /// # Errors
-    /// Returns the errors of [`new`](Self::new), and an error if `K[1][0]` or the last row is not
-    /// as shown above.
+    /// Returns the same errors as [`new`](Self::new), and an error if `K[1][0]` or the last row is
+    /// not as shown above.
     pub fn from_rows(rows: [[f64; 3]; 3], size: [u32; 2]) -> Result<Self, ProjectionError> {
         for value in rows.as_flattened() {
             check_finite("K", *value)?;

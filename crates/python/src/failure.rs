@@ -1,7 +1,7 @@
-//! Failures: all errors of the package, as one Python exception.
+//! Failures: all errors in the package, as one Python exception.
 //!
 //! ```text
-//!  errors of the crates ─┐
+//!  errors from crates ───┐
 //!  wrong arguments ──────┼─► Failure ─► alberti.AlbertiError(message, code, pointer, help)
 //!  panics ───────────────┘
 //! ```

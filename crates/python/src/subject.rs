@@ -124,7 +124,7 @@ impl Subject {
         warnings.collect()
     }
 
-    /// Returns the node, mesh or material names of each distinct model; None for unnamed parts.
+    /// Returns the node, mesh or material names in each distinct model; None for unnamed parts.
     fn part_names(&self, what: &str) -> PyResult<Vec<Vec<Option<String>>>> {
         let names = |model: &Arc<model::Model>| match what {
             "nodes" => Ok(model.nodes.iter().map(|part| part.name.clone()).collect()),

@@ -138,7 +138,7 @@ DIFFERENT_SHAPES = {
     "wallhole.obj": 0.03,
     # Lines are dropped, and their ends remain as points.
     "testline.obj": 1,
-    # Objects with the same id in two files of the archive are treated as one object.
+    # Objects with the same id in two files in the archive are treated as one object.
     "production_components.3mf": 1,
 }
 # Files where trimesh splits a surface by material, which makes the borders creases.

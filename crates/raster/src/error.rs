@@ -21,7 +21,7 @@ pub enum RasterError {
         /// The requested height in pixels.
         height: u32,
     },
-    /// A depth buffer and a frame have different numbers of samples.
+    /// A depth buffer and a frame have different sample counts.
     #[error("a depth buffer with {found} samples does not match a frame with {expected}")]
     DepthCount {
         /// The number of samples in the frame.

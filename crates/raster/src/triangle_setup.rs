@@ -151,7 +151,7 @@ impl TriangleSetup {
         let quotient =
             |edge: EdgeFunction| (edge.evaluate(x, y) >> SUBPIXEL_BITS).clamp(-limit, limit) as i32;
         // Depth is relative to the corner of the bounds, not of the tile: the offsets of samples
-        // within the triangle are then small, and so are the rounding errors of their products.
+        // within the triangle are then small, and so are their products' rounding errors.
         let pixels = |count: i32| i64::from(count) * i64::from(SUBPIXELS);
         let corner = (x + pixels(self.functions.x0), y + pixels(self.functions.y0));
         SampleStart { edges: self.edges.map(quotient), z: self.depth.depth_at(corner) as f32 }

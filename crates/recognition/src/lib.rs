@@ -8,7 +8,7 @@
 //!                                             rarely such a matrix is met       better)
 //! ```
 //!
-//! The numbers of a matrix do not determine its meaning: the OpenGL matrix of (N, F) is the
+//! A matrix's numbers do not determine its meaning: the OpenGL matrix of (N, F) is the
 //! zero-to-one matrix of (2FN/(F+N), F). However, people choose numbers with few digits, windows
 //! with left < right and bottom < top, and 0 < near < far. The reading that needs the fewest digits
 //! is therefore listed first, and common conventions precede rare conventions (minimum description
@@ -38,7 +38,7 @@
 //! | the meaning of a 4×4 matrix, or its misprint | [`recognize`] |
 //! | the meaning of a 3×3 matrix | [`recognize_planar`] |
 //! | the error in a matrix for a known projection | [`misprint_of`] |
-//! | the numbers of a matrix, from text or source code | [`parse_matrix`] |
+//! | a matrix's numbers, from text or source code | [`parse_matrix`] |
 //! | a matrix as source code or LaTeX | [`CodeLanguage::format_matrix`] |
 //! | the parameters of a matrix in a known convention | [`projection::decompose()`] |
 //!

@@ -144,7 +144,7 @@ pub(crate) fn measure_entries<const N: usize>(rows: [[f64; N]; N]) -> Entries<N>
 }
 
 /// Returns all entries with the precision of the coarser entries, once for each possible precision,
-/// finest first. This is for matrices assembled from numbers of different precision.
+/// finest first. This is for matrices assembled from numbers with different precision.
 ///
 /// At least three of the entries with more than two decimals, and at least two thirds of them, must
 /// have at most the assumed number of decimals. Entries with more decimals keep their own

@@ -14,7 +14,7 @@ const MAX_NAMES: usize = 1024;
 /// The maximum number of words in a statement at which a file name may begin.
 const MAX_WORDS: usize = 16;
 
-/// Returns the names of the files that a model or material library refers to, relative to the
+/// Returns the file names that a model or material library refers to, relative to the
 /// model's folder, in the order in which they appear. `name` is the name of the file itself.
 ///
 /// The textures of a material library are not listed for the model that refers to it.

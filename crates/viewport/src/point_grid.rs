@@ -28,7 +28,7 @@ pub struct PointGrid {
 }
 
 impl PointGrid {
-    /// Creates a grid with these numbers of rows and columns.
+    /// Creates a grid with this many rows and columns.
     ///
     /// # Errors
     /// Returns an error if there are fewer than two rows or columns.

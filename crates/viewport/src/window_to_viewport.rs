@@ -47,7 +47,7 @@ impl WindowToViewport {
     ///
     /// # Errors
     /// Returns an error if a limit is not finite, if a width or height of the window or viewport is
-    /// 0, or if they differ so much in size that the factors are not finite.
+    /// 0, or if their sizes differ too much for finite factors.
     pub fn new(window: Limits, viewport: Limits) -> Result<Self, ViewportError> {
         check_interval("window's x", window.x)?;
         check_interval("window's y", window.y)?;

@@ -22,7 +22,7 @@ use std::ffi::{CStr, CString, c_char, c_int, c_uchar, c_uint, c_void};
 use std::ops::Range;
 use std::ptr::{null, null_mut};
 
-/// The names of the library, newest first.
+/// The library names, newest first.
 const NAMES: [&str; 2] = ["libOSMesa.so.8", "libOSMesa.so.6"];
 
 /// Declares a table of functions and their lookup.

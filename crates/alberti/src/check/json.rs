@@ -49,7 +49,7 @@ pub(super) fn scenes_report(all: &[CheckResult]) -> String {
 /// Returns the result for one input.
 ///
 /// `scene` is `null` for a bare model and an empty list for a scene without errors. `errors` counts
-/// the errors of the scene and all its models.
+/// the errors in the scene and all its models.
 fn result_json(findings: &CheckResult) -> Value {
     let scene = findings.scene.as_ref();
     json!({

@@ -21,7 +21,7 @@ pub(super) struct AssemblyArgs {
         value_parser = parse_list_file
     )]
     parts_list: Option<Option<PathBuf>>,
-    /// Add a page that shows the assembly with the item numbers of the parts list
+    /// Add a page that shows the assembly with the item numbers from the parts list
     #[arg(long)]
     balloons: bool,
     /// Move the parts on that page apart, and draw their paths

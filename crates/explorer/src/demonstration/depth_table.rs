@@ -1,9 +1,9 @@
 //! The depth table: depth after the divide against distance, and depth resolution (C48, C68; ZP-1).
 //!
 //! A perspective keeps lines straight at the expense of depth: half of the range is used for
-//! distances from N to 2FN/(F + N). Stored depth is rounded, so many large distances share one
-//! value. Floating-point numbers are finest near 0. If the far plane has depth 0 (*reversed
-//! depth*), the two effects cancel.
+//! distances from N to 2FN/(F + N). Stored depth is rounded, and therefore many large distances
+//! share one value. Floating-point numbers are finest near 0. If the far plane has depth 0
+//! (*reversed depth*), the two effects cancel.
 //!
 //! ```text
 //!  depth(D) = F (D − N) / ((F − N) D)        for the range [0, 1] from near N to far F

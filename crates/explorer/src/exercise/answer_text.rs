@@ -153,7 +153,7 @@ fn split_values(text: &str, names: &[&str]) -> Result<Vec<String>, AnswerError> 
     order_by_name(entries, names)
 }
 
-/// Removes the names of entries such as `A = n + f`, and returns the entries in the order of the
+/// Removes names from entries such as `A = n + f`, and returns the entries in the order of the
 /// names.
 fn order_by_name(entries: Vec<&str>, names: &[&str]) -> Result<Vec<String>, AnswerError> {
     let named: Vec<Option<(&str, &str)>> =

@@ -42,7 +42,7 @@ pub(super) struct ObjFile<'a> {
     pub(super) has_smoothing: bool,
 }
 
-/// The object and group names of elements, or empty if there are none.
+/// The elements' object and group names, or empty if there are none.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
 pub(super) struct GroupName<'a> {
     /// The object, from `o`.

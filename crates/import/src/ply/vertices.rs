@@ -68,7 +68,7 @@ pub(super) fn color_channel(name: &str) -> Option<usize> {
     }
 }
 
-/// Returns the names of the numeric vertex properties without a predefined meaning, in alphabetical
+/// Returns the numeric vertex properties without a predefined meaning, by name in alphabetical
 /// order and without duplicates.
 pub(super) fn scalar_attributes(header: &Header) -> Vec<String> {
     let elements = header.elements.iter().filter(|element| element.name == "vertex");

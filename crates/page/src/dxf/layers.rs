@@ -93,7 +93,7 @@ impl LayerTable {
         self.layers[self.of_groups[layer][group]].line_type.map_or(1.0, |(_, factor)| factor)
     }
 
-    /// Returns the numbers of layers and dashed line types.
+    /// Returns how many layers and dashed line types there are.
     pub(super) fn counts(&self) -> [usize; 2] {
         [self.layers.len(), self.dashed.len()]
     }

@@ -115,7 +115,7 @@ def _diffuse(material: Any) -> Any:
 
 
 def _numbers(value: Any) -> Any:
-    """Return one or more numbers of an MTL key; None if they are not valid numbers."""
+    """Return one or more numbers from an MTL key; None if they are not valid numbers."""
     import numpy as np
 
     try:

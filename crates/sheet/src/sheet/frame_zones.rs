@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn zone_counts_match_the_standard() {
-        // ISO 5457, table 2: the numbers of zones along the longer and the shorter side.
+        // ISO 5457, table 2: the zone counts along the longer and the shorter side.
         for (paper, counts) in [
             (Paper::A0, [24, 16]),
             (Paper::A1, [16, 12]),

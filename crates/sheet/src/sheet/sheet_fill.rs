@@ -64,7 +64,7 @@ pub enum ScaleLimit {
     NoRoom {
         /// The next larger scale.
         scale: DrawingScale,
-        /// The names of the other views, such as `isometric view`.
+        /// The other views' names, such as `isometric view`.
         views: Vec<String>,
     },
 }

@@ -109,7 +109,7 @@ pub fn scattered_parts(count: usize) -> ModelInstance {
     assembly(primitives, nodes)
 }
 
-/// Converts a number to letters, so that the names of kinds do not end in digits.
+/// Converts a number to letters, so that kind names do not end in digits.
 pub fn letters(number: usize) -> String {
     let letter = |digit: usize| char::from(b'a' + digit as u8);
     [number / 676 % 26, number / 26 % 26, number % 26].map(letter).iter().collect()

@@ -18,8 +18,8 @@ const FLOAT: i32 = 2;
 impl PassBuffer {
     /// Encodes the pass as an OpenEXR file of f32 or u32 values.
     ///
-    /// Channels are `Z` for depth, `X`, `Y` and `Z` for vectors, `U` and `V` for texture coordinates,
-    /// and the name of the pass for others.
+    /// Channels are `Z` for depth, `X`, `Y` and `Z` for vectors, `U` and `V` for texture
+    /// coordinates, and the name of the pass for others.
     #[must_use]
     pub fn to_exr(&self) -> Vec<u8> {
         let names = channel_names(self.pass);
@@ -87,7 +87,7 @@ impl PassBuffer {
     }
 }
 
-/// Returns the channel names of a pass in the order of its values, which is alphabetical.
+/// Returns a pass's channel names in the order of its values, which is alphabetical.
 fn channel_names(pass: Pass) -> Vec<&'static str> {
     match (pass, pass.channels()) {
         (Pass::Depth, _) => vec!["Z"],

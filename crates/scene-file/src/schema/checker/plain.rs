@@ -115,7 +115,7 @@ impl Checker<'_> {
     }
 }
 
-/// Suggests a tuple for a value that is not one: the numbers of `"320x240"` and `"1:20"`, or a
+/// Suggests a tuple for a value that is not one: the numbers in `"320x240"` and `"1:20"`, or a
 /// single number where two are expected.
 fn suggest_tuple(node: &Node<'_>, count: usize, checker: &Checker<'_>) -> Option<String> {
     let parts: Vec<&str> = match node.kind {
