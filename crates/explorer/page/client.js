@@ -1,9 +1,9 @@
-// The page's connection to the worker: requests, answers, and a new worker when one dies.
+// The connection to the worker: requests, answers, and a new worker when one dies.
 
 import { resourceUrl, server } from './resources.js';
 import { currentLanguage } from './texts.js';
 
-/** Milliseconds after which a silent worker is considered dead. Reading a large model takes a long time. */
+/** Milliseconds after which a silent worker is considered dead: large models load slowly. */
 const TIME_LIMIT = 120_000;
 
 /** An error to show: a message, a remedy and a code for programs. */

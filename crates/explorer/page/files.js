@@ -63,7 +63,7 @@ export function acceptDrops(open) {
   });
 }
 
-/** Copies text, or shows it for manual copying if the browser does not allow access to the clipboard. Returns whether it was copied. */
+/** Copies text, or shows it if the clipboard is blocked. Returns whether it was copied. */
 export async function copyText(words) {
   try {
     await navigator.clipboard.writeText(words);

@@ -45,7 +45,7 @@ async function start() {
   addEventListener('hashchange', () => openLink(location.hash.slice(1)));
 }
 
-/** Opens a link. A malformed link is reported, and its lesson opens with default values. */
+/** Opens a link. A malformed link is reported, and its lesson opens with defaults. */
 async function openLink(link) {
   if (lesson && new State(link).query() === state.query()) return;
   hideNotice();
@@ -100,13 +100,13 @@ function styleParameter() {
   return { key: 'style', kind: 'choice', label: text('style'), choices: [{ value: '', label: text('styleDefault') }, ...choices] };
 }
 
-/** Changes the state after a control was moved. An empty value restores the lesson's default. */
+/** Changes the state after a control moved. An empty value restores the default. */
 function changeState(key, value) {
   state.set(key, value);
   stateChanged();
 }
 
-/** Updates the controls, the link and the named panes, or all panes, after a change. */
+/** Updates controls, link and the named panes, or all panes, after a change. */
 function stateChanged(names) {
   delete document.body.dataset.settled;
   updateControls();
@@ -116,7 +116,7 @@ function stateChanged(names) {
   panes.change(names);
 }
 
-/** Updates the link and announces the consequences once all panes show the state. */
+/** Once all panes show the state, updates the link and announces the consequences. */
 function settled() {
   const hash = `#${state.query()}`;
   if (location.hash !== hash) history.replaceState(null, '', hash);
@@ -140,7 +140,7 @@ function showState(answer) {
   showDepthTable(answer.depth_table);
 }
 
-/** Shows distances, depths, and the smallest step in distance that the buffer resolves. */
+/** Shows distances, depths, and the smallest step that the buffer resolves. */
 function showDepthTable(table) {
   byId('depth-details').hidden = !table;
   if (!table) return;
@@ -149,7 +149,7 @@ function showDepthTable(table) {
   byId('depth-table').replaceChildren(plainTable(columns, rows));
 }
 
-/** Shows the coordinates of the pinned point in every space, its outcode and, on demand, every step. */
+/** Shows the pinned point in every space, its outcode and, on demand, every step. */
 function showJourney({ journey, outcode }) {
   const heads = [text('space'), 'x', 'y', 'z', 'w'];
   byId('journey').replaceChildren(journeyTable(journey.spaces, word, heads));

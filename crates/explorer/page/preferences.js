@@ -4,7 +4,7 @@ import { byId } from './dom.js';
 import { server } from './resources.js';
 import { LANGUAGES, currentLanguage, setLanguage } from './texts.js';
 
-/** Whether the server computes pictures, because of `?native` or because WebAssembly is missing. */
+/** Whether the server computes pictures: `?native`, or without WebAssembly. */
 export function chooseNative() {
   if (!server.native) return false;
   return new URLSearchParams(location.search).has('native') || !server.wasm || typeof WebAssembly !== 'object';
@@ -15,7 +15,7 @@ const remember = (key, value) => {
   try {
     localStorage.setItem(key, value);
   } catch {
-    // Private windows may not allow it. The choice then applies only to this page.
+    // Private windows may not allow it. The choice then lasts for this page.
   }
 };
 
@@ -27,7 +27,7 @@ const recall = (key) => {
   }
 };
 
-/** Sets the language and theme, and initializes their selectors. @param {() => void} languageChanged */
+/** Sets the language and theme with their selectors. @param {() => void} languageChanged */
 export function preferences(languageChanged) {
   const ofLink = new URLSearchParams(location.hash.slice(1)).get('lang');
   const ofBrowser = navigator.languages.map((one) => one.slice(0, 2)).find((one) => LANGUAGES.includes(one));

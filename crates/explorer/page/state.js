@@ -73,5 +73,5 @@ export class State {
   }
 }
 
-/** Percent-encodes a value, except for commas and slashes, so that vectors and paths stay readable. */
+/** Percent-encodes a value, but keeps commas and slashes readable. */
 const escapeValue = (value) => encodeURIComponent(value).replaceAll('%2C', ',').replaceAll('%2F', '/');

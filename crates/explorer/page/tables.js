@@ -50,7 +50,7 @@ export function valueText(value, word) {
   return value === null || value === undefined ? '' : word(value);
 }
 
-/** Renders the coordinates of a point, with a row for each space. @param {object[]} spaces @param {string[]} heads */
+/** Renders a point's coordinates, one row per space. @param {object[]} spaces @param {string[]} heads */
 export function journeyTable(spaces, word, heads) {
   const row = ({ space, label, value }) => {
     const cells = ['x', 'y', 'z', 'w'].map((axis, i) =>

@@ -1,4 +1,4 @@
-// The text of the page itself, in English and Chinese. Text about a lesson comes from the engine.
+// The page's text in English and Chinese. Text about a lesson comes from the engine.
 
 const TEXTS = {
   explorer: ['explorer', '观察流水线'],
@@ -145,7 +145,7 @@ export const sourceName = (source) => TEXTS.sources[source]?.[LANGUAGES.indexOf(
 /** Returns text from the engine, which may be in both languages or only one. @param {any} words */
 export const word = (words) => (words && typeof words === 'object' ? (words[language] ?? words.en ?? '') : String(words ?? ''));
 
-/** Turns a message into a sentence, because programs write messages without a capital letter and period. @param {string} message */
+/** Turns a message into a sentence with a capital letter and a period. @param {string} message */
 export function sentence(message) {
   const words = /^[a-z]+[ ,]/.test(message) ? message[0].toUpperCase() + message.slice(1) : message;
   return words === '' || /[.!?。！？]$/.test(words) ? words : `${words}${language === 'zh' ? '。' : '.'}`;

@@ -17,7 +17,7 @@ async function answerMessage({ start, file, query }) {
   return file ? engine.addFile(file.name, file.bytes) : engine.answer(query);
 }
 
-// Messages are processed one at a time, because the engine keeps models and scenes between them.
+// Messages are processed in turn, because the engine keeps models and scenes between them.
 let previous = Promise.resolve();
 addEventListener('message', ({ data }) => {
   previous = previous.then(() => answerMessage(data)).then(
@@ -29,7 +29,7 @@ addEventListener('message', ({ data }) => {
   );
 });
 
-/** Returns the three parts of an engine error. Other errors have no code. */
+/** Returns the parts of an engine error. Other errors have no code. */
 function describeError(error) {
   const { code, message, help } = error ?? {};
   return { code: typeof code === 'string' ? code : null, message: String(message ?? error), help: help ?? '' };
