@@ -1,8 +1,7 @@
 // The panes that show pictures: the order of their requests, and drawing to the canvas.
 //
-// A change marks every pane as outdated. One request is sent at a time, for the newest state: first the picture, then one other
-// pane, then the picture again if it has changed. Pictures first have one sample per pixel. When nothing has changed for a
-// moment, they are refined to four samples, in bands of rows. The next change abandons the refinement.
+// A change marks every pane as outdated. One request is sent at a time: the picture alternates with the other panes.
+// Pictures have one sample per pixel at first, and are refined to four when nothing changes for a moment.
 
 import { byId } from './dom.js';
 

@@ -1,7 +1,7 @@
 // Addresses of the page's files, and settings from its server.
 //
-// Before the modules run, a single-file page sets `globalThis.explorerFiles`, a map from file names (`worker.js`,
-// `models/house.glb`, …) to the addresses of their contents. Otherwise names are relative to the page.
+// A single-file page first sets `globalThis.explorerFiles`, a map from names such as `models/house.glb` to
+// addresses. Otherwise names are relative to the page.
 
 /** Returns the address of one of the page's files. @param {string} path */
 export const resourceUrl = (path) => globalThis.explorerFiles?.[path] ?? new URL(path, document.baseURI).href;

@@ -1,4 +1,4 @@
-// The worker that runs the engine, so that the page never blocks. It communicates by messages.
+// The worker that runs the engine, so that the page never blocks.
 //
 // `{id, start: {native, files, base}}`, `{id, file: {name, bytes}}` and `{id, query}` are answered with `{id, contentType,
 // bytes}` or `{id, error: {code, message, help}}`. An error without a code means that the engine is lost.
