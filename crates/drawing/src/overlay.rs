@@ -287,7 +287,7 @@ fn drop_depth(image: DVec4) -> DVec3 {
     DVec3::new(image.x, image.y, image.w)
 }
 
-/// Returns an empty layer with the pen of overlays.
+/// Returns an empty layer with the overlay pen.
 fn overlay_layer(id: &str, title: &str, ink: Ink) -> Layer {
     Layer::new(id, title, Pen { cap: Cap::Butt, ..Pen::solid(LINE_WIDTH, ink) })
 }

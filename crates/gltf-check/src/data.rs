@@ -167,7 +167,7 @@ struct BoundsScan {
     declared: [Vec<Option<f64>>; 2],
     /// The minimum and maximum of each component; an element has at most 16.
     actual: [[f64; 16]; 2],
-    /// The number of elements of each component below `min` and above `max`.
+    /// For each component, the number of elements below `min`, and the number above `max`.
     outside: [[u64; 16]; 2],
     /// Infinities and NaNs, which glTF forbids.
     non_finite: Tally,
@@ -232,7 +232,8 @@ impl BoundsScan {
         Self { declared, actual, outside: [[0; 16]; 2], non_finite: Tally::default() }
     }
 
-    /// Updates the actual bounds with the components of one element, and counts those outside.
+    /// Updates the actual bounds from one element, and counts its components outside the declared
+    /// bounds.
     ///
     /// NaNs and infinities are counted and skipped, because they would make every later comparison
     /// meaningless.
@@ -254,14 +255,13 @@ impl BoundsScan {
 
     /// Reports non-finite values, and declared bounds that differ from the actual ones.
     ///
-    /// Bounds must be exact (glTF 2.0 §3.6.2.5). If they are too narrow, the number of elements
-    /// outside is also reported.
+    /// Bounds must be exact (glTF 2.0 §3.6.2.5). If the declared bounds are too narrow, the
+    /// number of elements outside them is also reported.
     fn report_bounds(&self, document: &CheckedDocument<'_>, pointer: &str) {
         let Tally { count, first, value } = self.non_finite;
         if count > 0 {
-            let message = format_args!(
-                "{count} values are not finite; the first is {value} in element {first}"
-            );
+            let message =
+                format_args!("non-finite values: {count}; the first is {value} in element {first}");
             document.diagnostics.add(&codes::ACCESSOR_INVALID_FLOAT, pointer, message);
         }
         let bounds = [
@@ -282,8 +282,9 @@ impl BoundsScan {
                 document.diagnostics.add(mismatch, &pointer, message);
                 let count = self.outside[side][component];
                 if count > 0 {
+                    let relation = ["below", "above"][side];
                     let message =
-                        format_args!("{count} elements exceed the declared bound {declared}");
+                        format_args!("elements {relation} the declared {key} {declared}: {count}");
                     document.diagnostics.add(outside, &pointer, message);
                 }
             }
@@ -384,10 +385,8 @@ impl RuleScan<'_> {
                 let what = "indices have the primitive restart value";
                 say(&codes::ACCESSOR_INDEX_PRIMITIVE_RESTART, second, &what);
                 if self.last > 0.0 {
-                    let message = format_args!(
-                        "{} triangles are degenerate: two of their indices are equal",
-                        self.last
-                    );
+                    let message =
+                        format_args!("degenerate triangles, with two equal indices: {}", self.last);
                     let code = &codes::ACCESSOR_INDEX_TRIANGLE_DEGENERATE;
                     document.diagnostics.add(code, self.pointer, message);
                 }

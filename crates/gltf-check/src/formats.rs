@@ -130,8 +130,8 @@ pub(super) fn is_allowed(layout: AccessorLayout, formats: &[AttributeFormat]) ->
 pub(super) const INDEX_FORMATS: [AttributeFormat; 3] =
     [(SCALAR, U8, false), (SCALAR, U16, false), (SCALAR, U32, false)];
 
-/// Returns the formats allowed for an animation output by target path, or `None` for an unknown
-/// path.
+/// Returns the formats allowed for the output of an animation with this target path, or `None` if
+/// the path is unknown.
 ///
 /// Translations and scales are always floats, because they have no natural range (glTF 2.0 §3.11).
 pub(super) fn animation_output_formats(path: &str) -> Option<Vec<AttributeFormat>> {

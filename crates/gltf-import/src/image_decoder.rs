@@ -47,7 +47,7 @@ pub fn is_decoded(media_type: &str) -> bool {
 
 /// Reads the width and height from the header, without decoding.
 ///
-/// Rejects decompression bombs: sizes that the number of bytes cannot encode.
+/// Rejects decompression bombs: images that declare more texels than their bytes can encode.
 ///
 /// # Errors
 /// Returns a message if the format is unknown, the header is broken, or the size is implausible.
@@ -98,7 +98,7 @@ pub(crate) fn format_name(bytes: &[u8]) -> &'static str {
     }
 }
 
-/// Decodes an image of at most `most` texels; the header is checked before anything is allocated.
+/// Decodes an image of at most `max_texels` texels; the header is checked before anything is allocated.
 ///
 /// ```
 /// let message = import::decode_image(b"GIF89a", 1 << 20).unwrap_err();
@@ -107,10 +107,10 @@ pub(crate) fn format_name(bytes: &[u8]) -> &'static str {
 ///
 /// # Errors
 /// Returns a message if the format is unknown, the data is broken, or the image is too large.
-pub fn decode_bounded(bytes: &[u8], most: u64) -> Result<Image, String> {
+pub fn decode_bounded(bytes: &[u8], max_texels: u64) -> Result<Image, String> {
     let (width, height) = image_size(bytes)?;
-    if u64::from(width) * u64::from(height) > most {
-        return Err(format!("the image has {width} x {height} texels, more than {most} in total"));
+    if u64::from(width) * u64::from(height) > max_texels {
+        return Err(format!("the image has {width} x {height} texels; the limit is {max_texels}"));
     }
     decode_rgba(bytes)
 }
@@ -129,8 +129,7 @@ pub(crate) fn decode_rgba(bytes: &[u8]) -> Result<Image, String> {
 
 /// Runs a decoder. A panic is treated as a broken image.
 ///
-/// Decoders are written for well-formed files. An out-of-range index in a decoder must not end the
-/// program because of a single texture.
+/// A decoder may panic on a malformed file, and one broken texture must not abort the program.
 fn catch_decoder_panic<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| Err("the decoder failed".to_owned()))
 }
@@ -209,7 +208,7 @@ impl ImageFormat {
     }
 }
 
-/// Returns whether a file begins like a WebP, which is a RIFF file of that type.
+/// Returns whether a file starts with the header of a WebP file: a RIFF container of type `WEBP`.
 fn is_webp(bytes: &[u8]) -> bool {
     matches!(bytes, [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..])
 }

@@ -18,7 +18,7 @@ pub struct Animation {
     pub name: Option<String>,
     /// The channels, in the order in which they are applied.
     pub channels: Vec<AnimationChannel>,
-    /// Time of the last keyframe of all channels in seconds.
+    /// Time of the last keyframe in any channel, in seconds.
     pub duration_seconds: f64,
 }
 

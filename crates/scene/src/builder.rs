@@ -7,11 +7,12 @@ use scene_file::file::{CameraFile, LightFile, SceneFile, StyleFile};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Builds a scene from models, meshes, cameras and lights in memory: [`Scene::builder`].
+/// A builder for scenes from models, meshes, cameras and lights in memory. Create one with
+/// [`Scene::builder`].
 ///
 /// Everything else has the defaults of `alberti render` for a model without a scene file. The
-/// camera shows everything from the front, slightly from the right and above, under a light from
-/// the left in a studio.
+/// camera faces the front of the models from slightly above and to the right, in a studio
+/// environment with a light on the left.
 #[derive(Clone, Debug, Default)]
 pub struct SceneBuilder {
     models: Vec<ModelInstance>,
@@ -114,7 +115,8 @@ impl SceneBuilder {
         self
     }
 
-    /// Changes anything else that a scene file can contain; its `models` are ignored.
+    /// Modifies the scene file directly, for settings without a method here. Its field `models` is
+    /// ignored.
     ///
     /// ```
     /// use scene::Scene;
@@ -137,8 +139,8 @@ impl SceneBuilder {
     /// Builds the scene, ready to be rendered.
     ///
     /// # Errors
-    /// Returns every invalid setting, such as a camera without a direction, or the lack of a model
-    /// to frame.
+    /// Returns all errors, such as a camera without a direction, or a camera that frames the models
+    /// when there are none.
     pub fn build(self) -> Result<Scene, ResolveError> {
         let origin = Origin::from_text("scene", "", PathBuf::new());
         Scene::from_models(&origin, &self.file, &self.models)

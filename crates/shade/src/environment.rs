@@ -28,7 +28,7 @@ use prefilter::{LEVEL_COUNT, PrefilteredLevels};
 use std::fmt;
 use std::sync::Arc;
 
-/// A function that returns the radiance for each direction, a unit vector in the world.
+/// A function from directions, as unit vectors in world space, to radiance.
 type Radiance = dyn Fn([f32; 3]) -> [f32; 3] + Send + Sync;
 
 /// The source of an environment, for pictures in which the environment itself is visible.
@@ -47,7 +47,8 @@ impl fmt::Debug for Source {
     }
 }
 
-/// Number of nodes along a side of the octahedral map: 256 texels, about 1° each.
+/// Number of nodes along a side of the octahedral map. The 256 intervals between them span about 1°
+/// each.
 const SIDE: usize = 257;
 
 /// Light from all directions: linear radiance, prepared for diffuse and specular lookups.
@@ -62,7 +63,8 @@ pub struct Environment {
 }
 
 impl Environment {
-    /// Creates the environment with this radiance in each direction, a unit vector in the world.
+    /// Creates an environment from a function that maps directions, as unit vectors in world space,
+    /// to radiance.
     ///
     /// The function is called once for each of about 66,000 directions. Prefiltered levels are
     /// computed when first needed by a surface.
@@ -77,7 +79,7 @@ impl Environment {
     }
 
     /// Creates an environment as [`from_radiance`](Self::from_radiance) does, but keeps the
-    /// function, so that as a background the environment is as sharp as the picture.
+    /// function, so that the background is rendered at the picture's full resolution.
     #[must_use]
     pub fn from_source(radiance: impl Fn([f32; 3]) -> [f32; 3] + Send + Sync + 'static) -> Self {
         let made = Self::from_radiance(&radiance);

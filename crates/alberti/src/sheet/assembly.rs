@@ -8,7 +8,7 @@ use scene_file::file::SheetFile;
 use sheet::{ExplosionAxis, PartsList, Sheet};
 use std::path::PathBuf;
 
-/// Flags of the pages that show the models as an assembly of parts.
+/// Flags for the pages that show the models as an assembly of parts.
 #[derive(Debug, clap::Args)]
 pub(super) struct AssemblyArgs {
     /// Add a parts list that counts identical parts; with a file name, also write it as .csv or
@@ -24,7 +24,7 @@ pub(super) struct AssemblyArgs {
     /// Add a page that shows the assembly with the item numbers from the parts list
     #[arg(long)]
     balloons: bool,
-    /// Move the parts on that page apart, and draw their paths
+    /// Draw the assembly page as an exploded view, with the path of each part
     #[arg(
         long,
         value_name = "AXIS",

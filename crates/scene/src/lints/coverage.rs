@@ -3,13 +3,13 @@
 use super::{Lint, Linter, VisibilitySurvey};
 use scene_file::PathStep::{Field, Index};
 
-/// Models are specks if both sides of their rectangle in the picture are below this fraction of the
-/// picture's sides: less than a thousandth of its area.
+/// Models are specks if the width and height of their bounding rectangle are below this fraction of
+/// the picture's, so that it covers less than a thousandth of the area.
 const LEAST_SIDE: f64 = 0.0316;
 /// One of several models is a speck if it is smaller than this in both directions, in pixels.
 const LEAST_PIXELS: f64 = 2.0;
 
-/// Warns, once and at the camera, if all models together are a speck in the picture.
+/// Returns one warning, located at the field `camera`, if all models together are a speck.
 pub(super) fn lint_tiny_picture(adviser: &Linter<'_>) -> Option<Lint> {
     let whole = adviser.surveys.iter().fold(VisibilitySurvey::default(), VisibilitySurvey::merge);
     let [width, height] = whole.window_part()?;
@@ -25,8 +25,8 @@ pub(super) fn lint_tiny_picture(adviser: &Linter<'_>) -> Option<Lint> {
     Some(Lint { code: "tiny-picture", error })
 }
 
-/// Warns about models smaller than two pixels among others, such as one in meters next to one in
-/// millimeters.
+/// Warns about each model smaller than two pixels in a scene with several models, such as a model
+/// in meters next to one in millimeters.
 pub(super) fn lint_tiny_models(adviser: &Linter<'_>) -> Vec<Lint> {
     let models = adviser.survey_models();
     if models.len() < 2 {
@@ -39,7 +39,7 @@ pub(super) fn lint_tiny_models(adviser: &Linter<'_>) -> Vec<Lint> {
         }
         let name = adviser.model_name(instance);
         let message = format!("{name} covers only {across:.2} x {down:.2} pixels of the picture");
-        let help = "file formats differ in units, such as meters in glTF and millimeters in STL: give it a larger `scale`, or remove it".to_owned();
+        let help = "give the model a larger `scale`, or remove it; file formats use different units, such as meters in glTF and millimeters in STL".to_owned();
         let path = [Field("models"), Index(number)];
         let error = adviser.origin.error_at(&path, message, Some(help));
         Some(Lint { code: "tiny-model", error })

@@ -1,4 +1,4 @@
-//! Lint for grounds that models stick through.
+//! Lint for a ground plane that intersects the models.
 
 use super::{Lint, Linter};
 use homog::Bounds;
@@ -8,7 +8,7 @@ use scene_file::file::GroundFile;
 /// Models may sink into the ground by this fraction of their height.
 const SUNK: f64 = 0.01;
 
-/// Warns about a ground above the lowest point of the models.
+/// Warns if the ground is above the lowest point of the models.
 pub(super) fn lint_high_ground(adviser: &Linter<'_>) -> Option<Lint> {
     let Some(GroundFile::Shadow { height: Some(height), .. }) = adviser.file.ground else {
         return None;

@@ -1,4 +1,4 @@
-//! The octahedral map: stores colors by direction on a square (Engelhardt and Dachsbacher 2008).
+//! The octahedral map, which stores colors by direction on a square (Engelhardt and Dachsbacher 2008).
 //!
 //! ```text
 //!   ┌────┬────┐     A direction is divided by the sum of its coordinates' magnitudes, which
@@ -29,7 +29,8 @@ pub(super) struct OctahedralMap {
 /// Samples trilinearly between mip levels `near` and `near + 1` of each lane. Directions need not
 /// be normalized.
 ///
-/// `level` is not called for a next level without weight, because levels may be computed on demand.
+/// `level` is not called for the next level if its weight is zero, because levels may be computed on
+/// demand.
 #[inline(always)]
 pub(super) fn sample_trilinear<'a, const N: usize>(
     level: impl Fn(usize) -> &'a OctahedralMap,
@@ -37,8 +38,7 @@ pub(super) fn sample_trilinear<'a, const N: usize>(
     fractions: Lanes<N>,
     directions: Vec3Lanes<N>,
 ) -> [Texel; N] {
-    // The two maps of each lane are usually the same for all lanes, because roughness rarely varies
-    // much.
+    // All lanes usually use the same pair of maps, because roughness rarely varies much.
     let first = near_levels[0];
     let has_next = fractions.0.iter().any(|fraction| *fraction != 0.0);
     let mut maps = [[level(first); N], [level(first + usize::from(has_next)); N]];
@@ -89,8 +89,8 @@ pub(super) struct BilinearNodes<const N: usize> {
 }
 
 impl<const N: usize> BilinearNodes<N> {
-    /// Locates the nodes around positions between 0 and 1, in maps with these last columns and
-    /// rows.
+    /// Locates the nodes around positions between 0 and 1. `last_nodes` is the index of the last
+    /// row and column of each lane's map.
     #[inline(always)]
     pub(super) fn locate([u, v]: [Lanes<N>; 2], last_nodes: Lanes<N>) -> Self {
         let (columns, column_fractions) = split_coordinates(u, last_nodes);
@@ -188,7 +188,8 @@ fn sign_not_zero(x: f32) -> f32 {
     if x < 0.0 { -1.0 } else { 1.0 }
 }
 
-/// Returns the nodes before positions between 0 and 1, and the fractions toward the next nodes.
+/// Returns, for each position between 0 and 1, the index of the node at or before it, and the
+/// fraction of the way to the next node.
 ///
 /// This uses `max` and `min` instead of `clamp`, which checks its bounds, so that the loops are
 /// vectorized.

@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn hulls_contain_only_corners_and_limit_the_reach() {
+    fn hulls_contain_only_corners_and_reach_is_measured_within_a_range() {
         let square =
             points(&[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [2.0, 2.0], [2.0, 0.0]]);
         let hull = convex_hull(square);

@@ -1,4 +1,4 @@
-//! meshopt mode INDICES: each index is the difference from one of two baselines.
+//! meshopt mode INDICES: each index is stored as its difference from one of two baselines.
 //!
 //! Line lists and strips alternate between distant vertices, and each of the two baselines follows
 //! one of them. The lowest bit of a number selects the baseline; the other bits are a zigzag-coded

@@ -1,8 +1,8 @@
 //! meshopt filters, which expand octahedral vectors, quaternions, exponential floats and YCoCg
 //! colors to full width.
 //!
-//! The specification does not define the result for out-of-range values; here they become an
-//! arbitrary number of the type, without a panic.
+//! The specification does not define the result for out-of-range values; here, such
+//! values decode to an arbitrary value of the output type, and never cause a panic.
 //!
 //! A filter is applied after decompression, and widens quantized values to the component type of
 //! the accessor:
@@ -105,8 +105,8 @@ fn decode_color([y, co, cg, alpha]: [i32; 4], full_scale: f32) -> [u16; 4] {
 
 /// Replaces each group of `N` numbers in a byte slice.
 ///
-/// Incomplete groups at the end are left unchanged. Both arrays of `N` numbers have the same size
-/// in bytes.
+/// Incomplete groups at the end are left unchanged. `[A; N]` and `[B; N]` must have the same
+/// size in bytes.
 fn map_elements<const N: usize, A: Number, B: Number>(
     bytes: &mut [u8],
     filter: impl Fn([A; N]) -> [B; N],
@@ -167,7 +167,7 @@ mod tests {
             ([511, 511, 511, 9], [0, 0, -ONE, 9]),
             ([-511, 511, 511, 9], [0, 0, -ONE, 9]),
             ([ONE, 0, ONE, 0], [ONE, 0, 0, 0]),
-            // In the lower half, (−0.8, 0.4) unfolds to (−0.6, 0.2), with z = −0.2.
+            // (−0.8, 0.4) is in the lower half and folds back to (−0.6, 0.2), with z = −0.2.
             ([-800, 400, 1000, 0], [-29_639, 9_880, -9_880, 0]),
         ] {
             assert_eq!(filtered(MeshoptFilter::Octahedral, 8, &stored), expected, "{stored:?}");
@@ -223,7 +223,7 @@ mod tests {
             ([127, 127, 127], 0x60),
             ([64, 32, 16], 0x41),
         ] {
-            // The encoder's transform, in integers that it can invert.
+            // The encoder's forward transform, in integer lifting steps.
             let co = (r - b) / 2;
             let t = b + co;
             let cg = (g - t) / 2;
@@ -235,7 +235,7 @@ mod tests {
                 let expected = f64::from(expected) * 255.0 / 127.0;
                 assert!(
                     (f64::from(*actual) - expected).abs() < 4.5,
-                    "{stored:x?}: {actual} for {expected}"
+                    "{stored:x?}: expected {expected}, found {actual}"
                 );
             }
             let expected = f64::from((alpha & 0x3F) << 1 | alpha & 1) * 255.0 / 127.0;
