@@ -3,10 +3,10 @@
 //! ```text
 //! api [--bless]
 //! ```
-//! `docs/api/CRATE.txt` lists declarations, methods and implemented traits. A change of the
-//! interface changes these files, and a reader of the commit sees it. Compared with the last
-//! release tag `v…`, the listings decide the next version: removing or changing anything that a
-//! caller may use needs a new first nonzero number.
+//! `docs/api/CRATE.txt` lists declarations, methods and implemented traits. A change to the
+//! interface changes these files, so that it shows up in review. The listings are also compared
+//! with the last release tag `v…`: if anything that a caller may use has been removed or changed,
+//! the first nonzero version number must be raised.
 
 mod listing;
 
@@ -19,8 +19,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::process::Command;
 
-/// The libraries with a stability promise: the crates of the map. The program's library is not for
-/// callers.
+/// Returns the libraries with a stability promise: the crates on the map, except for the program's
+/// library, which is not meant for callers.
 fn libraries() -> impl Iterator<Item = &'static str> {
     crate::tidy::LAYERS.iter().map(|(name, _)| *name).filter(|name| *name != "alberti")
 }
@@ -30,7 +30,7 @@ const COMPILER: &str = "1.95";
 
 const FOLDER: &str = "docs/api";
 
-/// The maximum number of printed lines of a difference.
+/// The maximum number of lines printed per difference.
 const MAX_PRINTED: usize = 40;
 
 /// Compares the listings, or writes them with `--bless`.
@@ -44,11 +44,11 @@ pub fn run_api(arguments: &[String]) -> Outcome {
     if !version.starts_with(&format!("rustdoc {COMPILER}.")) {
         report_skip(
             "api",
-            &format!("listings are of rustdoc {COMPILER}, and this is {}", version.trim()),
+            &format!("the listings are from rustdoc {COMPILER}, but this is {}", version.trim()),
         );
         return Ok(());
     }
-    // As in the step `docs`, so that nothing is built twice.
+    // The same command as in the step `docs`, so that nothing is built twice.
     let mut docs = cargo_command(&["doc", "--quiet", "--workspace", "--no-deps"]);
     capture_output(docs.env("RUSTDOCFLAGS", "-D warnings"))?;
     create_folder(&project_root().join(FOLDER))?;
@@ -65,13 +65,13 @@ pub fn run_api(arguments: &[String]) -> Outcome {
         faults.extend(fault_since_release(name, &listing)?);
     }
     if faults.is_empty() {
-        println!("{} interfaces are as {FOLDER} lists them", libraries().count());
+        println!("{} interfaces match {FOLDER}", libraries().count());
         return Ok(());
     }
     Err(faults.join("\n"))
 }
 
-/// Lines that a listing has lost and gained.
+/// The lines removed from and added to a listing.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 struct ApiChange {
     removed: Vec<String>,
@@ -90,14 +90,14 @@ impl ApiChange {
         Self { removed: beyond(&old, &new), added: beyond(&new, &old) }
     }
 
-    /// The message for a listing that differs from the committed one.
+    /// Returns the message for a listing that differs from the committed one.
     fn fault(&self, name: &str) -> Option<String> {
         if self.removed.is_empty() && self.added.is_empty() {
             return None;
         }
         Some(format!(
-            "the public interface of `{name}` is not as {FOLDER}/{name}.txt lists it:\n{}\
-             \n  = help: if this is meant, write the listings by `cargo xtask api --bless` and say so \
+            "the public interface of `{name}` does not match {FOLDER}/{name}.txt:\n{}\
+             \n  = help: if this is intended, run `cargo xtask api --bless` and describe the change \
              in CHANGELOG.md; lines with - break callers",
             self.shown_lines()
         ))
@@ -109,13 +109,13 @@ impl ApiChange {
             removed.chain(self.added.iter().map(|line| format!("  + {line}"))).collect();
         let rest = match lines.len().saturating_sub(MAX_PRINTED) {
             0 => String::new(),
-            rest => format!("\n  … and {rest} lines more"),
+            rest => format!("\n  … and {rest} more lines"),
         };
         lines.iter().take(MAX_PRINTED).cloned().collect::<Vec<_>>().join("\n") + &rest
     }
 }
 
-/// The number of times each line occurs, with its item.
+/// Counts how often each line occurs, prefixed with its item.
 fn item_lines(listing: &str) -> BTreeMap<String, usize> {
     let (mut item, mut lines) = ("", BTreeMap::new());
     for line in listing.lines() {
@@ -131,12 +131,12 @@ fn item_lines(listing: &str) -> BTreeMap<String, usize> {
     lines
 }
 
-/// Items removed since the last release, if the version does not say so.
+/// Reports items removed since the last release if the version does not allow that.
 fn fault_since_release(name: &str, listing: &str) -> Result<Option<String>, String> {
     let mut describe = Command::new("git");
     describe.args(["describe", "--tags", "--abbrev=0", "--match", "v[0-9]*"]);
     let Ok(tag) = capture_output(describe.current_dir(project_root())) else {
-        // There is no release yet, or no history.
+        // There is no release yet, or the history is missing.
         return Ok(None);
     };
     let tag = tag.trim();
@@ -150,21 +150,21 @@ fn fault_since_release(name: &str, listing: &str) -> Result<Option<String>, Stri
     Ok((!is_allowed).then(|| {
         format!(
             "`{name}` {version} breaks callers of {tag}:\n{}\n  = help: raise the version to the \
-             next that may, or keep what was there",
+             next one that may, or restore the removed items",
             removed.shown_lines()
         )
     }))
 }
 
-/// The version of the workspace.
+/// Returns the workspace version.
 fn workspace_version(manifest: &str) -> Result<String, String> {
     let line = manifest.lines().find_map(|line| line.strip_prefix("version = \""));
     let version = line.and_then(|rest| rest.split('"').next());
     version.map(str::to_owned).ok_or_else(|| "Cargo.toml has no version".into())
 }
 
-/// The version numbers up to the first that is not zero: versions that share them make the same
-/// promise.
+/// Returns the version numbers up to the first nonzero one: versions that share them are
+/// compatible.
 fn compatibility_number(version: &str) -> Vec<&str> {
     let numbers: Vec<&str> = version.split(['.', '-', '+']).take(3).collect();
     let first = numbers.iter().position(|number| *number != "0").unwrap_or(numbers.len());
@@ -176,7 +176,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_gone_and_what_is_new_is_named_with_its_item() {
+    fn removed_and_added_lines_are_listed_with_their_item() {
         let old = "a::B\n    pub struct B;\n    impl B\n        pub fn c()\n";
         let new =
             "a::B\n    pub struct B;\n    impl B\n        pub fn d()\na::E\n    pub struct E;\n";
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_number_that_is_not_zero_decides() {
+    fn the_first_nonzero_number_decides() {
         assert_eq!(compatibility_number("0.1.3"), compatibility_number("0.1.9"));
         assert_ne!(compatibility_number("0.1.3"), compatibility_number("0.2.0"));
         assert_eq!(compatibility_number("1.4.0"), compatibility_number("1.5.2"));

@@ -1,17 +1,17 @@
-//! `cargo xtask bench`: speed, as ratios to others in the same process or to another commit, and
+//! `cargo xtask bench`: speed relative to other code in the same process or to another commit, and
 //! instruction counts.
 //!
 //! ```text
-//! bench                 the two that follow
+//! bench                 the next two
 //! bench maths [NAME…]   bulk operations against plain loops (tests/bench); or `bench NAME…`
 //! bench raster [NAME…]  the rasterizer against other rasterizers (tests/peers)
-//! bench compare REV     the program of another commit beside this one's: stages, features, memory
-//! bench --page          the second as a page, docs/benchmarks.md, with the losses
+//! bench compare REV     this program against another commit's: stages, features, memory
+//! bench --page          `bench raster` as a page, docs/benchmarks.md, with the losses
 //! bench --instructions  instruction counts of fixed workloads against the recorded ones
 //! ```
 //!
-//! All but the last only print: they judge nothing, because times depend on more than the code.
-//! Counts depend only on the code.
+//! Only the last one can fail. The others just print, because times depend on more than the code;
+//! instruction counts depend only on the code.
 
 mod compare;
 mod instructions;
@@ -21,7 +21,7 @@ mod raster;
 use crate::Outcome;
 use crate::program::{cargo_command, run_visibly};
 
-/// Runs the named benchmarks, or all that measure time.
+/// Runs the named benchmarks, or all benchmarks that measure time.
 pub fn run_bench(arguments: &[String]) -> Outcome {
     match arguments.split_first() {
         None => bench_maths(&[]).and_then(|()| raster::bench_raster(&[])),

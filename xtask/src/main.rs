@@ -1,6 +1,6 @@
 //! `cargo xtask`: the developer commands of the workspace, from tests to benchmarks.
 //!
-//! Each command is a module; this file is the table of commands. It depends on none of the crates
+//! Each command is a module; this file is the table of commands. It does not depend on the crates
 //! that it drives, so that `cargo xtask` builds in seconds and works even when they do not compile.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program prints")]
 #![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]
@@ -41,9 +41,9 @@ type Outcome = Result<(), String>;
 /// A command of `cargo xtask`.
 struct Command {
     name: &'static str,
-    /// Its arguments, as the help prints them.
+    /// Its arguments, as printed in the help.
     arguments: &'static str,
-    /// Its line in the help.
+    /// Its description in the help.
     about: &'static str,
     run: fn(&[String]) -> Outcome,
 }
@@ -58,7 +58,7 @@ const COMMANDS: &[Command] = &[
     Command {
         name: "tidy",
         arguments: "[--bless]",
-        about: "Check the project rules that no lint covers; --bless draws the map of the crates",
+        about: "Check the project rules that no lint covers; --bless updates the crate map",
         run: tidy::run_tidy,
     },
     Command {
@@ -100,13 +100,13 @@ const COMMANDS: &[Command] = &[
     Command {
         name: "web",
         arguments: "[--out DIR] [--skip-without-tools]",
-        about: "Build the explorer for browsers: a folder of static files, and one HTML file",
+        about: "Build the explorer for browsers, as a folder of static files and as one HTML file",
         run: web::run_web,
     },
     Command {
         name: "docs",
         arguments: "[OUT]",
-        about: "Write the documentation as static pages, and check its commands and links",
+        about: "Write the documentation as static pages and check its commands and links",
         run: docs::run_docs,
     },
     Command {
@@ -118,7 +118,7 @@ const COMMANDS: &[Command] = &[
     Command {
         name: "gallery",
         arguments: "[--models DIR]",
-        about: "Render every scene, or every model of a folder in every style, to one HTML page",
+        about: "Render every scene, or every model in a folder in every style, to one HTML page",
         run: gallery::run_gallery,
     },
     Command {
@@ -136,19 +136,19 @@ const COMMANDS: &[Command] = &[
     Command {
         name: "fuzz",
         arguments: "[TARGET…] [--minutes N] [--jobs N]",
-        about: "Fuzz the readers of files; `fuzz --help` lists the targets",
+        about: "Fuzz the file readers; `fuzz --help` lists the targets",
         run: fuzz::run_fuzz,
     },
     Command {
         name: "python",
         arguments: "[--release]",
-        about: "Build the wheel of the package for Python, and run its tests",
+        about: "Build the Python wheel and run its tests",
         run: python::run_python,
     },
     Command {
         name: "dxf",
         arguments: "",
-        about: "Read DXF files of scenes, models and parts back by ezdxf",
+        about: "Read DXF files of scenes, models and parts back with ezdxf",
         run: dxf::run_dxf,
     },
     Command {
@@ -160,19 +160,19 @@ const COMMANDS: &[Command] = &[
     Command {
         name: "release",
         arguments: "OUT|--check|--crates|--deb",
-        about: "Build what is handed out, or check that it works and that its bytes are reproducible",
+        about: "Build the release files, or check that they work and are reproducible",
         run: release::run_release,
     },
     Command {
         name: "simulate-farm",
         arguments: "[REPORT]",
-        about: "Simulate a batch on up to 1,000 cores, with measured times or those of a report",
+        about: "Simulate a batch on up to 1,000 cores, with measured times or times from a report",
         run: farm::run_simulation,
     },
     Command {
         name: "models",
         arguments: "[--check]",
-        about: "Write the models of the scenes, or list the files that would change",
+        about: "Write the scene models, or list the files that would change",
         run: models::run_models,
     },
 ];
@@ -180,7 +180,7 @@ const COMMANDS: &[Command] = &[
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let Some(name) = arguments.first() else {
-        return usage_error("a command is missing");
+        return usage_error("missing command");
     };
     if matches!(name.as_str(), "help" | "--help" | "-h") {
         println!("{}", help());

@@ -1,4 +1,4 @@
-//! The public interface of a crate as text, extracted from the pages that rustdoc writes.
+//! The public interface of a crate as text, extracted from rustdoc's pages.
 //!
 //! ```text
 //! homog::PixelRect
@@ -9,13 +9,13 @@
 //!         pub const fn area(self) -> usize
 //!     impl Clone for PixelRect
 //! ```
-//! Rustdoc writes this as JSON only with the nightly compiler; its pages exist after every build of
-//! the documentation. Automatic and blanket implementations follow from the rest and are omitted.
+//! Rustdoc can write this as JSON, but only with the nightly compiler. Its pages exist after every
+//! documentation build. Automatic and blanket implementations follow from the rest and are omitted.
 
 use crate::workspace::read_text;
 use std::path::Path;
 
-/// The listing of a crate, from the folder of its pages.
+/// Returns the listing of a crate, given the folder with its pages.
 ///
 /// Pages of removed items stay in the folder, so the list of all items decides which exist.
 pub fn crate_listing(folder: &Path) -> Result<String, String> {
@@ -35,7 +35,7 @@ pub fn crate_listing(folder: &Path) -> Result<String, String> {
     Ok(items.iter().map(text).collect())
 }
 
-/// The pages that the list of all items links to, relative to its folder.
+/// Returns the pages that the list of all items links to, relative to its folder.
 fn listed_pages(all: &str) -> impl Iterator<Item = &str> {
     let list = all.split_once("class=\"all-items\"").map_or("", |(_, list)| list);
     let links = list.split("href=\"").skip(1).filter_map(|rest| rest.split('"').next());
@@ -44,11 +44,11 @@ fn listed_pages(all: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// The kinds of pages with a declaration, by the start of their file names.
+/// The file name prefixes of pages with a declaration.
 const KINDS: [&str; 9] =
     ["struct", "enum", "union", "trait", "fn", "type", "constant", "static", "macro"];
 
-/// The path of the item of a page, such as `homog::PixelRect`; `None` for other pages.
+/// Returns the path of a page's item, such as `homog::PixelRect`, or `None` for other pages.
 fn item_name(name: &str, page: &str) -> Option<String> {
     let (modules, file) = page.rsplit_once('/').unwrap_or(("", page));
     let (kind, item) = file.strip_suffix(".html")?.split_once('.')?;
@@ -57,7 +57,8 @@ fn item_name(name: &str, page: &str) -> Option<String> {
     KINDS.contains(&kind).then(|| path.join("::"))
 }
 
-/// Text that follows from the rest of a page, or belongs to another item: everything from here on.
+/// Headings that end the interesting part: the text after them can be derived from the rest of the
+/// page or belongs to another item.
 const ENDS: [&str; 5] = [
     "id=\"synthetic-implementations\"",
     "id=\"blanket-implementations\"",
@@ -66,7 +67,7 @@ const ENDS: [&str; 5] = [
     "id=\"deref-methods-",
 ];
 
-/// The declaration of a page, its methods, and the traits it implements.
+/// Returns the declaration on a page, its methods, and the traits that the item implements.
 fn item_lines(page: &str) -> Vec<String> {
     let declaration = element(page, "<pre class=\"rust item-decl\">", "</pre>");
     let mut lines: Vec<String> = declaration
@@ -91,7 +92,7 @@ fn item_lines(page: &str) -> Vec<String> {
     lines
 }
 
-/// The code headings in a part of a page: implementations, and their contents.
+/// Returns the code headings in a part of a page: implementations and, if requested, their methods.
 fn headers(html: &str, with_methods: bool) -> Vec<String> {
     let starts = html.match_indices("class=\"code-header\">");
     let header = |(at, start): (usize, &str)| {
@@ -106,13 +107,13 @@ fn headers(html: &str, with_methods: bool) -> Vec<String> {
     starts.filter_map(header).filter(|text| !text.contains("StructuralPartialEq")).collect()
 }
 
-/// The content of the first element that begins like this.
+/// Returns the content of the first element that begins with `start`.
 fn element<'a>(page: &'a str, start: &str, end: &str) -> Option<&'a str> {
     let rest = &page[page.find(start)? + start.len()..];
     Some(&rest[..rest.find(end)?])
 }
 
-/// The text of HTML, without tags and without the labels of foldable parts.
+/// Returns the text of some HTML, without tags and without the labels of foldable parts.
 fn plain_text(html: &str) -> String {
     let mut text = String::new();
     let mut rest = html;
@@ -153,7 +154,7 @@ mod tests {
         <h2 id=\"synthetic-implementations\">S</h2><h3 class=\"code-header\">impl Send for A</h3>";
 
     #[test]
-    fn a_page_gives_its_declaration_its_methods_and_its_traits() {
+    fn a_page_is_reduced_to_declaration_methods_and_traits() {
         let expected = [
             "pub struct A<'a> {",
             "    pub b: &'a u8,",

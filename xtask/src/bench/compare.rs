@@ -8,19 +8,21 @@
 //!
 //! Both programs render the same models in turn: old, new, old, new. The output is ratios of times
 //! from the same round, because a machine that is slow for a second is slow for both. Each ratio is
-//! a median with the minimum and the maximum: new/old for each stage of `--timings`, and on/off for
+//! a median with its minimum and maximum: new/old for each stage of `--timings`, and on/off for
 //! features, styles and threads in either program. Peak memory and wall time are listed too. A
-//! variant that a program refuses, because it lacks a flag, has a dash, with the reason below.
+//! variant that a program refuses, for example because it lacks a flag, is shown as a dash, and the
+//! reason is listed below the table.
 //!
-//! By default six of the shared models are rendered, which takes half an hour; `--models` names
-//! others, shared ones or scene models, or a folder. `--quick` has fewer rounds and frames. `--out`
-//! writes `compare.json`, with every figure of every run, and the chart `compare.svg`.
+//! By default, six of the shared models are rendered, which takes half an hour; `--models` selects
+//! other shared models, scene models or a folder. `--quick` runs fewer rounds and renders fewer
+//! frames. `--out` writes `compare.json`, with every figure of every run, and the chart
+//! `compare.svg`.
 //!
 //! | module | contents |
 //! | --- | --- |
 //! | `revision` | the program of another commit |
 //! | `models` | the models to render |
-//! | `variants` | settings, features, styles and commands that are measured |
+//! | `variants` | the settings, features, styles and commands to measure |
 //! | `patched_model` | models with a material extension or a light added |
 //! | `run` | one run of a program and its figures |
 //! | `measurement` | rounds of runs, and ratios between them |
@@ -29,7 +31,7 @@
 //! | `table` `chart` `json` | text, SVG and JSON |
 //! | `machine` | the machine and the time |
 //!
-//! It judges nothing, because times depend on more than the code.
+//! It never fails because of a time, since times depend on more than the code.
 
 mod chart;
 mod json;
@@ -56,10 +58,10 @@ use std::path::{Path, PathBuf};
 
 const USAGE: &str = "bench compare REV [--models DIR|NAME…] [--runs N] [--quick] [--out FOLDER]";
 
-/// The number of rounds of runs, and of frames in the turntable.
+/// The number of rounds and, below, of frames in the turntable.
 const RUNS: usize = 5;
 const FRAMES: usize = 120;
-/// These numbers with `--quick`.
+/// The same two numbers with `--quick`.
 const QUICK_RUNS: usize = 3;
 const QUICK_FRAMES: usize = 12;
 
@@ -85,7 +87,7 @@ impl Request {
                         names.push(name.clone());
                     }
                     if names.is_empty() {
-                        return Err("--models needs a folder or names of models".into());
+                        return Err("--models needs a folder or model names".into());
                     }
                 }
                 "--runs" => {
@@ -102,7 +104,7 @@ impl Request {
             }
         }
         Ok(Self {
-            revision: revision.ok_or(format!("a commit to compare with is missing: {USAGE}"))?,
+            revision: revision.ok_or(format!("name a commit to compare with: {USAGE}"))?,
             models: ModelSelection::parse_words(names),
             runs: runs.unwrap_or(if quick { QUICK_RUNS } else { RUNS }),
             frames: if quick { QUICK_FRAMES } else { FRAMES },
@@ -111,7 +113,7 @@ impl Request {
     }
 }
 
-/// Builds both programs, measures, prints the tables and writes the `--out` files.
+/// Builds both programs, measures them, prints the tables and writes the `--out` files.
 pub fn bench_compare(arguments: &[String]) -> Outcome {
     if arguments.iter().any(|word| word == "--help" || word == "-h") {
         println!("{USAGE}");
@@ -119,7 +121,7 @@ pub fn bench_compare(arguments: &[String]) -> Outcome {
     }
     let request = Request::parse_request(arguments)?;
     let measured = measure(&request);
-    // The next output begins on a new line.
+    // End the progress line, so that the next output begins on a new line.
     show_progress("");
     let (machine, measurements) = measured?;
     println!("{}", table::report(&machine, &measurements));
@@ -150,11 +152,11 @@ fn write_files(out: &Path, machine: &Machine, measurements: &[Measurement]) -> O
     };
     write("compare.json", format!("{:#}\n", json::to_json(machine, measurements)))?;
     write("compare.svg", chart::to_svg(machine, measurements))?;
-    println!("{} and compare.svg hold the same figures", out.join("compare.json").display());
+    println!("{} and compare.svg contain the same figures", out.join("compare.json").display());
     Ok(())
 }
 
-/// Replaces the progress line on a terminal; elsewhere there is none.
+/// Replaces the progress line on a terminal; prints nothing elsewhere.
 fn show_progress(message: &str) {
     if std::io::stderr().is_terminal() {
         eprint!("\r\x1b[K{message}");
@@ -170,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn arguments_are_read_in_any_order() {
+    fn arguments_may_be_in_any_order() {
         let request = parsed("main --models no_such_folder b --quick --out o").unwrap();
         assert_eq!(request, parsed("--quick main --out o --models no_such_folder b").unwrap());
         assert_eq!((request.runs, request.frames), (QUICK_RUNS, QUICK_FRAMES));
@@ -181,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn a_commit_is_needed_and_numbers_are_checked() {
+    fn a_commit_is_required_and_numbers_are_checked() {
         assert!(parsed("--quick").unwrap_err().contains("a commit"));
         assert!(parsed("main --runs 0").unwrap_err().contains("--runs"));
         assert!(parsed("main --models --quick").unwrap_err().contains("--models"));

@@ -1,10 +1,10 @@
-//! `cargo xtask bench --instructions`: the instruction counts of small fixed pieces of work.
+//! `cargo xtask bench --instructions`: instruction counts of small fixed workloads.
 //!
 //! Times vary; instruction counts from callgrind do not: the same program always gives the same
-//! count. Valgrind shows every program the same plain processor with AVX2, even if the real one has
-//! wider instructions. `tests/bench/instructions.txt` holds the counts, with the reason for the
-//! last change of each. A count that has risen by more than 3 % fails until it is stored with a
-//! reason:
+//! count. Valgrind presents the same plain processor with AVX2 to every program, even if the real
+//! one has wider instructions. `tests/bench/instructions.txt` holds the counts, each with the
+//! reason for its last change. A count that has risen by more than 3 % fails until it is stored
+//! with a reason:
 //!
 //! ```text
 //! cargo xtask bench --instructions --update teapot --reason "teapots have lids now"
@@ -20,11 +20,12 @@ use figures::{CountTable, InstructionCount};
 use std::path::PathBuf;
 use std::process::Command;
 
-/// The relative increase that fails, and the decrease that is worth recording.
+/// The relative increase above which a count fails, and the decrease above which it should be
+/// recorded.
 const TOLERANCE: f64 = 0.03;
 
-/// Scenes that the program draws small, with one thread: smooth shading, clipping and textures,
-/// translucency.
+/// Scenes that the program draws at a small size with one thread. They cover smooth shading,
+/// clipping and textures, and translucency.
 const SCENES: [&str; 3] = ["teapot", "floor", "panes"];
 
 /// Workloads that use only the crate `raster`, with one and with four samples per pixel: the
@@ -41,12 +42,12 @@ pub fn run_instructions(arguments: &[String]) -> Outcome {
     let (mut figures, compiler) = (CountTable::read_table()?, compiler_version()?);
     let other = !figures.compiler.is_empty() && figures.compiler != compiler;
     let counted_by =
-        format!("the stored counts are those of {}, and this is {compiler}", figures.compiler);
+        format!("the stored counts are from {}, but this is {compiler}", figures.compiler);
     match request {
         Request::Compare if other => report_skip("instructions", &counted_by),
         Request::Compare => judge_counts(&count_all()?, &figures)?,
         Request::Update { names: NameSelection::These(_), .. } if other => {
-            return Err(format!("{counted_by}: update all of them"));
+            return Err(format!("{counted_by}: update all counts"));
         }
         Request::Update { names, reason } => {
             let counts = count_all()?;
@@ -61,16 +62,16 @@ pub fn run_instructions(arguments: &[String]) -> Outcome {
     Ok(())
 }
 
-/// The stored counts, for the page of benchmarks.
+/// The stored counts, for the benchmarks page.
 #[derive(Default)]
 pub struct RecordedCounts {
-    /// The compiler of the counted program.
+    /// The compiler that built the counted program.
     pub compiler: String,
-    /// Each piece of work with its count.
+    /// Each workload with its count.
     pub counts: Vec<(&'static str, u64)>,
 }
 
-/// The stored counts.
+/// Returns the stored counts.
 pub fn recorded_counts() -> Result<RecordedCounts, String> {
     let table = CountTable::read_table()?;
     let count = |name| Some((name, table.count_for(name)?.count));
@@ -78,20 +79,21 @@ pub fn recorded_counts() -> Result<RecordedCounts, String> {
     Ok(RecordedCounts { counts, compiler: table.compiler })
 }
 
-/// Name and number of the compiler, without its date: another one generates other instructions.
+/// Returns the compiler's name and version, without the date. Another compiler generates other
+/// instructions.
 fn compiler_version() -> Result<String, String> {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let version = capture_output(Command::new(rustc).arg("--version").current_dir(project_root()))?;
     Ok(version.split_whitespace().take(2).collect::<Vec<_>>().join(" "))
 }
 
-/// The reason why nothing can be counted here.
+/// Returns the reason why nothing can be counted on this machine, if there is one.
 fn missing_tool() -> Option<&'static str> {
     let valgrind = Command::new("valgrind").arg("--version").output();
     if !valgrind.is_ok_and(|output| output.status.success()) {
         return Some("valgrind is not installed");
     }
-    (!has_avx2()).then_some("the counts are those of a processor with AVX2, and this one has none")
+    (!has_avx2()).then_some("the counts need a processor with AVX2, which this one lacks")
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -110,7 +112,7 @@ enum Request {
     Update { names: NameSelection, reason: String },
 }
 
-/// The figures to store.
+/// The counts to store.
 enum NameSelection {
     All,
     These(Vec<String>),
@@ -137,7 +139,7 @@ impl Request {
         }
         if let Some(strange) = names.iter().find(|name| *name != "all" && !is_known_name(name)) {
             return Err(format!(
-                "there is no figure `{strange}`; these are: {}",
+                "there is no count `{strange}`; the counts are: {}",
                 known_names().join(", ")
             ));
         }
@@ -147,7 +149,7 @@ impl Request {
     }
 }
 
-/// All figure names.
+/// Returns the names of all counts.
 fn known_names() -> Vec<&'static str> {
     SCENES.into_iter().chain(SAMPLES.map(|(name, _)| name)).collect()
 }
@@ -156,7 +158,7 @@ fn is_known_name(name: &str) -> bool {
     known_names().contains(&name)
 }
 
-/// A piece of work and its cost.
+/// A workload and its cost.
 struct Count {
     name: String,
     instructions: u64,
@@ -196,12 +198,12 @@ fn count_instructions(name: &str, command: &Command) -> Result<Count, String> {
     Ok(Count { name: name.to_owned(), instructions })
 }
 
-/// The path of callgrind's output, for `callgrind_annotate` and similar tools.
+/// Returns the path of callgrind's output, for `callgrind_annotate` and similar tools.
 fn profile_path(name: &str) -> PathBuf {
     target_folder().join("bench").join(format!("{name}.callgrind"))
 }
 
-/// Compares counts with the stored figures and prints both.
+/// Compares counts with the stored ones and prints both.
 fn judge_counts(counts: &[Count], figures: &CountTable) -> Outcome {
     let mut faults = Vec::new();
     for Count { name, instructions } in counts {
@@ -219,7 +221,8 @@ fn judge_counts(counts: &[Count], figures: &CountTable) -> Outcome {
         return Ok(());
     }
     Err(format!(
-        "{}\nIf that is meant, store it: cargo xtask bench --instructions --update NAME --reason \"…\"",
+        "{}\nIf this is intended, store it: cargo xtask bench --instructions --update NAME \
+         --reason \"…\"",
         faults.join("\n")
     ))
 }
@@ -243,10 +246,10 @@ mod tests {
     }
 
     #[test]
-    fn a_figure_is_stored_with_a_reason_or_not_at_all() {
+    fn a_count_is_stored_only_with_a_reason() {
         let Ok(Request::Update { names, reason }) = request("--update panes --reason more glass")
         else {
-            panic!("a good request")
+            panic!("the request is valid")
         };
         assert!(names.includes("panes") && !names.includes("floor"));
         assert_eq!(reason, "more glass");
@@ -263,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn three_per_cent_are_the_border_both_ways() {
+    fn the_limit_is_three_percent_in_both_directions() {
         assert_eq!(change_verdict(Some(0.029)), change_verdict(Some(-0.029)));
         assert_ne!(change_verdict(Some(0.031)), change_verdict(Some(0.029)));
         assert_ne!(change_verdict(Some(-0.031)), change_verdict(Some(0.029)));

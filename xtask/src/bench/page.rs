@@ -1,13 +1,13 @@
-//! `cargo xtask bench --page`: the rasterizer and the program against others, as the page
-//! `docs/benchmarks.md`, with every single figure in `docs/benchmarks.csv`.
+//! `cargo xtask bench --page`: compares the rasterizer and the program with others. Writes the page
+//! `docs/benchmarks.md` and every individual time to `docs/benchmarks.csv`.
 //!
 //! ```text
-//! cargo xtask bench --page                      # a quarter of an hour on a quiet machine
-//! cargo xtask bench --page --rounds 3           # sooner, and less certain
+//! cargo xtask bench --page                      # 15 minutes on a quiet machine
+//! cargo xtask bench --page --rounds 3           # faster but less accurate
 //! ```
 //!
-//! It measures the same as `cargo xtask bench raster`, and takes the same arguments. The page
-//! states the machine, the time, the commit and the load. Losses come first.
+//! It measures the same things as `cargo xtask bench raster` and takes the same arguments. The page
+//! states the machine, the time, the commit and the load. Losses are listed first.
 
 mod losses;
 mod place;
@@ -20,9 +20,9 @@ use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Measures, then writes the page and the rows.
+/// Runs the measurements, then writes the page and the CSV file.
 pub fn run_page(arguments: &[String]) -> Outcome {
-    // Built before the load is read: other builds should count, but not this one.
+    // Built before the load is read, because other builds should count but not this one.
     let program = crate::program::Program::build(crate::program::Build::Release)?;
     super::raster::build_peers()?;
     let mut place = Place::describe()?;
@@ -44,7 +44,7 @@ fn write(path: &Path, text: &str) -> Outcome {
 const INTRODUCTION: &str = "\
 # Benchmarks
 
-Written by `cargo xtask bench --page`. All figures come from one run on one machine, with the programs installed there;
+Written by `cargo xtask bench --page`. All figures come from one run on one machine, with the programs that are installed there;
 [benchmarks.csv](benchmarks.csv) lists every individual time. The comparisons in which Alberti is slower come first.
 ";
 
@@ -52,18 +52,18 @@ const METHOD: &str = "
 ## Method
 
 - All contestants draw the same vertices at 1920 × 1080 in one process with one thread. After a warm-up round, each round runs every
-  contestant once, in a different order. The results are the CPU time of the thread, and the ratio within a round, because a busy machine
-  slows all contestants alike. Tables show medians, with minimum and maximum in parentheses.
-- `raster` is the crate of that name, with the same plain shader as the peers. `render` is all of `pipeline::render`: it shades the same
-  scene with every feature of the program's pictures. \"4x\" means four samples per pixel. Slow contestants run fewer rounds.
-- To compare files, each program runs as a separate process, from the file to a PNG. CPU time and peak memory are measured by the system.
-  f3d has a virtual display and draws with Mesa's llvmpipe.
-- Peers on a graphics card, and programs that take minutes per picture, are not compared.
-- `tests/peers/README.md` says what you need to run the benchmarks. Times are not asserted, because they do not depend on the code alone.
+  contestant once, in a different order. The results are the thread's CPU time and the ratios within each round, because a busy machine
+  slows all contestants alike. Tables show medians, with the minimum and maximum in parentheses.
+- `raster` is the crate of that name, with the same plain shader as its peers. `render` is all of `pipeline::render`: it shades the same
+  scene with every feature that the program uses. \"4x\" means four samples per pixel. Slow contestants run fewer rounds.
+- In the comparison of files, each program runs as a separate process that reads the file and writes a PNG. The system measures CPU time
+  and peak memory. f3d runs on a virtual display and draws with Mesa's llvmpipe.
+- Renderers that use a graphics card, and programs that take minutes per picture, are not compared.
+- `tests/peers/README.md` lists what you need to run the benchmarks. Times are not asserted, because they depend on more than the code.
   The instruction counts at the end are asserted; another run reproduces them exactly.
 ";
 
-/// The page.
+/// Formats the page.
 fn page(place: &Place, figures: &Value, counts: &super::instructions::RecordedCounts) -> String {
     let mut text = INTRODUCTION.to_owned();
     text += &place.to_markdown(figures);
@@ -91,7 +91,7 @@ fn page(place: &Place, figures: &Value, counts: &super::instructions::RecordedCo
     text
 }
 
-/// Every single time: the subject, the contestant, the round, and the seconds.
+/// Formats every individual time: the subject, the contestant, the round, and the seconds.
 fn rows(figures: &Value) -> String {
     let mut text = "subject,contestant,round,cpu_seconds\n".to_owned();
     let mut add = |subject: &str, contestants: &Value| {
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_are_single_times_and_losses_come_first() {
+    fn rows_are_individual_times_and_losses_come_first() {
         let figures = json!({
             "llvmpipe": "llvmpipe 1", "f3d": null, "limits": null,
             "scenes": [{ "name": "floor", "about": "a floor", "agreement": [], "contestants": [

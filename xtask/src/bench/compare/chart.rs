@@ -1,4 +1,4 @@
-//! The chart: bars of ratios over all models, from a line at 1 to the left or to the right.
+//! The chart: a bar for each ratio over all models, extending left or right from a line at 1.
 //!
 //! Positions are logarithmic: half the time is as far from the line as twice the time.
 
@@ -29,13 +29,13 @@ struct Bar<'a> {
     color: &'static str,
 }
 
-/// Bars that belong together.
+/// A group of bars.
 struct Panel<'a> {
     title: String,
     bars: Vec<Bar<'a>>,
 }
 
-/// The SVG.
+/// Draws the chart as an SVG.
 pub fn to_svg(machine: &Machine, measurements: &[Measurement]) -> String {
     let summaries = summarize(measurements, None);
     let panels = panels(&summaries);
@@ -100,7 +100,7 @@ fn panel_height(panel: &Panel<'_>) -> f64 {
     HEADING + BAR * panel.bars.len() as f64
 }
 
-/// The power of two that holds all medians.
+/// Returns the smallest power of two for which all medians are on the scale.
 fn scale_end(panels: &[Panel<'_>]) -> f64 {
     let ratios = panels.iter().flat_map(|panel| &panel.bars).filter_map(|bar| bar.ratio);
     let farthest = ratios.map(|ratio| ratio.median.max(1.0 / ratio.median)).fold(1.0, f64::max);
@@ -111,7 +111,7 @@ fn scale_end(panels: &[Panel<'_>]) -> f64 {
     end
 }
 
-/// The position of a ratio.
+/// Returns the x coordinate of a ratio.
 fn ratio_x(ratio: f64, greatest: f64) -> f64 {
     let ratio = ratio.clamp(1.0 / greatest, greatest);
     let share = libm::log2(ratio) / libm::log2(greatest);
@@ -135,7 +135,7 @@ fn draw_grid(text: &mut String, greatest: f64, top: f64, bottom: f64) {
     }
 }
 
-/// A power of two: 1/4, 1/2, 1, 2, 4.
+/// Formats a power of two: 1/4, 1/2, 1, 2, 4.
 fn scale_number(ratio: f64) -> String {
     if ratio < 1.0 { format!("1/{}", 1.0 / ratio) } else { ratio.to_string() }
 }
@@ -189,14 +189,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_ratio_and_its_inverse_are_as_far_from_one() {
+    fn a_ratio_and_its_inverse_are_equally_far_from_one() {
         let place = |ratio| ratio_x(ratio, 4.0);
         assert_eq!((place(0.25), place(4.0), place(100.0)), (LEFT, RIGHT, RIGHT));
         assert!((place(2.0) + place(0.5) - 2.0 * place(1.0)).abs() < 1e-9);
     }
 
     #[test]
-    fn the_scale_holds_the_medians() {
+    fn the_scale_contains_the_medians() {
         let bar = |median| Bar {
             name: "",
             ratio: Some(Spread { min: 0.01, median, max: 99.0 }),
@@ -211,7 +211,8 @@ mod tests {
         let svg = to_svg(&machine(), &sample());
         assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
         assert!(svg.contains("&lt;toon>") && !svg.contains("<toon>"));
-        // Three figures of the setting, clay new/old, clay old and new on/off, toon new on/off.
+        // Three figures for the setting, then clay new/old, clay old and new on/off, and toon new
+        // on/off.
         assert_eq!(svg.matches("<rect x=").count(), 7);
         assert_eq!(svg.matches(">—<").count(), 2, "toon new/old and old on/off");
     }

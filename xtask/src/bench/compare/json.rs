@@ -5,8 +5,8 @@ use super::measurement::{Measurement, ProgramRuns, Series};
 use super::run::Figures;
 use serde_json::{Map, Value, json};
 
-/// The document. Times are milliseconds, memory is MiB; a series is a list of rounds, or an object
-/// with the reason why the program refused.
+/// Returns the document. Times are in milliseconds and memory in MiB. A series is a list of rounds,
+/// or an object with the reason why the program refused.
 pub fn to_json(machine: &Machine, measurements: &[Measurement]) -> Value {
     let rows: Vec<Value> = measurements.iter().map(measurement_json).collect();
     json!({
@@ -47,7 +47,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn all_rounds_and_reasons_are_there() {
+    fn all_rounds_and_reasons_are_included() {
         let json = to_json(&machine(), &sample());
         let rows = &json["measurements"];
         assert_eq!(rows[0]["new"]["on"][1]["pixels"], 3.0);

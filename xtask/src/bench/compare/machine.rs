@@ -16,16 +16,16 @@ pub struct Machine {
     pub new: String,
     /// The processor model.
     pub processor: String,
-    /// The number of threads that run at once.
+    /// The number of hardware threads.
     pub cores: usize,
     /// `rustc --version`.
     pub compiler: String,
-    /// The date and time of the system, in UTC.
+    /// The system date and time, in UTC.
     pub date: Option<String>,
 }
 
 impl Machine {
-    /// Asks git, the compiler and the system.
+    /// Queries git, the compiler and the system.
     pub fn describe(old: &Commit) -> Result<Self, String> {
         Ok(Self {
             old: format!("{} ({})", old.revision, old.hash),
@@ -37,7 +37,7 @@ impl Machine {
         })
     }
 
-    /// As an object.
+    /// Returns this as a JSON object.
     pub fn to_json(&self) -> Value {
         let Self { old, new, processor, cores, compiler, date } = self;
         json!({
@@ -47,7 +47,7 @@ impl Machine {
     }
 }
 
-/// The processor model, if the system reports it.
+/// Returns the processor model, if the system reports it.
 pub fn processor() -> String {
     processor_model(&read_text(Path::new("/proc/cpuinfo")).unwrap_or_default())
 }
@@ -61,7 +61,7 @@ pub fn compiler() -> String {
         .unwrap_or_default()
 }
 
-/// Date and time of the system, in UTC.
+/// Returns the system date and time, in UTC.
 pub fn date() -> Option<String> {
     let date = capture_output(Command::new("date").args(["-u", "+%Y-%m-%dT%H:%M:%SZ"])).ok()?;
     Some(date.trim().to_owned())

@@ -1,4 +1,5 @@
-//! Rounds of runs: in each, every call of a variant runs once, first by the old program.
+//! Rounds of runs. In each round, every call of a variant runs once with each program, the old one
+//! first.
 
 use super::models::BenchModel;
 use super::patched_model::{Addition, Bounds, write_patched_model};
@@ -14,10 +15,10 @@ use std::process::Command;
 /// The model name of a measurement over all models.
 pub const ALL_MODELS: &str = "all models";
 
-/// Times below this many milliseconds are not compared: the program prints two digits.
+/// Shorter times, in milliseconds, are not compared, because the program prints only two decimals.
 const LEAST_COMPARED: f64 = 0.1;
 
-/// The rounds of a call by one program, or why it refused the call.
+/// The rounds of a call by one program, or the reason why it refused the call.
 pub type Series = Result<Vec<Figures>, String>;
 
 /// The rounds of one program.
@@ -25,11 +26,11 @@ pub type Series = Result<Vec<Figures>, String>;
 pub struct ProgramRuns {
     /// With the feature.
     pub on: Series,
-    /// Without it; `None` if there is nothing to compare it with.
+    /// Without the feature; `None` if there is nothing to compare with.
     pub off: Option<Series>,
 }
 
-/// A variant of one model, as both programs ran it.
+/// The runs of one variant of a model by both programs.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Measurement {
     /// The model, or `all models`.
@@ -37,13 +38,14 @@ pub struct Measurement {
     pub group: Group,
     /// The name of the variant.
     pub name: String,
-    /// The figure to compare where only one is shown.
+    /// The figure to compare if only one is shown.
     pub figure: &'static str,
     pub old: ProgramRuns,
     pub new: ProgramRuns,
 }
 
-/// The ratios of a figure by round; none for rounds in which it is missing or too small.
+/// Returns the ratio of a figure in each round, skipping rounds in which it is missing or too
+/// small.
 pub fn pairwise_ratios(numerator: &Series, denominator: &Series, figure: &str) -> Vec<f64> {
     let (Ok(numerator), Ok(denominator)) = (numerator, denominator) else { return Vec::new() };
     let pairs = numerator.iter().zip(denominator).filter_map(|(above, below)| {
@@ -53,7 +55,7 @@ pub fn pairwise_ratios(numerator: &Series, denominator: &Series, figure: &str) -
     pairs.collect()
 }
 
-/// A figure of each round.
+/// Returns a figure from each round.
 pub fn figures_named(series: &Series, figure: &str) -> Vec<f64> {
     let runs = series.as_deref().unwrap_or_default();
     runs.iter().filter_map(|figures| figure_in(figures, figure)).collect()
@@ -63,7 +65,7 @@ fn figure_in(figures: &Figures, figure: &str) -> Option<f64> {
     figures.iter().find(|(name, _)| name == figure).map(|(_, value)| *value)
 }
 
-/// Both programs, old before new, and the number of their runs.
+/// Both programs, the old one first, and the number of runs.
 #[derive(Debug)]
 pub struct Measurer {
     programs: [TimedProgram; 2],
@@ -74,7 +76,8 @@ pub struct Measurer {
 }
 
 impl Measurer {
-    /// Takes the paths of the old and the new program; pictures and changed models go to `folder`.
+    /// Creates a measurer from the paths of the old and the new program. Pictures and changed
+    /// models are written to `folder`.
     pub fn new(paths: [&Path; 2], folder: &Path, runs: usize) -> Self {
         let gnu_time = find_gnu_time();
         if gnu_time.is_none() {
@@ -84,7 +87,7 @@ impl Measurer {
         Self { programs, path: paths[1].to_owned(), folder: folder.to_owned(), runs }
     }
 
-    /// Measures every variant of every model, and the batch of all models.
+    /// Measures every variant of every model, and a batch of all models.
     pub fn measure_all(
         &self,
         models: &[BenchModel],
@@ -120,7 +123,7 @@ impl Measurer {
         });
         let turns: Vec<(&TimedProgram, Vec<String>)> = turns.collect();
         let mut series: Vec<Series> = vec![Ok(Vec::new()); turns.len()];
-        // Settings are measured first for each model, while its files are not in memory yet.
+        // Settings are measured first for each model, when its files may not be cached yet.
         let warm_up = usize::from(variant.group == Group::Settings);
         for round in 0..self.runs + warm_up {
             for ((program, arguments), series) in turns.iter().zip(&mut series) {
@@ -165,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn ratios_are_those_of_one_round() {
+    fn ratios_are_computed_within_a_round() {
         let (new, old) = (series(&[1.0, 4.0, 9.0]), series(&[2.0, 2.0]));
         assert_eq!(pairwise_ratios(&new, &old, "all"), [0.5, 2.0]);
         assert!(pairwise_ratios(&new, &old, "pixels").is_empty());
@@ -173,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn what_two_digits_cannot_tell_is_not_compared() {
+    fn times_too_short_for_two_decimals_are_not_compared() {
         assert!(pairwise_ratios(&series(&[0.02]), &series(&[0.01]), "all").is_empty());
         assert!(pairwise_ratios(&series(&[3.0]), &series(&[0.0]), "all").is_empty());
         assert_eq!(pairwise_ratios(&series(&[3.0]), &series(&[0.05]), "all"), [3.0 / 0.05]);

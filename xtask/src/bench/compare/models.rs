@@ -1,15 +1,15 @@
-//! The models to render: shared ones, those in a folder, or the scene models.
+//! The models to render: shared models, the models in a folder, or the scene models.
 
 use crate::skip::report_skip;
 use crate::workspace::{list_files, project_root};
 use std::path::{Path, PathBuf};
 
-/// The shared models that are rendered by default: textures, many triangles, skins, many meshes,
-/// large surfaces.
+/// The shared models that are rendered by default. They have textures, many triangles, skins, many
+/// meshes or large surfaces.
 const DEFAULT_NAMES: [&str; 6] =
     ["flight-helmet", "cave", "cesium-man", "many-cubes", "house", "carbon-sphere"];
 
-/// The scene models that replace them if there are none.
+/// The scene models that are rendered if there are no shared models.
 const COMMITTED_NAMES: [&str; 4] = ["teapot", "crate", "floor", "finishes"];
 
 /// A model to render.
@@ -24,7 +24,7 @@ pub struct BenchModel {
 /// The requested models.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum ModelSelection {
-    /// No request.
+    /// The default models.
     Default,
     /// All models in a folder and its subfolders.
     Folder(PathBuf),
@@ -33,7 +33,8 @@ pub enum ModelSelection {
 }
 
 impl ModelSelection {
-    /// A single word that is a folder means its contents; other words are names.
+    /// Parses the words after `--models`. A single word that names a folder means its contents; any
+    /// other words are model names.
     pub fn parse_words(words: Vec<String>) -> Self {
         match words.as_slice() {
             [] => Self::Default,
@@ -42,12 +43,13 @@ impl ModelSelection {
         }
     }
 
-    /// The files; missing default models are reported on standard output.
+    /// Returns the models. Missing default models are reported on standard output.
     pub fn list_models(&self) -> Result<Vec<BenchModel>, String> {
         match self {
             Self::Default => default_models(&shared_folder()),
             Self::Folder(folder) => {
-                // The program runs at the root, not in the folder where this one was started.
+                // The program runs in the workspace root, not in the folder where this one was
+                // started.
                 let folder = std::fs::canonicalize(folder)
                     .map_err(|error| format!("{}: {error}", folder.display()))?;
                 models_below(&folder)
@@ -59,7 +61,8 @@ impl ModelSelection {
     }
 }
 
-/// The model folder next to the repository, or in the variable `ASSETS`.
+/// Returns the model folder: the one named by the variable `ASSETS`, or the one next to the
+/// repository.
 fn shared_folder() -> PathBuf {
     let assets = std::env::var_os("ASSETS").unwrap_or_else(|| "../shared/assets".into());
     project_root().join(assets).join("models")
@@ -74,7 +77,7 @@ fn default_models(shared: &Path) -> Result<Vec<BenchModel>, String> {
         }
     }
     if models.is_empty() {
-        println!("The models of the scenes are rendered instead: {}", COMMITTED_NAMES.join(", "));
+        println!("Rendering scene models instead: {}", COMMITTED_NAMES.join(", "));
         return COMMITTED_NAMES.into_iter().map(|name| named_model(shared, name)).collect();
     }
     Ok(models)
@@ -86,18 +89,18 @@ fn named_model(shared: &Path, name: &str) -> Result<BenchModel, String> {
         let path = committed.is_file().then_some(committed)?;
         Some(BenchModel { name: name.to_owned(), path })
     };
-    shared_model(shared, name).or_else(committed).ok_or_else(|| {
-        format!("no model `{name}`: neither in {} nor in scenes/models", shared.display())
-    })
+    shared_model(shared, name)
+        .or_else(committed)
+        .ok_or_else(|| format!("no model `{name}` in {} or scenes/models", shared.display()))
 }
 
-/// The first model in the folder with that name.
+/// Returns the first model in the shared folder with this name.
 fn shared_model(shared: &Path, name: &str) -> Option<BenchModel> {
     let path = models_in(&shared.join(name)).ok()?.into_iter().next()?;
     Some(BenchModel { name: name.to_owned(), path })
 }
 
-/// The models in a folder and its subfolders, sorted by name.
+/// Returns the models in a folder and its subfolders, sorted by name.
 fn models_below(folder: &Path) -> Result<Vec<BenchModel>, String> {
     let mut paths = models_in(folder)?;
     let entries = std::fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
@@ -112,7 +115,7 @@ fn models_below(folder: &Path) -> Result<Vec<BenchModel>, String> {
     let mut models: Vec<BenchModel> = paths.into_iter().map(named).collect();
     models.sort();
     if models.is_empty() {
-        return Err(format!("{}: no .glb and no .gltf in it", folder.display()));
+        return Err(format!("{}: it contains no .glb or .gltf file", folder.display()));
     }
     Ok(models)
 }
@@ -126,7 +129,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn committed_models_stand_in_for_missing_ones() {
+    fn committed_models_replace_missing_shared_models() {
         let models = default_models(Path::new("/no/such/folder")).unwrap();
         assert_eq!(models.len(), COMMITTED_NAMES.len());
         assert!(models.iter().all(|model| model.path.is_file()));
@@ -142,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn a_single_folder_is_not_a_name() {
+    fn a_single_folder_is_not_a_model_name() {
         let folder = project_root().join("scenes").to_string_lossy().into_owned();
         assert_eq!(
             ModelSelection::parse_words(vec![folder.clone()]),

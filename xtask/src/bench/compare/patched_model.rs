@@ -1,6 +1,8 @@
-//! Copies of a model with a material extension or a light added: features that no flag switches on.
+//! Copies of a model with an added material extension or light, to measure features that no flag
+//! enables.
 //!
-//! Programs of all commits read glTF, whereas the fields of scene files have been renamed.
+//! The model is changed, not a scene file, because scene fields have been renamed over time,
+//! whereas programs of all commits read glTF.
 
 use scene_models::glb::encode_glb;
 use serde_json::{Value, json};
@@ -9,18 +11,18 @@ use std::path::{Component, Path, PathBuf};
 /// An addition to a model.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Addition {
-    /// All materials transmit.
+    /// Makes all materials transmissive.
     Transmission,
-    /// All materials have a thin film.
+    /// Gives all materials a thin film.
     Iridescence,
-    /// A directional light in place of the model's lights.
+    /// Replaces the model's lights with a directional light.
     Sun,
-    /// A spot light that lights the whole model, in place of its lights.
+    /// Replaces the model's lights with a spot light that lights the whole model.
     Spot,
 }
 
 impl Addition {
-    /// Its word in file names.
+    /// Returns its name in file names.
     fn name(self) -> &'static str {
         match self {
             Self::Transmission => "transmission",
@@ -30,7 +32,7 @@ impl Addition {
         }
     }
 
-    /// Changes the JSON of a model that has these bounds.
+    /// Changes the JSON of a model with these bounds.
     fn apply(self, model: &mut Value, bounds: &Bounds) -> Result<(), String> {
         match self {
             Self::Transmission => {
@@ -43,7 +45,7 @@ impl Addition {
             }
             Self::Sun => replace_lights(model, &json!({ "type": "directional" }), bounds),
             Self::Spot => {
-                // Three lux at the model's center.
+                // 3 lux at the model's center.
                 let distance = bounds.light_distance();
                 let cone = json!({ "innerConeAngle": 0.3, "outerConeAngle": 0.5 });
                 let light = json!({
@@ -63,7 +65,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The bounds that `alberti info --json` prints.
+    /// Parses the bounds that `alberti info --json` prints.
     pub fn from_info(info: &str) -> Result<Self, String> {
         let info: Value = serde_json::from_str(info).map_err(|error| format!("info: {error}"))?;
         let corner = |name: &str| {
@@ -77,8 +79,8 @@ impl Bounds {
         }
     }
 
-    /// The position from which a cone of 0.5 rad around the center contains the whole box: 2.5
-    /// radii away.
+    /// Returns the distance from which a cone of 0.5 rad around the center contains the whole box:
+    /// 2.5 radii.
     fn light_distance(&self) -> f64 {
         let diagonal: f64 = (0..3).map(|i| self.max[i] - self.min[i]).map(|d| d * d).sum();
         1.25 * diagonal.sqrt()
@@ -112,7 +114,7 @@ pub fn write_patched_model(
     Ok(target)
 }
 
-/// The JSON of a file, and the binary chunk if it is a GLB.
+/// Splits a file into its JSON and, if it is a GLB, its binary chunk.
 fn decode_model(bytes: &[u8]) -> Result<(Value, Option<&[u8]>), String> {
     let parse = |json| serde_json::from_slice(json).map_err(|error| format!("its JSON: {error}"));
     if !bytes.starts_with(b"glTF") {
@@ -122,11 +124,11 @@ fn decode_model(bytes: &[u8]) -> Result<(Value, Option<&[u8]>), String> {
         let length = bytes.get(at..at + 4)?.try_into().ok().map(u32::from_le_bytes)? as usize;
         bytes.get(at + 8..(at + 8).checked_add(length)?)
     };
-    let json = chunk(12).ok_or("the GLB ends early")?;
+    let json = chunk(12).ok_or("the GLB is truncated")?;
     Ok((parse(json)?, Some(chunk(20 + json.len()).unwrap_or_default())))
 }
 
-/// The files next to the model that it refers to.
+/// Returns the files next to the model that it refers to.
 fn external_files(model: &Value) -> Result<Vec<PathBuf>, String> {
     let entries = ["buffers", "images"].into_iter().filter_map(|name| model[name].as_array());
     let uris = entries.flatten().filter_map(|entry| entry["uri"].as_str());
@@ -155,7 +157,8 @@ fn replace_lights(model: &mut Value, light: &Value, bounds: &Bounds) -> Result<(
         }
     }
     let index = nodes.len();
-    // In front and above by 45°: a rotation of −45° about x takes the light's −z there.
+    // In front of and above the model, at 45°: a rotation of −45° about x points the light's −z
+    // axis at it.
     let (distance, half) = (bounds.light_distance(), std::f64::consts::FRAC_1_SQRT_2);
     let center: [f64; 3] = std::array::from_fn(|i| (bounds.min[i] + bounds.max[i]) / 2.0);
     nodes.push(json!({
@@ -198,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn materials_get_the_extension_and_keep_theirs() {
+    fn materials_get_the_extension_and_keep_existing_ones() {
         let mut model = sample();
         Addition::Iridescence.apply(&mut model, &BOUNDS).unwrap();
         Addition::Iridescence.apply(&mut model, &BOUNDS).unwrap();
@@ -228,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn glb_and_gltf_are_read() {
+    fn glb_and_gltf_files_are_decoded() {
         let glb = encode_glb(br#"{"asset":{}}"#, b"12345678");
         let (json, binary) = decode_model(&glb).unwrap();
         assert_eq!((json, binary), (json!({"asset": {}}), Some(&b"12345678"[..])));
@@ -245,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_are_those_of_info() {
+    fn bounds_are_read_from_info() {
         let info = r#"{"shown": {"bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]}}}"#;
         assert_eq!(Bounds::from_info(info).unwrap(), BOUNDS);
         assert!(Bounds::from_info(r#"{"shown": {"bounds": null}}"#).is_err());

@@ -1,4 +1,5 @@
-//! The program of another commit: a clone below the target folder, built there and kept.
+//! The program of another commit, built in a clone below the target folder and reused by later
+//! runs.
 
 use crate::program::{Program, capture_output, run_command};
 use crate::workspace::{project_root, target_folder};
@@ -8,14 +9,14 @@ use std::process::Command;
 /// A commit of this repository.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Commit {
-    /// The name that the user gave it, such as `main~3`.
+    /// The revision as the user wrote it, such as `main~3`.
     pub revision: String,
     /// Its full hash.
     pub hash: String,
 }
 
 impl Commit {
-    /// Looks a revision up: a branch, a tag, a hash or anything else that git understands.
+    /// Looks up a revision: a branch, a tag, a hash or anything else that git understands.
     pub fn resolve(revision: &str) -> Result<Self, String> {
         let hash = capture_output(git(project_root()).args([
             "rev-parse",
@@ -27,22 +28,22 @@ impl Commit {
         Ok(Self { revision: revision.to_owned(), hash: hash.trim().to_owned() })
     }
 
-    /// The start of the hash, as git shows it.
+    /// Returns the abbreviated hash, as git shows it.
     pub fn short(&self) -> &str {
         self.hash.get(..12).unwrap_or(&self.hash)
     }
 
     /// Builds the release program of the commit, or finds an existing build.
     ///
-    /// The folder is a clone, not a git worktree: a target folder may be removed at any time, and
-    /// then nothing in the repository refers to it.
+    /// The folder is a clone, not a git worktree: a target folder may be removed at any time, and a
+    /// removed worktree would leave an entry in the repository.
     pub fn build_program(&self) -> Result<Program, String> {
         let folder = self.clone_folder();
         if !self.is_checked_out(&folder) {
             self.check_out(&folder)?;
         }
         Program::build_checkout(&folder)
-            .map_err(|error| format!("the program of {} cannot be built: {error}", self.short()))
+            .map_err(|error| format!("cannot build the program of {}: {error}", self.short()))
     }
 
     fn clone_folder(&self) -> PathBuf {
@@ -50,7 +51,7 @@ impl Commit {
     }
 
     fn is_checked_out(&self, folder: &Path) -> bool {
-        // Without a separate `.git`, git would answer for the repository around it.
+        // Without its own `.git`, git would use the enclosing repository.
         let head = || capture_output(git(folder).args(["rev-parse", "HEAD"]));
         folder.join(".git").exists()
             && folder.join("Cargo.toml").exists()
@@ -68,7 +69,7 @@ impl Commit {
     }
 }
 
-/// The commit of the current files, with ` + changes` if they differ from it.
+/// Returns the current commit, followed by ` + changes` if the files differ from it.
 pub fn current_commit() -> Result<String, String> {
     let hash = capture_output(git(project_root()).args(["rev-parse", "HEAD"]))?;
     let changed = ["status", "--porcelain", "--untracked-files=no"];
@@ -87,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn unknown_revisions_are_named() {
+    fn errors_name_the_unknown_revision() {
         for revision in ["no-such-branch", "--version", ""] {
             let error = Commit::resolve(revision).unwrap_err();
             assert!(error.starts_with(&format!("`{revision}` is not a commit")), "{error}");

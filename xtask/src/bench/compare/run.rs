@@ -1,4 +1,5 @@
-//! One run of a program, and its figures: stages of `--timings`, wall and CPU time, peak memory.
+//! One run of a program and its figures: the stages of `--timings`, wall and CPU time, and peak
+//! memory.
 
 use super::variants::Call;
 use crate::workspace::{project_root, read_text};
@@ -8,43 +9,44 @@ use std::time::Instant;
 
 /// The sum of all stages.
 const ALL: &str = "all";
-/// The total without [`LOADING`], where features and styles make a difference.
+/// The total without [`LOADING`]: the stages that features and styles affect.
 pub const DRAWING: &str = "drawing";
-/// The time from start to end of the process.
+/// The time from the start to the end of the process.
 pub const WALL: &str = "wall";
-/// The time of the process on all cores, in steps of 10 ms.
+/// The CPU time of the process on all cores, in steps of 10 ms.
 const CPU: &str = "cpu";
-/// The peak of memory in MiB: the resident set.
+/// The peak resident set size in MiB.
 pub const PEAK_MEMORY: &str = "peak memory";
 
 /// Stages that read and write files.
 const LOADING: [&str; 6] = ["read", "parse", "geometry", "images", "encode", "write"];
 
-/// Flags that used to have another name.
+/// Flags that have been renamed, each with its former name.
 const FORMER_FLAGS: [(&str, &str); 3] =
     [("--tone-mapping", "--tone"), ("--max-anisotropy", "--anisotropy"), ("--out-dir", "--out")];
 
-/// Figures of a run by name, in the order in which they were printed: milliseconds, and MiB for
-/// memory.
+/// Figures of a run by name, in the order in which they were printed. Times are in milliseconds and
+/// memory in MiB.
 pub type Figures = Vec<(String, f64)>;
 
-/// A program, and the way to run it.
+/// A program and how to run it.
 #[derive(Clone, Debug)]
 pub struct TimedProgram {
     path: PathBuf,
-    /// The folder of its pictures.
+    /// The folder for its pictures.
     folder: PathBuf,
     /// GNU time, which measures CPU time and peak memory.
     gnu_time: Option<PathBuf>,
 }
 
 impl TimedProgram {
-    /// A program whose pictures go to `folder`.
+    /// Creates a program that writes its pictures to `folder`.
     pub fn new(path: &Path, folder: &Path, gnu_time: Option<PathBuf>) -> Self {
         Self { path: path.to_owned(), folder: folder.to_owned(), gnu_time }
     }
 
-    /// A call with this program's spelling of the flags, and with its output.
+    /// Returns the arguments of a call, with this program's spelling of the flags and with its
+    /// output path.
     pub fn adapt_call(&self, call: &Call) -> Vec<String> {
         let help = Command::new(&self.path).args([call.command, "--help"]).output();
         let help = help.map(|help| String::from_utf8_lossy(&help.stdout).into_owned());
@@ -58,11 +60,11 @@ impl TimedProgram {
         arguments.into_iter().map(spelled).collect()
     }
 
-    /// Runs the program once, or returns its message in one line.
+    /// Runs the program once and returns the figures, or its error message in one line.
     pub fn run(&self, arguments: &[String]) -> Result<Figures, String> {
         let batch = self.folder.join("batch");
         if batch.exists() {
-            // Otherwise there would be nothing left to do.
+            // Otherwise, there would be no work left to measure.
             std::fs::remove_dir_all(&batch).map_err(|e| format!("{}: {e}", batch.display()))?;
         }
         let usage = self.folder.join("usage");
@@ -92,7 +94,7 @@ impl TimedProgram {
     }
 }
 
-/// Finds GNU time, the only one whose report has a format.
+/// Finds GNU time, the only implementation of `time` with a configurable output format.
 pub fn find_gnu_time() -> Option<PathBuf> {
     let path = PathBuf::from("/usr/bin/time");
     let version = Command::new(&path).arg("--version").output().ok()?;
@@ -109,7 +111,8 @@ fn spell_flag(word: String, help: &str) -> String {
     }
 }
 
-/// The stages in a program's output, and their sum without the file stages.
+/// Parses the stages in a program's output, and adds their sum and their sum without the file
+/// stages.
 fn parse_timings(text: &str) -> Figures {
     let mut figures: Figures = text.lines().filter_map(parse_stage).collect();
     let figure = |name: &str| figures.iter().find(|(known, _)| known == name).map(|(_, ms)| *ms);
@@ -120,7 +123,7 @@ fn parse_timings(text: &str) -> Figures {
     figures
 }
 
-/// A line such as `mip chains      7.38 ms`.
+/// Parses a line such as `mip chains      7.38 ms`.
 fn parse_stage(line: &str) -> Option<(String, f64)> {
     let (name, number) = line.strip_suffix(" ms")?.rsplit_once(' ')?;
     let milliseconds: f64 = number.parse().ok()?;
@@ -130,7 +133,8 @@ fn parse_stage(line: &str) -> Option<(String, f64)> {
     (is_name && milliseconds.is_finite()).then(|| (name.to_owned(), milliseconds))
 }
 
-/// The last line of GNU time's output: seconds in the program and in the system, KiB of memory.
+/// Parses the last line of GNU time's output: seconds of user time and of system time, and KiB of
+/// memory.
 fn parse_usage(text: &str) -> Figures {
     let words = text.lines().last().unwrap_or_default().split_whitespace();
     let numbers: Vec<f64> = words.filter_map(|word| word.parse().ok()).collect();
@@ -155,14 +159,14 @@ mod tests {
     }
 
     #[test]
-    fn lines_that_are_no_stage_are_left() {
+    fn lines_that_are_not_stages_are_ignored() {
         for line in ["", " ms", "pixels ms", "pixels NaN ms", "pixels 1.0 s", "3 ms", "a: 3 ms"] {
             assert_eq!(parse_stage(line), None, "{line}");
         }
     }
 
     #[test]
-    fn flags_are_spelled_as_the_program_knows_them() {
+    fn flags_are_spelled_as_the_program_expects() {
         let former = "      --tone <CURVE>\n      --out <DIR>\n";
         let spelled = |word: &str, help: &str| spell_flag(word.to_owned(), help);
         assert_eq!(spelled("--tone-mapping", former), "--tone");
@@ -172,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn usage_is_the_last_line() {
+    fn usage_is_read_from_the_last_line() {
         let figures = parse_usage("Command exited with non-zero status 1\n0.25 0.5 2048\n");
         assert_eq!(figures, [("cpu".to_owned(), 750.0), ("peak memory".to_owned(), 2.0)]);
         assert!(parse_usage("").is_empty() && parse_usage("1.0 2.0\n").is_empty());

@@ -1,6 +1,6 @@
-//! Median and spread of a few figures.
+//! The median and the spread of a few figures.
 
-/// Minimum, median and maximum of some figures.
+/// The minimum, median and maximum of some figures.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Spread {
     /// The minimum.
@@ -12,7 +12,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// The spread of figures, if there are any.
+    /// Returns the spread of some figures, or `None` if there are none.
     pub fn from_figures(mut figures: Vec<f64>) -> Option<Self> {
         figures.sort_by(f64::total_cmp);
         let (min, max) = (*figures.first()?, *figures.last()?);
@@ -31,7 +31,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn medians_are_in_the_middle() {
+    fn the_median_is_the_middle_figure_or_the_mean_of_two() {
         let spread = |figures: &[f64]| Spread::from_figures(figures.to_vec());
         assert_eq!(spread(&[]), None);
         assert_eq!(spread(&[2.0]), Some(Spread { min: 2.0, median: 2.0, max: 2.0 }));

@@ -1,4 +1,4 @@
-//! The summary: for each variant the ratios of its measurements, for one model or all together.
+//! The summary: the ratios measured for each variant, for one model or pooled over all models.
 
 use super::measurement::{
     ALL_MODELS, Measurement, ProgramRuns, Series, figures_named, pairwise_ratios,
@@ -17,37 +17,37 @@ pub struct VariantSummary<'a> {
 }
 
 impl VariantSummary<'_> {
-    /// Whether it has a counterpart, such as the picture without the feature.
+    /// Returns whether it has a counterpart, such as the picture without the feature.
     pub fn is_compared(&self) -> bool {
         self.measurements.iter().any(|measurement| measurement.new.off.is_some())
     }
 
-    /// The new program over the old one, for a figure.
+    /// Returns the ratio new/old of a figure.
     pub fn new_over_old_of(&self, figure: &str) -> Option<Spread> {
         self.spread(|m| pairwise_ratios(&m.new.on, &m.old.on, figure))
     }
 
-    /// The new program over the old one, for the variant's main figure.
+    /// Returns the ratio new/old of the variant's main figure.
     pub fn new_over_old(&self) -> Option<Spread> {
         self.new_over_old_of(self.figure)
     }
 
-    /// Peak memory of the new program over the old one's.
+    /// Returns the ratio new/old of the peak memory.
     pub fn memory_ratio(&self) -> Option<Spread> {
         self.new_over_old_of(PEAK_MEMORY)
     }
 
-    /// With the feature over without it, in the old program.
+    /// Returns the ratio of the main figure with and without the feature, in the old program.
     pub fn old_on_over_off(&self) -> Option<Spread> {
         self.spread(|measurement| self.on_over_off(&measurement.old))
     }
 
-    /// With the feature over without it, in the new program.
+    /// Returns the ratio of the main figure with and without the feature, in the new program.
     pub fn new_on_over_off(&self) -> Option<Spread> {
         self.spread(|measurement| self.on_over_off(&measurement.new))
     }
 
-    /// A figure of the old and of the new program.
+    /// Returns a figure of the old and of the new program.
     pub fn figure_pair(&self, figure: &str) -> [Option<Spread>; 2] {
         [
             self.spread(|measurement| figures_named(&measurement.old.on, figure)),
@@ -55,7 +55,7 @@ impl VariantSummary<'_> {
         ]
     }
 
-    /// All figure names, in the order in which the programs print them.
+    /// Returns all figure names, in the order in which the programs print them.
     pub fn figure_names(&self) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();
         let series = self.measurements.iter().flat_map(|m| [&m.new.on, &m.old.on]);
@@ -85,7 +85,7 @@ impl VariantSummary<'_> {
     }
 }
 
-/// The single models, in the order in which they were measured.
+/// Returns the names of the individual models, in the order in which they were measured.
 pub fn model_names(measurements: &[Measurement]) -> Vec<&str> {
     let mut names: Vec<&str> = Vec::new();
     for Measurement { model, .. } in measurements {
@@ -96,7 +96,7 @@ pub fn model_names(measurements: &[Measurement]) -> Vec<&str> {
     names
 }
 
-/// The variants of a model, or of all models if no name is given.
+/// Summarizes the variants of a model, or of all models if `model` is `None`.
 pub fn summarize<'a>(
     measurements: &'a [Measurement],
     model: Option<&str>,
@@ -119,8 +119,8 @@ pub fn summarize<'a>(
     summaries
 }
 
-/// A refusal by a program: which program, variant and model, and why. Equal reasons for equal
-/// variants are listed once, with the first model.
+/// Lists the refusals by a program, each with program, variant, model and reason. If a variant is
+/// refused for the same reason with several models, only the first model is listed.
 pub fn refusals(measurements: &[Measurement]) -> Vec<String> {
     let mut seen: Vec<(&str, &str, &str)> = Vec::new();
     let mut lines = Vec::new();
@@ -146,8 +146,8 @@ pub fn refusals(measurements: &[Measurement]) -> Vec<String> {
 pub mod tests {
     use super::*;
 
-    /// Two models: a setting, and a style with two rounds that the old program refuses for one of
-    /// them.
+    /// Returns sample measurements of two models: a setting, and a style with two rounds that the
+    /// old program refuses for one model.
     pub fn sample() -> Vec<Measurement> {
         let series = |all: [f64; 2]| -> Series {
             let figures = |ms: f64| {
@@ -207,7 +207,7 @@ pub mod tests {
     }
 
     #[test]
-    fn refused_variants_have_no_ratio_but_a_reason() {
+    fn refused_variants_have_a_reason_instead_of_a_ratio() {
         let sample = sample();
         let summaries = summarize(&sample, Some("a"));
         let toon = &summaries[2];

@@ -1,4 +1,4 @@
-//! The report as text: the stages and variants of each model, then of all models together.
+//! The report as text: the stages and variants of each model, then of all models combined.
 
 use super::machine::Machine;
 use super::measurement::{ALL_MODELS, Measurement};
@@ -18,7 +18,7 @@ What is compared there is drawing: all stages but those that read and write file
 commands it is wall time.
 ";
 
-/// All tables.
+/// Formats all tables.
 pub fn report(machine: &Machine, measurements: &[Measurement]) -> String {
     let Machine { old, new, processor, cores, .. } = machine;
     let mut text = format!("old: {old}\nnew: {new}\n{processor}, {cores} cores\n");
@@ -28,7 +28,7 @@ pub fn report(machine: &Machine, measurements: &[Measurement]) -> String {
         text += &section(model, &summarize(measurements, Some(model)), true);
     }
     text += &match models.len() {
-        // Only the batch: the rest would repeat the model's figures.
+        // Only the batch, because the rest would repeat the figures of the one model.
         1 => section(ALL_MODELS, &summarize(measurements, Some(ALL_MODELS)), true),
         _ => section("over all models", &summarize(measurements, None), false),
     };
@@ -39,7 +39,7 @@ pub fn report(machine: &Machine, measurements: &[Measurement]) -> String {
     text
 }
 
-/// The tables of one model, with its times, or of all models, without times.
+/// Formats the tables of one model, with times, or of all models, without times.
 fn section(title: &str, summaries: &[VariantSummary<'_>], times: bool) -> String {
     let mut text = String::new();
     for summary in summaries.iter().filter(|summary| summary.group == Group::Settings) {
@@ -94,7 +94,8 @@ fn ratio_text(ratio: Option<Spread>) -> String {
     })
 }
 
-/// Columns as wide as their widest cell, the first one left-aligned and the others right-aligned.
+/// Aligns the columns: each is as wide as its widest cell, the first is left-aligned, and the
+/// others are right-aligned.
 fn align(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let cell_width = |row: &Vec<String>, at: usize| row.get(at).map_or(0, |c| c.chars().count());
@@ -123,13 +124,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn columns_are_aligned_by_characters() {
+    fn columns_are_aligned_by_character_count() {
         let rows = [["a", "1.00 (1–2)"], ["bcd", "—"]].map(|row| row.map(str::to_owned).to_vec());
         assert_eq!(align(&rows), "  a    1.00 (1–2)\n  bcd           —\n");
     }
 
     #[test]
-    fn a_report_has_models_all_models_and_refusals() {
+    fn a_report_covers_each_model_all_models_and_refusals() {
         let text = report(&machine(), &sample());
         let after = |title: &str| text.split(title).nth(1).unwrap_or_else(|| panic!("{title}"));
         let cells = |title: &str, name: &str| -> Vec<&str> {

@@ -1,4 +1,5 @@
-//! The measured variants: settings, features against the picture without them, styles, commands.
+//! The measured variants: settings, features compared with the picture without them, styles, and
+//! commands.
 
 use super::models::BenchModel;
 use super::patched_model::Addition;
@@ -7,9 +8,9 @@ use crate::skip::report_skip;
 use std::path::Path;
 
 const SIZE: &str = "1920x1080";
-/// For frames of a turntable.
+/// The size of turntable frames.
 const FRAME_SIZE: &str = "640x360";
-/// For pictures in a batch.
+/// The size of batch pictures.
 const THUMBNAIL_SIZE: &str = "256x256";
 
 /// All styles except `shaded`, to which they are compared.
@@ -32,10 +33,10 @@ const STYLES: [&str; 16] = [
     "technical",
 ];
 
-/// A feature, and the flags with and without it.
+/// A feature, the flags that enable it, and the flags of the picture without it.
 type Feature = (&'static str, &'static [&'static str], &'static [&'static str]);
 
-/// Features that flags switch on.
+/// Features that flags enable.
 const FEATURES: [Feature; 3] = [
     ("ambient occlusion", &["--ambient-occlusion"], &[]),
     ("AgX tone curve", &["--tone-mapping", "agx"], &["--tone-mapping", "neutral"]),
@@ -60,20 +61,20 @@ const LIGHT_FEATURES: [(Addition, Feature); 3] = [
 const MATERIAL_FEATURES: [(Addition, &str); 2] =
     [(Addition::Transmission, "glass"), (Addition::Iridescence, "iridescence")];
 
-/// The kind of a variant; each kind has a section of the tables.
+/// The kind of a variant. Each kind has its own section in the tables.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Group {
-    /// Default settings, with each number of samples: shown by stages.
+    /// The default settings with each number of samples, listed by stage.
     Settings,
     Features,
-    /// Each compared with `shaded`.
+    /// Styles, each compared with `shaded`.
     Styles,
-    /// Threads, and other commands than `render`.
+    /// Thread counts, and commands other than `render`.
     Commands,
 }
 
 impl Group {
-    /// The title of its tables.
+    /// Returns the title of its tables.
     pub fn title(self) -> &'static str {
         match self {
             Self::Settings => "settings",
@@ -93,24 +94,24 @@ pub struct Call {
     pub arguments: Vec<String>,
 }
 
-/// A measurement: a call, and the one to which it is compared within each program.
+/// A measurement: a call, and the call with which it is compared within each program.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Variant {
     pub group: Group,
     /// Its name in tables.
     pub name: String,
-    /// The figure that is compared where only one is shown.
+    /// The figure to compare if only one is shown.
     pub figure: &'static str,
     /// The call with the feature.
     pub on: Call,
-    /// The call without it.
+    /// The call without the feature.
     pub off: Option<Call>,
 }
 
-/// A model with something added, or the reason why that is impossible.
+/// Returns the path of the model with an addition, or the reason why it cannot be added.
 pub type PatchModel<'a> = &'a dyn Fn(Addition) -> Result<std::path::PathBuf, String>;
 
-/// All variants of one model. Impossible variants are reported on standard output.
+/// Returns all variants of one model. Impossible variants are reported on standard output.
 pub fn model_variants(model: &BenchModel, frames: usize, patch: PatchModel<'_>) -> Vec<Variant> {
     let path = model.path.as_path();
     let settings = ["1", "4"].map(|samples| Variant {
@@ -149,7 +150,7 @@ pub fn model_variants(model: &BenchModel, frames: usize, patch: PatchModel<'_>) 
     variants
 }
 
-/// A small picture of every model, in one call.
+/// Returns a variant that renders a small picture of every model in one call.
 pub fn batch_variant(models: &[BenchModel]) -> Variant {
     let mut arguments: Vec<String> = models.iter().map(|model| text(&model.path)).collect();
     arguments.extend(["--size", THUMBNAIL_SIZE, "--threads", "1"].map(str::to_owned));
@@ -175,7 +176,7 @@ fn compared(group: Group, name: &str, on: Call, off: Call) -> Variant {
     Variant { group, name: name.to_owned(), figure: DRAWING, on, off: Some(off) }
 }
 
-/// A picture with one thread, unless the flags say otherwise.
+/// Returns a call that renders a picture with one thread, unless the flags say otherwise.
 fn render(model: &Path, samples: &str, flags: &[&str]) -> Call {
     let mut arguments = vec![text(model)];
     arguments.extend(["--size", SIZE, "--samples", samples, "--timings"].map(str::to_owned));
@@ -200,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn a_feature_differs_from_its_counterpart_by_nothing_else() {
+    fn only_the_feature_differs_from_the_counterpart() {
         let variants = model_variants(&model(), 12, &|_| Ok(PathBuf::from("patched.glb")));
         let named = |name: &str| variants.iter().find(|variant| variant.name == name).unwrap();
         let occlusion = named("ambient occlusion");
@@ -211,11 +212,11 @@ mod tests {
         assert_eq!(glass.on.arguments[1..], glass.off.as_ref().unwrap().arguments[1..]);
         assert_eq!(glass.on.arguments[0], "patched.glb");
         let threads = |call: &Call| call.arguments.iter().filter(|a| *a == "--threads").count();
-        assert!(variants.iter().all(|variant| threads(&variant.on) == 1), "one number of threads");
+        assert!(variants.iter().all(|variant| threads(&variant.on) == 1), "one thread option");
     }
 
     #[test]
-    fn variants_that_a_model_cannot_have_are_left_out() {
+    fn variants_that_do_not_apply_to_a_model_are_omitted() {
         let all = model_variants(&model(), 12, &|_| Ok(PathBuf::new())).len();
         let fewer = model_variants(&model(), 12, &|_| Err("no materials".into())).len();
         assert_eq!(all - fewer, LIGHT_FEATURES.len() + MATERIAL_FEATURES.len());

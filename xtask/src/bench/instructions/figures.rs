@@ -1,4 +1,4 @@
-//! The stored counts: a text file with one line each.
+//! The stored counts: a text file with one line per count.
 
 use crate::workspace::{project_root, read_text};
 use std::path::PathBuf;
@@ -8,7 +8,7 @@ use std::path::PathBuf;
 pub struct InstructionCount {
     /// The workload.
     pub name: String,
-    /// Instructions of the whole run.
+    /// The number of instructions of the whole run.
     pub count: u64,
     /// The reason for its last change.
     pub reason: String,
@@ -17,16 +17,16 @@ pub struct InstructionCount {
 /// All stored counts, in the order of the file.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct CountTable {
-    /// The compiler of the counted program; empty as long as nothing is stored.
+    /// The compiler that built the counted program; empty if nothing is stored yet.
     pub compiler: String,
     figures: Vec<InstructionCount>,
 }
 
-/// The name before the compiler, in the column of the workload names.
+/// The key of the compiler's line, in the column of the workload names.
 const COMPILER_KEY: &str = "compiler";
 
 const TABLE_HEADING: &str = "\
-# Instructions that small pieces of work take, by callgrind: name, count, why it last changed.
+# Instruction counts of small workloads, from callgrind: the name, the count, the reason for its last change.
 # Written by `cargo xtask bench --instructions --update NAME --reason \"…\"`.
 ";
 
@@ -73,7 +73,7 @@ impl CountTable {
         format!("{TABLE_HEADING}{COMPILER_KEY:12} {}\n{lines}", self.compiler)
     }
 
-    /// The row of a workload.
+    /// Returns the row of a workload.
     pub fn count_for(&self, name: &str) -> Option<&InstructionCount> {
         self.figures.iter().find(|figure| figure.name == name)
     }
@@ -97,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_written_is_read_again() {
+    fn a_written_table_is_read_back() {
         let mut figures = CountTable { compiler: "rustc 1.95.0".into(), ..CountTable::default() };
         figures.set_count("floor", 1, "first count");
         figures.set_count("teapot", 12_345_678_901, "more tea");
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn an_invalid_figure_is_reported_with_its_line() {
+    fn an_invalid_count_is_reported_with_its_line() {
         let error = CountTable::parse_table("# a\nfloor 12\n").unwrap_err();
         assert!(error.starts_with("instructions.txt:2"), "{error}");
         assert!(CountTable::parse_table("floor many reasons\n").is_err());

@@ -1,13 +1,13 @@
-//! Losses: faster peers, and missed goals.
+//! The losses: faster peers and missed goals.
 
 use super::tables::{list, ratio, text};
 use serde_json::Value;
 use std::fmt::Write as _;
 
-/// The names that our contestants have: bare, and before their number of samples or the like.
+/// The names of our contestants, on their own or followed by the number of samples and similar.
 const OURS: [&str; 3] = ["raster", "render", "alberti"];
 
-/// The section of the page.
+/// Formats the section of the page.
 pub fn to_markdown(figures: &Value) -> String {
     let mut found = faster_peers(figures);
     for goal in list(&figures["goals"]).iter().filter(|goal| goal["met"] == false) {
@@ -22,7 +22,8 @@ pub fn to_markdown(figures: &Value) -> String {
     )
 }
 
-/// A row for each peer that is faster than one of our contestants in a scene or with a file.
+/// Formats a row for each peer that is faster than one of our contestants in a scene or with a
+/// file.
 fn faster_peers(figures: &Value) -> String {
     let mut rows = String::new();
     let scenes = list(&figures["scenes"]).iter().map(|scene| (scene, &scene["name"]));

@@ -1,4 +1,4 @@
-//! The machine, time, commit and peers of the page's measurements.
+//! The machine, time, commit and peers of the measurements on the page.
 
 use super::tables::{list, text};
 use crate::bench::compare::machine::{compiler, date, processor};
@@ -8,10 +8,10 @@ use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// The number of running threads per core from which a machine counts as busy.
+/// The number of running threads per core above which a machine counts as busy.
 const BUSY: f64 = 0.3;
 
-/// The machine, the commit and the hour.
+/// The machine, the commit and the time.
 #[derive(Default)]
 pub struct Place {
     processor: String,
@@ -21,13 +21,14 @@ pub struct Place {
     commit: String,
     date: String,
     euc: String,
-    /// Running threads before and after, each the mean of a minute.
+    /// The load before and after the measurement: the number of running threads, averaged over a
+    /// minute.
     load_before: Option<f64>,
     pub load_after: Option<f64>,
 }
 
 impl Place {
-    /// Asks the system, the compiler and git, before anything is measured.
+    /// Queries the system, the compiler and git before anything is measured.
     pub fn describe() -> Result<Self, String> {
         Ok(Self {
             processor: processor(),
@@ -42,7 +43,7 @@ impl Place {
         })
     }
 
-    /// The section of the page. The versions of Mesa and f3d come from the figures.
+    /// Formats the section of the page. The versions of Mesa and f3d come from the figures.
     pub fn to_markdown(&self, figures: &Value) -> String {
         let or_missing = |value: &Value| match text(value) {
             "" => "not installed, skipped".to_owned(),
@@ -77,31 +78,32 @@ impl Place {
         text
     }
 
-    /// Whether others were computing at the start. Afterwards, this measurement itself is.
+    /// Returns whether the machine was busy at the start. Afterwards, the load includes this
+    /// measurement itself.
     fn was_busy(&self) -> bool {
         self.load_before.is_some_and(|load| load > BUSY * self.cores as f64)
     }
 }
 
-/// The rounds of the contest, not counting the warm-up round.
+/// Returns the number of rounds, not counting the warm-up round.
 fn rounds(figures: &Value) -> usize {
     let contestants = list(&figures["scenes"]).iter().flat_map(|scene| list(&scene["contestants"]));
     contestants.map(|one| list(&one["times"]).len()).max().unwrap_or(0)
 }
 
-/// Running threads, the mean of the last minute, if the system reports it.
+/// Returns the number of running threads, averaged over the last minute, if the system reports it.
 pub fn load() -> Option<f64> {
     read_text(Path::new("/proc/loadavg")).ok()?.split(' ').next()?.parse().ok()
 }
 
-/// The name of the system.
+/// Returns the name of the system.
 fn system() -> String {
     let about = read_text(Path::new("/etc/os-release")).unwrap_or_default();
     let name = about.lines().find_map(|line| line.strip_prefix("PRETTY_NAME="));
     name.map_or(std::env::consts::OS, |name| name.trim_matches('"')).to_owned()
 }
 
-/// The version of a package that the contest is built with.
+/// Returns the version of a package that the peers are built with.
 fn locked_version(name: &str) -> String {
     let lock = read_text(&project_root().join("Cargo.lock")).unwrap_or_default();
     let after = lock.split_once(&format!("name = \"{name}\"\nversion = \"")).map(|(_, rest)| rest);
@@ -113,7 +115,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_busy_machine_is_named() {
+    fn a_busy_machine_is_reported() {
         let at = |load| Place { cores: 4, load_before: Some(load), ..Place::default() };
         let text = |load| at(load).to_markdown(&Value::Null);
         assert!(text(2.0).contains("was busy") && !text(0.5).contains("was busy"));

@@ -1,19 +1,19 @@
-//! The page's tables, from the figures that the contest writes.
+//! The tables of the page, formatted from the figures that `tests/peers` writes.
 
 use serde_json::Value;
 use std::fmt::Write as _;
 
-/// The elements of an array; none for anything else.
+/// Returns the elements of an array, or an empty slice for any other value.
 pub fn list(value: &Value) -> &[Value] {
     value.as_array().map_or(&[], Vec::as_slice)
 }
 
-/// A text; empty for anything else.
+/// Returns a string, or an empty one for any other value.
 pub fn text(value: &Value) -> &str {
     value.as_str().unwrap_or_default()
 }
 
-/// A median with minimum and maximum.
+/// Formats a median with its minimum and maximum.
 pub fn ratio(spread: &Value) -> String {
     scaled(spread, 1.0)
 }
@@ -24,14 +24,14 @@ fn scaled(spread: &Value, factor: f64) -> String {
     format!("{:.2} ({:.2} … {:.2})", median * factor, low * factor, high * factor)
 }
 
-/// A scene: its contestants, and the distances between their pictures.
+/// Formats a scene: its contestants and the differences between their pictures.
 pub fn scene(scene: &Value) -> String {
     let mut markdown = format!("\n### {}\n\n{}.\n\n", text(&scene["name"]), text(&scene["about"]));
     markdown += &contestants(&scene["contestants"], &["raster", "render"]);
     for found in list(&scene["agreement"]) {
         let _ = write!(
             markdown,
-            "\nAgainst {}: {} of {} pixels covered differently, {} colored differently.\n",
+            "\nCompared with {}: coverage differs in {} of {} pixels, color in {}.\n",
             text(&found["peer"]),
             found["covered_otherwise"],
             found["drawn"],
@@ -41,7 +41,7 @@ pub fn scene(scene: &Value) -> String {
     markdown
 }
 
-/// A section of one contest.
+/// Formats the section for one series of measurements.
 pub fn contest(title: &str, series: &Value, bases: &[&str]) -> String {
     if list(series).is_empty() {
         return String::new();
@@ -49,7 +49,7 @@ pub fn contest(title: &str, series: &Value, bases: &[&str]) -> String {
     format!("\n## {title}\n\n{}", contestants(series, bases))
 }
 
-/// Times in milliseconds, and as multiples of others in the same round.
+/// Formats times in milliseconds, and as multiples of the base times in the same round.
 fn contestants(series: &Value, bases: &[&str]) -> String {
     let over: String = bases.iter().map(|base| format!(" × {base} |")).collect();
     let mut markdown = format!("| | ms |{over}\n| --- | --- |{}\n", " --- |".repeat(bases.len()));
@@ -63,7 +63,7 @@ fn contestants(series: &Value, bases: &[&str]) -> String {
     markdown
 }
 
-/// From files to pictures: CPU time, wall time, memory.
+/// Formats the comparison from file to PNG: CPU time, wall time and memory.
 pub fn files(files: &Value) -> String {
     let mut markdown = String::new();
     if list(files).is_empty() {
@@ -87,7 +87,7 @@ pub fn files(files: &Value) -> String {
     markdown
 }
 
-/// The gain of a second thread.
+/// Formats the speedup from a second thread.
 pub fn threads(threads: &Value) -> String {
     let mut markdown = String::new();
     if list(threads).is_empty() {
@@ -109,7 +109,7 @@ pub fn threads(threads: &Value) -> String {
     markdown
 }
 
-/// The goals for the figures.
+/// Formats the goals.
 pub fn goals(goals: &Value) -> String {
     let mut markdown = String::new();
     if list(goals).is_empty() {
@@ -123,7 +123,7 @@ pub fn goals(goals: &Value) -> String {
     markdown
 }
 
-/// A goal: the comparison, the result, the bound.
+/// Formats a goal: the comparison, the result and the bound.
 pub fn goal_row(goal: &Value) -> String {
     let sign = if goal["at_least"] == true { "≥" } else { "≤" };
     let wanted = goal["wanted"].as_f64().unwrap_or_default();
