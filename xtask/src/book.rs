@@ -3,17 +3,17 @@
 //! ```text
 //! book                    build both editions
 //! book --language CODE    build one
-//! book --check            check what was built: links, ids, sizes, topics, search, layout
-//! book --test             test the builder, build, check the editions and the catalogs
-//! book --pdf              a PDF of each edition, by Chromium
-//! book --pot              templates of the catalogs for translators, in target/book/pot
-//! book --update [PAGE…]   bring the catalogs of book/po up to date with the pages
-//! book --check-po [PAGE…] faults of the catalogs
-//! book --coverage         how much of each page is translated
+//! book --check            check the built editions: links, ids, sizes, topics, search, layout
+//! book --test             test the builder, build the book, check the editions and the catalogs
+//! book --pdf              print each edition to PDF with Chromium
+//! book --pot              write catalog templates for translators to target/book/pot
+//! book --update [PAGE…]   update the catalogs in book/po from the pages
+//! book --check-po [PAGE…] check the catalogs
+//! book --coverage         print how much of each page is translated
 //! ```
 //!
-//! A separate package, `book/mdbook-alberti`, does the work: it needs mdBook, which nothing else
-//! does.
+//! The work is done by a separate package, `book/mdbook-alberti`, because nothing else needs
+//! mdBook.
 
 mod pdf;
 
@@ -31,10 +31,10 @@ use std::process::Command;
 /// The package that builds the book.
 const BUILDER: &str = "book/mdbook-alberti/Cargo.toml";
 
-/// The percentage of the messages that must be translated.
+/// The percentage of messages that must be translated.
 const COVERAGE: &str = "98";
 
-/// Runs the command given by the first argument; without one, builds the book.
+/// Runs the command named by the first argument, or builds the book if there are no arguments.
 pub fn run_book(arguments: &[String]) -> Outcome {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match words.as_slice() {
@@ -57,7 +57,7 @@ pub fn run_book(arguments: &[String]) -> Outcome {
     }
 }
 
-/// The book step of the tests.
+/// Runs the book step of the tests.
 fn test_book() -> Outcome {
     let mut tests = cargo_command(&["test", "--quiet", "--locked", "--manifest-path", BUILDER]);
     compile(|| run_visibly(tests.env("CARGO_TARGET_DIR", builder_target())))?;
@@ -67,12 +67,12 @@ fn test_book() -> Outcome {
     check_editions()
 }
 
-/// The folder of the editions.
+/// Returns the folder of the editions.
 fn book_folder() -> PathBuf {
     target_folder().join("book")
 }
 
-/// The folder in which the builder is compiled.
+/// Returns the folder in which the builder is compiled.
 fn builder_target() -> PathBuf {
     target_folder().join("book-build")
 }
@@ -84,7 +84,8 @@ fn build_editions(flags: &[&str]) -> Outcome {
     run_builder("build", &[&["--program", &path], flags].concat())
 }
 
-/// Puts the explorer's page next to the editions; without it, their links to it are left out.
+/// Copies the explorer's page next to the editions. If it has not been built, the editions omit
+/// their links to it.
 fn copy_explorer(folder: &Path) -> Outcome {
     if folder.exists() {
         fs::remove_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
@@ -92,7 +93,10 @@ fn copy_explorer(folder: &Path) -> Outcome {
     match current_site() {
         Some(site) => copy_folder(&site, folder),
         None => {
-            report_skip("book", "links to the explorer: `cargo xtask web` has not built its page");
+            report_skip(
+                "book",
+                "links to the explorer: its page is missing; build it with `cargo xtask web`",
+            );
             Ok(())
         }
     }
@@ -129,7 +133,7 @@ fn check_editions() -> Outcome {
 fn check_lessons() -> Outcome {
     let site = book_folder().join("explorer");
     if !site.is_dir() || missing_tools().is_some() {
-        report_skip("book", "lessons of links to the explorer: its page is not beside the book");
+        report_skip("book", "lessons in links to the explorer: its page is not next to the book");
         return Ok(());
     }
     let lessons = list_lessons(&site)?;

@@ -1,8 +1,8 @@
-//! `cargo xtask browser`: the explorer's page in a real browser, computed by the program and by
-//! WebAssembly.
+//! `cargo xtask browser`: tests the explorer's page in a real browser, rendered by the program and
+//! by WebAssembly.
 //!
 //! The tests are in `tests/browser/main.mjs`. They need Chromium, Node and two npm packages, which
-//! are fetched once; parts that lack one of them are reported as skipped.
+//! are fetched once. Tests whose tools are missing are reported as skipped.
 
 use crate::Outcome;
 use crate::program::{Build, Program, capture_output, run_command, run_visibly};
@@ -11,7 +11,7 @@ use crate::workspace::{project_root, target_folder};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The path at which Debian installs it. Playwright's own browsers are not used.
+/// The path where Debian installs Chromium. Playwright's own browsers are not used.
 pub const CHROMIUM: &str = "/usr/bin/chromium";
 
 /// The minimum major version of Node for Playwright.
@@ -20,7 +20,7 @@ const NODE: u32 = 20;
 /// The time limit for fetching the packages, in seconds.
 const FETCH_SECONDS: &str = "120";
 
-/// Runs the tests, with `--first` only the first lesson's, or reports why they are skipped.
+/// Runs the tests, or reports why they are skipped. `--first` runs only the first lesson's tests.
 pub fn run_browser(arguments: &[String]) -> Outcome {
     let is_first = match arguments {
         [] => false,
@@ -42,13 +42,13 @@ pub fn run_browser(arguments: &[String]) -> Outcome {
         Some(site) => drop(node.arg(site)),
         None => report_skip(
             "browser",
-            "WebAssembly in the browser: there is no build of this page; `cargo xtask web` makes it",
+            "WebAssembly in the browser: this page has not been built; run `cargo xtask web`",
         ),
     }
     run_visibly(&mut node)
 }
 
-/// The missing requirements of the tests.
+/// Returns the first missing requirement of the tests, if any.
 pub fn missing_tool(folder: &Path) -> Option<String> {
     if !Path::new(CHROMIUM).exists() {
         return Some("chromium is not installed (Debian: chromium)".into());
@@ -57,7 +57,9 @@ pub fn missing_tool(folder: &Path) -> Option<String> {
     let major = version.as_deref().and_then(|text| text.trim_start_matches('v').split('.').next());
     match major.and_then(|major| major.parse::<u32>().ok()) {
         Some(major) if major >= NODE => {}
-        Some(major) => return Some(format!("node {major} is too old, {NODE} is needed")),
+        Some(major) => {
+            return Some(format!("node {major} is too old; {NODE} or later is required"));
+        }
         None => return Some("node is not installed (Debian: nodejs)".into()),
     }
     let has_packages = ["playwright-core", "axe-core"]
@@ -71,7 +73,7 @@ pub fn missing_tool(folder: &Path) -> Option<String> {
     None
 }
 
-/// The folder that `cargo xtask web` has written, if it holds the current page.
+/// Returns the folder that `cargo xtask web` wrote, if it contains the current page.
 pub fn current_site() -> Option<PathBuf> {
     let site = target_folder().join("web");
     site.join("web_bg.wasm").metadata().ok()?;

@@ -1,9 +1,10 @@
-//! `cargo xtask deny`: the dependencies against `deny.toml`, and the oldest compiler they allow.
+//! `cargo xtask deny`: checks the dependencies against `deny.toml` and the minimum compiler
+//! version.
 //!
 //! It checks licenses, sources, duplicate versions and `rust-version` with `cargo metadata`, for
-//! the workspace and the other shipped packages. `cargo deny` reads the same file and also runs if
-//! it is installed; building it takes longer than all of these tests. Advisories need its database,
-//! so only it checks them.
+//! the workspace and the other shipped packages. `cargo deny` reads the same file and runs too if
+//! it is installed. It is not required, because building it takes longer than all tests here. Only
+//! `cargo deny` checks advisories, which need its database.
 
 mod license;
 mod policy;
@@ -21,7 +22,8 @@ use std::process::Command;
 /// The manifests of the shipped packages.
 const SHIPPED: [&str; 2] = ["Cargo.toml", "crates/web/Cargo.toml"];
 
-/// The manifests of all packages in the project: one compiler must be enough for each.
+/// The manifests of all packages in the project. The same minimum compiler version must be enough
+/// for all of them.
 const MANIFESTS: [&str; 4] = [
     "Cargo.toml",
     "crates/web/Cargo.toml",
@@ -51,7 +53,7 @@ pub fn run_deny(arguments: &[String]) -> Outcome {
                         .map(|fault| format!("{manifest}: {fault}")),
                 );
             }
-            // Packages that only these need may not have been fetched yet.
+            // Packages that only this manifest needs may not have been fetched yet.
             Err(error) if manifest != "Cargo.toml" && is_offline(&error) => {
                 report_skip(&format!("deny {manifest}"), "its dependencies cannot be fetched");
             }
@@ -59,7 +61,7 @@ pub fn run_deny(arguments: &[String]) -> Outcome {
         }
     }
     if faults.is_empty() {
-        println!("{count} dependencies of {} packages are as deny.toml asks", SHIPPED.len());
+        println!("{count} dependencies of {} packages comply with deny.toml", SHIPPED.len());
         print_compiler(&floor)?;
         return run_cargo_deny();
     }
@@ -73,7 +75,7 @@ struct Dependency {
     version: String,
     license: String,
     source: String,
-    /// The oldest compiler that it supports, if it says so.
+    /// The oldest compiler that it supports, if it declares one.
     floor: Option<String>,
 }
 
@@ -94,7 +96,7 @@ impl Dependency {
     }
 }
 
-/// Everything in the dependencies that the policy does not allow.
+/// Lists everything in the dependencies that the policy does not allow.
 fn dependency_faults(
     found: &[Dependency],
     policy: &Policy,
@@ -109,19 +111,19 @@ fn dependency_faults(
         versions.entry(name).or_default().insert(version);
         let mut fault = |what: String| faults.push(format!("{name} {version}: {what}"));
         if !is_satisfied(license, licenses) {
-            fault(format!("no license of `{license}` is allowed by licenses.allow"));
+            fault(format!("licenses.allow does not allow `{license}`"));
         }
         let registry = source.trim_start_matches("registry+").trim_start_matches("sparse+");
         if !sources.iter().any(|allowed| allowed == registry) {
             fault(format!("its source `{source}` is not in sources.allow-registry"));
         }
         if banned.contains(name) {
-            fault("it is banned by bans.deny".to_owned());
+            fault("bans.deny bans it".to_owned());
         }
         if needed.as_deref().is_some_and(|needed| version_numbers(needed) > version_numbers(floor))
         {
             fault(format!(
-                "it needs Rust {}, and ours is {floor}",
+                "it needs Rust {}, but the workspace supports {floor}",
                 needed.as_deref().unwrap_or("")
             ));
         }
@@ -129,20 +131,21 @@ fn dependency_faults(
     for (name, versions) in versions.iter().filter(|(_, versions)| versions.len() > 1) {
         if !twice.iter().any(|allowed| allowed == name) {
             let list = versions.iter().copied().collect::<Vec<_>>().join(" and ");
-            faults
-                .push(format!("{name}: {list} are there at once, and bans.skip does not name it"));
+            faults.push(format!(
+                "{name}: versions {list} are used at once, and bans.skip does not list it"
+            ));
         }
     }
     Ok(faults)
 }
 
-/// The three parts of a version, to compare.
+/// Parses the three numbers of a version.
 fn version_numbers(version: &str) -> [u32; 3] {
     let mut numbers = version.split('.').map(|number| number.parse().unwrap_or(0));
     [(); 3].map(|()| numbers.next().unwrap_or(0))
 }
 
-/// The oldest compiler that the workspace supports.
+/// Returns the oldest compiler version that the workspace supports.
 fn workspace_floor() -> Result<String, String> {
     let manifest = read_text(&project_root().join("Cargo.toml"))?;
     rust_version(&manifest).ok_or_else(|| "Cargo.toml has no rust-version".into())
@@ -153,21 +156,22 @@ fn rust_version(manifest: &str) -> Option<String> {
     Some(line.split('"').next()?.to_owned())
 }
 
-/// Packages whose `rust-version` differs from the workspace's.
+/// Lists packages whose `rust-version` differs from the workspace's.
 fn floors_of_packages(floor: &str) -> Result<Vec<String>, String> {
     let mut faults = Vec::new();
     for manifest in MANIFESTS {
         let found = rust_version(&read_text(&project_root().join(manifest))?);
         if found.as_deref() != Some(floor) {
             let found = found.unwrap_or_else(|| "none".into());
-            faults
-                .push(format!("{manifest}: rust-version is {found}, and the workspace's {floor}"));
+            faults.push(format!(
+                "{manifest}: rust-version is {found}, but the workspace has {floor}"
+            ));
         }
     }
     Ok(faults)
 }
 
-/// Reports whether the tests run with the oldest supported compiler: only then is the promise
+/// Reports whether the tests run with the oldest supported compiler. Only then is its support
 /// tested.
 fn print_compiler(floor: &str) -> Outcome {
     let compiler = std::env::var_os("RUSTC").unwrap_or("rustc".into());
@@ -175,17 +179,19 @@ fn print_compiler(floor: &str) -> Outcome {
     let version = text.split_whitespace().nth(1).unwrap_or_default();
     let [[major, minor, _], [floor_major, floor_minor, _]] = [version, floor].map(version_numbers);
     if (major, minor) == (floor_major, floor_minor) {
-        println!("the compiler of these tests is the oldest supported one, {version}");
+        println!("these tests run with the oldest supported compiler, {version}");
     } else {
         report_skip(
             "deny rust-version",
-            &format!("these tests run by {version}, and {floor} is promised"),
+            &format!(
+                "these tests run with {version}, but the oldest supported compiler is {floor}"
+            ),
         );
     }
     Ok(())
 }
 
-/// Whether Cargo could not reach a registry.
+/// Returns whether Cargo failed because it could not reach a registry.
 fn is_offline(error: &str) -> bool {
     ["download", "network", "offline", "resolve host"].iter().any(|word| error.contains(word))
 }
@@ -193,7 +199,7 @@ fn is_offline(error: &str) -> bool {
 /// Checks the policy with `cargo deny`, if it is installed.
 fn run_cargo_deny() -> Outcome {
     if run_command(&mut cargo_command(&["deny", "--version"])).is_err() {
-        println!("cargo-deny is not installed: advisories are not checked");
+        println!("cargo-deny is not installed, so advisories are not checked");
         return Ok(());
     }
     run_command(&mut cargo_command(&["deny", "check", "licenses", "bans", "sources"]))
@@ -217,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn each_part_of_the_policy_finds_its_fault() {
+    fn each_part_of_the_policy_finds_its_violation() {
         let policy = Policy::parse(POLICY).unwrap();
         let good = dependency("a", "1.0.0");
         let faults = |found: &[Dependency]| dependency_faults(found, &policy, "1.95").unwrap();
@@ -239,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn versions_are_compared_by_their_numbers() {
+    fn versions_are_compared_numerically() {
         assert!(version_numbers("1.100") > version_numbers("1.95"));
         assert!(version_numbers("1.95.1") > version_numbers("1.95"));
         assert_eq!(version_numbers("1.95.0"), version_numbers("1.95"));

@@ -1,9 +1,9 @@
-//! `cargo xtask determinism`: the promise that a scene has the same bytes on every machine.
+//! `cargo xtask determinism`: tests that a scene renders to the same bytes on every machine.
 //!
-//! Every scene is drawn by the release build with one thread and with several, and by the debug
-//! build. `--wide` adds a build whose compiler may use AVX2 and fused multiply-add, where
-//! floating-point sums diverge first; it needs a processor that has them. `determinism/web.rs`
-//! compares the explorer's pictures in WebAssembly.
+//! Renders every scene with the release build, with one thread and with several, and with the debug
+//! build. `--wide` adds a build whose compiler may use AVX2 and fused multiply-add, which is where
+//! floating-point sums would diverge first. It needs a processor with these instructions.
+//! `determinism/web.rs` compares the explorer's pictures in WebAssembly.
 //!
 //! `--targets` compares other processors, C libraries, compilers and optimizations instead
 //! (`determinism/targets.rs`): all of them, or some, as in `--targets=aarch64,musl`.
@@ -20,7 +20,7 @@ use crate::workspace::{Scene, create_folder, list_scenes, target_folder};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A build and a number of threads.
+/// A build with flags, such as the number of threads.
 struct Variant {
     name: String,
     flags: Vec<String>,
@@ -55,7 +55,7 @@ pub fn compare_web_pictures() -> Outcome {
 struct Options {
     wide: bool,
     threads: u32,
-    /// The targets to compare instead of builds, by name; none means all.
+    /// The names of the targets to compare instead of builds; an empty list means all.
     targets: Option<Vec<String>>,
 }
 
@@ -83,8 +83,9 @@ impl Options {
     }
 }
 
-/// The release build with one thread and with several. The debug build renders the same pictures in
-/// the step `goldens`; here it draws with its default number of threads.
+/// Returns the variants of a build: the release build with one thread and with several, and the
+/// debug build with its default number of threads. The step `goldens` renders the same pictures
+/// with the debug build.
 fn variants(build: Build, threads: u32) -> Vec<Variant> {
     let way = |name: String, flags: Vec<String>| Variant {
         name: format!("{}-{name}", build.name()),
@@ -112,8 +113,8 @@ fn render_all(program: &Program, way: &Variant, folder: &Path) -> Result<PathBuf
     Ok(folder)
 }
 
-/// The formats of each scene: a picture and a line drawing. PDF and DXF are written from the same
-/// page as SVG; other targets write them as well (`workload.rs`).
+/// The output formats of each scene: a picture and a line drawing. PDF and DXF are written from the
+/// same page as SVG, and `workload.rs` covers them.
 const EXTENSIONS: [&str; 2] = ["png", "svg"];
 
 fn output_path(folder: &Path, scene: &Scene, ending: &str) -> PathBuf {
@@ -133,13 +134,17 @@ fn compare_outputs(drawn: &[(PathBuf, String)]) -> Outcome {
             for (folder, name) in others {
                 if bytes(output_path(folder, scene, ending))? != expected {
                     let scene = &scene.name;
-                    differences.push(format!("{scene}.{ending}: {name} is not {first_name}"));
+                    differences.push(format!("{scene}.{ending}: {name} differs from {first_name}"));
                 }
             }
         }
     }
     if differences.is_empty() {
-        println!("{} scenes, drawn {} ways: the same bytes", scenes.len(), drawn.len());
+        println!(
+            "{} scenes, each rendered {} ways, have the same bytes",
+            scenes.len(),
+            drawn.len()
+        );
         return Ok(());
     }
     Err(format!("pictures differ (see target/determinism)\n  {}", differences.join("\n  ")))

@@ -10,10 +10,10 @@ use std::process::Command;
 /// The time limit for one edition, in seconds.
 const SECONDS: &str = "300";
 
-/// The languages, and those whose fonts some machines lack.
+/// The languages, each with a font pattern if some machines lack its fonts.
 const EDITIONS: [(&str, Option<&str>); 2] = [("en", None), ("zh", Some(":lang=zh"))];
 
-/// Prints `viewing-LANGUAGE.pdf` into the folder of the book.
+/// Prints `viewing-LANGUAGE.pdf` into the book's folder.
 pub fn print_editions(book: &Path) -> Outcome {
     if !Path::new(CHROMIUM).exists() {
         report_skip("book", "PDF: chromium is not installed (Debian: chromium)");
@@ -23,13 +23,13 @@ pub fn print_editions(book: &Path) -> Outcome {
         if fonts.is_some_and(|pattern| !has_font(pattern)) {
             report_skip(
                 "book",
-                &format!("PDF in {language}: no font has its letters (Debian: fonts-noto-cjk)"),
+                &format!("PDF in {language}: no font for it is installed (Debian: fonts-noto-cjk)"),
             );
             continue;
         }
         let page = book.join(language).join("print.html");
         if !page.is_file() {
-            return Err(format!("{} is not there: run `cargo xtask book`", page.display()));
+            return Err(format!("{} is missing: run `cargo xtask book`", page.display()));
         }
         let pdf = book.join(format!("viewing-{language}.pdf"));
         run_command(&mut print_command(&page, &pdf))?;
@@ -38,8 +38,8 @@ pub fn print_editions(book: &Path) -> Outcome {
     Ok(())
 }
 
-/// Chromium without a display; page numbers come from the style sheet, the outline from the
-/// headings.
+/// Returns a command that runs Chromium without a display. Page numbers come from the style sheet,
+/// and the outline comes from the headings.
 fn print_command(page: &Path, pdf: &Path) -> Command {
     let mut chromium = Command::new("timeout");
     chromium.args([SECONDS, CHROMIUM, "--headless", "--disable-gpu", "--no-pdf-header-footer"]);
@@ -52,12 +52,12 @@ fn print_command(page: &Path, pdf: &Path) -> Command {
     chromium
 }
 
-/// Whether a font matches a pattern of fontconfig.
+/// Returns whether a font matches a fontconfig pattern.
 fn has_font(pattern: &str) -> bool {
     capture_output(Command::new("fc-list").arg(pattern)).is_ok_and(|list| !list.trim().is_empty())
 }
 
-/// Chromium's sandbox does not work for root.
+/// Returns whether the user is root, for whom Chromium's sandbox does not work.
 fn is_root() -> bool {
     capture_output(Command::new("id").arg("-u")).is_ok_and(|id| id.trim() == "0")
 }

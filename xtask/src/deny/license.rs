@@ -1,7 +1,6 @@
-//! License expressions (SPDX): whether a list of licenses satisfies one.
+//! Evaluates SPDX license expressions against a list of allowed licenses.
 
-/// Whether an expression can be satisfied by the licenses in a list. `/` is the old symbol for
-/// `OR`.
+/// Returns whether the licenses in a list satisfy an expression. `/` is an old spelling of `OR`.
 pub fn is_satisfied(expression: &str, allowed: &[String]) -> bool {
     let spaced = expression.replace('/', " OR ").replace('(', " ( ").replace(')', " ) ");
     let words: Vec<&str> = spaced.split_whitespace().collect();
@@ -10,7 +9,7 @@ pub fn is_satisfied(expression: &str, allowed: &[String]) -> bool {
     satisfied == Some(true) && rest.is_empty()
 }
 
-/// `A OR B OR …`; `None` if it is not an expression.
+/// Evaluates `A OR B OR …`. Returns `None` if it is not an expression.
 fn alternatives(words: &mut &[&str], allowed: &[String]) -> Option<bool> {
     let mut any = conjunction(words, allowed)?;
     while take(words, "OR") {
@@ -19,7 +18,7 @@ fn alternatives(words: &mut &[&str], allowed: &[String]) -> Option<bool> {
     Some(any)
 }
 
-/// `A AND B AND …`.
+/// Evaluates `A AND B AND …`.
 fn conjunction(words: &mut &[&str], allowed: &[String]) -> Option<bool> {
     let mut all = license(words, allowed)?;
     while take(words, "AND") {
@@ -28,7 +27,7 @@ fn conjunction(words: &mut &[&str], allowed: &[String]) -> Option<bool> {
     Some(all)
 }
 
-/// A license, one with an exception, or an expression in parentheses.
+/// Evaluates a license with or without an exception, or an expression in parentheses.
 fn license(words: &mut &[&str], allowed: &[String]) -> Option<bool> {
     if take(words, "(") {
         let inner = alternatives(words, allowed)?;

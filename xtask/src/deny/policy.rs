@@ -1,4 +1,4 @@
-//! The policy of `deny.toml`: the lists of strings that the checks here need.
+//! The policy from `deny.toml`: the lists of strings that these checks need.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,8 @@ pub struct Policy {
 }
 
 impl Policy {
-    /// Reads sections and the lists of strings in them; all other values are for `cargo deny`.
+    /// Reads sections and the lists of strings in them. All other values are for `cargo deny` and
+    /// are ignored.
     pub fn parse(text: &str) -> Result<Self, String> {
         let (mut section, mut lists) = (String::new(), BTreeMap::new());
         let mut lines = text.lines().map(without_comment).map(str::trim);
@@ -21,10 +22,11 @@ impl Policy {
             {
                 let mut value = value.to_owned();
                 while !value.ends_with(']') {
-                    value +=
-                        lines.next().ok_or_else(|| format!("deny.toml: `{name}` has no end"))?;
+                    value += lines
+                        .next()
+                        .ok_or_else(|| format!("deny.toml: the list `{name}` is not closed"))?;
                 }
-                // Every other part between quotation marks is a string.
+                // After splitting at quotation marks, every second part is a string.
                 let texts = value.split('"').skip(1).step_by(2).map(str::to_owned).collect();
                 lists.insert(format!("{section}.{name}"), texts);
             }
@@ -32,13 +34,13 @@ impl Policy {
         Ok(Self { lists })
     }
 
-    /// A list that the policy must have.
+    /// Returns a list that the policy must have.
     pub fn list(&self, name: &str) -> Result<&[String], String> {
         self.lists.get(name).map(Vec::as_slice).ok_or_else(|| format!("deny.toml has no `{name}`"))
     }
 }
 
-/// A line without its comment; no string in the policy contains a `#`.
+/// Removes the comment from a line. No string in the policy contains a `#`.
 fn without_comment(line: &str) -> &str {
     line.split('#').next().unwrap_or_default()
 }
@@ -48,7 +50,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lists_are_read_over_lines_and_comments() {
+    fn lists_may_span_lines_and_contain_comments() {
         let text = "[licenses]\nallow = [\n    \"MIT\", # the usual\n    \"Zlib\",\n]\nconfidence = 0.9\n\
             [bans]\nskip = []\n";
         let policy = Policy::parse(text).unwrap();

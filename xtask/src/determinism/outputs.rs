@@ -1,4 +1,4 @@
-//! The files in a folder with their SHA-256, and the differences between two folders.
+//! The files in a folder with their SHA-256 digests, and the differences between two folders.
 
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
@@ -17,7 +17,7 @@ impl Outputs {
     /// Reads the files in a folder.
     ///
     /// # Errors
-    /// One cannot be read.
+    /// Fails if a file cannot be read.
     pub fn read(folder: &Path) -> Result<Self, String> {
         let with_path = |error| format!("{}: {error}", folder.display());
         let mut outputs = Self::default();
@@ -34,17 +34,17 @@ impl Outputs {
         self.digests.insert(name, Sha256::digest(bytes).into());
     }
 
-    /// The number of files.
+    /// Returns the number of files.
     pub fn file_count(&self) -> usize {
         self.digests.len()
     }
 
-    /// The sum of the file sizes.
+    /// Returns the total size of the files.
     pub fn byte_count(&self) -> u64 {
         self.bytes
     }
 
-    /// The SHA-256 of the list of file names and their SHA-256, ordered by name.
+    /// Returns the SHA-256 of the list of file names and their digests, sorted by name.
     pub fn digest(&self) -> String {
         let mut all = Sha256::new();
         for (name, digest) in &self.digests {
@@ -53,7 +53,7 @@ impl Outputs {
         hexadecimal(&all.finalize())
     }
 
-    /// The files that differ or that only one of the two has, by name.
+    /// Returns the names of files that differ or are in only one of the two folders.
     pub fn differences(&self, other: &Self) -> Vec<String> {
         let names: BTreeSet<&String> = self.digests.keys().chain(other.digests.keys()).collect();
         let differs = |name: &&&String| self.digests.get(**name) != other.digests.get(**name);
@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn a_changed_and_a_missing_file_differ() {
+    fn changed_and_missing_files_are_differences() {
         let one = outputs(&[("a", "1"), ("b", "2"), ("c", "3")]);
         let other = outputs(&[("a", "1"), ("b", "4"), ("d", "3")]);
         assert_eq!(one.differences(&other), ["b", "c", "d"]);
@@ -91,7 +91,7 @@ mod tests {
     }
 
     #[test]
-    fn the_digest_is_that_of_sha256sum() {
+    fn the_digest_matches_sha256sum() {
         // printf 'ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad a\n' | sha256sum
         let expected = "f558893557ef8db5b3b643b8d470746c03217e6e78870cf099dcc84a5e67c255";
         assert_eq!(outputs(&[("a", "abc")]).digest(), expected);

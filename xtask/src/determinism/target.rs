@@ -1,4 +1,4 @@
-//! A target: the way to compile the program for it, and to run it here.
+//! A target, with the way to compile the program for it and to run it on this machine.
 
 use crate::program::capture_output;
 use crate::tool_chain::ToolChain;
@@ -12,34 +12,35 @@ use std::process::Command;
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
     pub name: &'static str,
-    /// The property that it proves.
+    /// What the target is, for the printed table.
     pub about: &'static str,
     compiler: Compiler,
-    /// Compiler flags, after the profile's flags; `{own}` is a folder of this target.
+    /// Compiler flags, after the profile's flags; `{own}` is a folder for this target.
     flags: &'static [&'static str],
     /// Cargo settings, as environment variables.
     settings: &'static [(&'static str, &'static str)],
-    /// Words in front of the program's path: an emulator, or another loader.
+    /// Words before the program's path on the command line: an emulator or another loader.
     runner: &'static [&'static str],
 }
 
 /// The compiler of a target.
 #[derive(Clone, Copy, Debug)]
 enum Compiler {
-    /// This workspace's compiler, for this machine.
+    /// The workspace's compiler, for this machine.
     Own,
     /// Debian's compiler, for this machine.
     Second,
-    /// A compiler that also compiles the standard library, for the named target, with a linker.
+    /// A compiler that also compiles the standard library for the named target, with the named
+    /// linker.
     WithSources { triple: &'static str, linker: &'static str, packages: &'static str },
 }
 
-/// Less optimization: emulated processors are compared in the tests of every change, and compiling
-/// for them takes longer than running on them. `opt-1` and `native` compare optimizations.
+/// Less optimization. Every change is tested on the emulated processors, and compiling for them
+/// takes longer than running on them. The targets `opt-1` and `native` compare optimizations.
 const QUICK: &[&str] = &["-Copt-level=1", "-Ccodegen-units=16"];
 
-/// All targets. The processors differ in vector instructions (NEON; none), in pointer size and in
-/// the sign of a NaN, and i686 passes numbers in x87 registers.
+/// All targets. The processors differ in their vector instructions (NEON or none), in pointer size
+/// and in the sign of NaN, and i686 passes numbers in x87 registers.
 pub const TARGETS: &[Target] = &[
     Target {
         name: "aarch64",
@@ -75,7 +76,7 @@ pub const TARGETS: &[Target] = &[
         },
         flags: QUICK,
         settings: &[],
-        // This processor runs it; only the loader has to find its C library.
+        // This processor can run it; the loader only needs the path of its C library.
         runner: &[
             "/usr/i686-linux-gnu/lib/ld-linux.so.2",
             "--library-path",
@@ -84,13 +85,13 @@ pub const TARGETS: &[Target] = &[
     },
     Target {
         name: "musl",
-        about: "x86-64 with the C library musl, linked statically",
+        about: "x86-64, linked statically with the C library musl",
         compiler: Compiler::WithSources {
             triple: "x86_64-unknown-linux-musl",
             linker: "musl-gcc",
             packages: "musl-tools",
         },
-        // The compiler's own start files and libraries for musl are missing, but GCC's are there.
+        // The compiler's own startup files and libraries for musl are missing, so use GCC's.
         flags: &[
             QUICK[0],
             QUICK[1],
@@ -104,7 +105,7 @@ pub const TARGETS: &[Target] = &[
     },
     Target {
         name: "compiler",
-        about: "another version of the compiler",
+        about: "another compiler version",
         compiler: Compiler::Second,
         flags: &[],
         settings: &[],
@@ -112,7 +113,7 @@ pub const TARGETS: &[Target] = &[
     },
     Target {
         name: "opt-1",
-        about: "little is optimized",
+        about: "little optimization",
         compiler: Compiler::Own,
         flags: QUICK,
         settings: &[],
@@ -120,7 +121,7 @@ pub const TARGETS: &[Target] = &[
     },
     Target {
         name: "native",
-        about: "all is optimized, across crates, for the processor of this machine",
+        about: "full optimization across crates, for the processor of this machine",
         compiler: Compiler::Own,
         flags: &["-Copt-level=3", "-Ctarget-cpu=native"],
         settings: &[("CARGO_PROFILE_RELEASE_LTO", "fat")],
@@ -129,10 +130,11 @@ pub const TARGETS: &[Target] = &[
 ];
 
 impl Target {
-    /// The compiler of the target.
+    /// Finds the compiler for the target.
     ///
     /// # Errors
-    /// It, its linker or its emulator is missing; the message says how to get it.
+    /// Fails if the compiler, its linker or its emulator is missing. The message explains how to
+    /// install it.
     pub fn find_tools(&self) -> Result<ToolChain, String> {
         let Compiler::WithSources { linker, packages, .. } = self.compiler else {
             return match self.compiler {
@@ -143,17 +145,19 @@ impl Target {
         let programs = [linker].into_iter().chain(self.runner.first().copied());
         let has = |program: &&str| Command::new(program).arg("--version").output().is_ok();
         if let Some(missing) = programs.into_iter().find(|program| !has(program)) {
-            return Err(format!("there is no `{missing}`: on Debian `apt-get install {packages}`"));
+            return Err(format!(
+                "`{missing}` is not installed: on Debian, run `apt-get install {packages}`"
+            ));
         }
         ToolChain::with_sources()
     }
 
-    /// Compiles the program; returns its path.
+    /// Compiles the program and returns its path.
     ///
     /// # Errors
-    /// It does not compile.
+    /// Fails if the program does not compile.
     pub fn build_program(&self, tool_chain: &ToolChain) -> Result<PathBuf, String> {
-        println!("compiling the target {}", self.name);
+        println!("compiling target {}", self.name);
         let targets = target_folder().join("targets");
         let own = targets.join(self.name);
         create_folder(&own)?;
@@ -168,7 +172,8 @@ impl Target {
         if linker == "musl-gcc" {
             provide_unwinder(&own)?;
         }
-        // One folder for all targets: programs that run during compilation are compiled once.
+        // All targets share one folder, so that programs that run during compilation are compiled
+        // only once.
         let mut build = tool_chain.cargo_build(project_root(), &flags, &targets);
         build.args(["--package", "alberti", "--bin", "alberti", "--target", triple]);
         build.arg("-Zbuild-std=std,panic_unwind").env("RUSTC_BOOTSTRAP", "1");
@@ -178,14 +183,14 @@ impl Target {
         Ok(targets.join(triple).join("release/alberti"))
     }
 
-    /// The program with the words in front of it.
+    /// Returns the command line: the runner, if any, and the program.
     pub fn command_line(&self, program: &Path) -> Vec<OsString> {
         let words = self.runner.iter().map(OsString::from);
         words.chain([program.into()]).collect()
     }
 }
 
-/// Names GCC's unwinder as the standard library for musl expects it.
+/// Provides GCC's unwinder under the name that the standard library for musl expects.
 fn provide_unwinder(folder: &Path) -> Result<(), String> {
     let path = capture_output(Command::new("gcc").arg("-print-file-name=libgcc_eh.a"))?;
     let copied = fs::copy(path.trim(), folder.join("libunwind.a"));

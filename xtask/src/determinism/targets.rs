@@ -1,7 +1,7 @@
 //! Other compiler targets, and the output of the program compiled for them.
 //!
-//! Each target is compiled here, runs the same commands as this machine's release build, in an
-//! emulator if it has another processor, and must write the same bytes.
+//! The program is compiled for each target and runs the same commands as this machine's release
+//! build, in an emulator if the processor is different. It must write the same bytes.
 
 use super::outputs::Outputs;
 use super::target::{TARGETS, Target};
@@ -15,19 +15,19 @@ use crate::workspace::target_folder;
 use std::fs;
 use std::path::Path;
 
-/// The name for the explorer's module.
+/// The name of the explorer's module in the list of targets.
 const WEB: &str = "wasm";
 
-/// Compares targets with the release build: the named ones, or all. A target whose tool chain is
+/// Compares the named targets, or all targets, with the release build. A target whose tool chain is
 /// missing is reported as skipped.
 ///
 /// # Errors
-/// A name is unknown, a target does not compile, or a byte differs.
+/// Fails if a name is unknown, a target does not compile, or a byte differs.
 pub fn compare_targets(names: &[String]) -> Outcome {
     let is_known = |name: &str| name == WEB || TARGETS.iter().any(|target| target.name == name);
     if let Some(unknown) = names.iter().find(|name| !is_known(name)) {
         let known: Vec<&str> = TARGETS.iter().map(|target| target.name).collect();
-        return Err(format!("no target `{unknown}`; there are {}, {WEB}", known.join(", ")));
+        return Err(format!("unknown target `{unknown}`; use one of {}, {WEB}", known.join(", ")));
     }
     let is_chosen = |name: &str| names.is_empty() || names.iter().any(|other| other == name);
     let workload = Workload::load()?;
@@ -58,7 +58,7 @@ enum Failure {
     Failed(String),
 }
 
-/// Compiles and runs one target; returns the files that differ, by name.
+/// Compiles and runs one target. Returns the names of the files that differ.
 fn compare_target(
     target: &Target,
     workload: &Workload,
@@ -74,7 +74,7 @@ fn compare_target(
     print_row(target.name, &version, &outputs, target.about);
     let differences = native.differences(&outputs);
     if differences.is_empty() {
-        // Copies of the release build's output.
+        // The files are copies of the release build's output.
         let removed = fs::remove_dir_all(&folder);
         removed.map_err(|error| Failure::Failed(format!("{}: {error}", folder.display())))?;
     }
@@ -83,7 +83,7 @@ fn compare_target(
 
 fn print_heading() {
     println!(
-        "  {:12} {:9} {:>6} {:>11}  {:16}  it is",
+        "  {:12} {:9} {:>6} {:>11}  {:16}  about",
         "target", "compiler", "files", "bytes", "SHA-256 of all"
     );
 }
@@ -100,7 +100,7 @@ mod tests {
     use crate::workspace::{project_root, read_text};
 
     #[test]
-    fn the_page_says_what_each_target_wrote() {
+    fn the_page_lists_every_target() {
         let page = read_text(&project_root().join("docs/determinism.md")).unwrap();
         for name in TARGETS.iter().map(|target| target.name).chain([WEB]) {
             assert!(page.contains(&format!("| `{name}` |")), "{name}");
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_target_is_an_error_that_names_the_others() {
+    fn an_unknown_target_is_an_error_that_lists_the_targets() {
         let error = compare_targets(&["z80".to_owned()]).unwrap_err();
         assert!(error.contains("z80") && error.contains("aarch64") && error.contains(WEB));
     }

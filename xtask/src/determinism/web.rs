@@ -1,5 +1,5 @@
-//! The explorer's pictures: its WebAssembly in Node against the program, another instruction set
-//! with the same bytes.
+//! Compares the explorer's pictures from WebAssembly, run in Node, with the program's: a different
+//! instruction set must give the same bytes.
 
 use crate::Outcome;
 use crate::program::Program;
@@ -10,8 +10,8 @@ use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// States other than the default of each lesson: models with textures, glass, lights and shadows,
-/// and every way to shade.
+/// States in addition to the default of each lesson: models with textures, glass, lights and
+/// shadows, and every style of shading.
 const STATES: &[&str] = &[
     "lesson=model&model=models/teapot.glb",
     "lesson=model&model=models/finishes.glb",
@@ -27,14 +27,14 @@ const STATES: &[&str] = &[
     "lesson=model&model=models/room.glb&style=Lines",
 ];
 
-/// The minimum number of pictures that count as a proof.
+/// The minimum number of pictures to compare.
 const MIN_PICTURES: usize = 20;
 
 /// Renders the explorer's pictures with WebAssembly and with the program, and compares the bytes.
-/// Reported as skipped if WebAssembly cannot be built.
+/// The comparison is reported as skipped if WebAssembly cannot be built.
 pub fn compare_web(program: &Program) -> Outcome {
     if let Some(missing) = web::missing_tools() {
-        report_skip("the bytes of WebAssembly", &missing);
+        report_skip("WebAssembly pictures", &missing);
         return Ok(());
     }
     let site = web::site_folder();
@@ -60,13 +60,13 @@ pub fn compare_web(program: &Program) -> Outcome {
     }
     if !differences.is_empty() {
         let list = differences.join("\n  ");
-        return Err(format!("WebAssembly draws other pictures than the program\n  {list}"));
+        return Err(format!("WebAssembly and the program render different pictures\n  {list}"));
     }
-    println!("{} pictures of the explorer: the same bytes in WebAssembly", states.len());
+    println!("{} explorer pictures have the same bytes in WebAssembly", states.len());
     Ok(())
 }
 
-/// The default of each lesson, and the states above.
+/// Returns the default state of each lesson, followed by `STATES`.
 fn all_states(site: &Path) -> Result<Vec<String>, String> {
     let lessons = web::list_lessons(site)?;
     // The lesson `model` has no picture before a model is chosen.
@@ -75,15 +75,12 @@ fn all_states(site: &Path) -> Result<Vec<String>, String> {
     let mut states: Vec<String> = ids.map(|id| format!("lesson={id}")).collect();
     states.extend(STATES.iter().map(|&state| state.to_owned()));
     if states.len() < MIN_PICTURES {
-        return Err(format!(
-            "{} states are too few: at least {MIN_PICTURES} are required",
-            states.len()
-        ));
+        return Err(format!("only {} states: at least {MIN_PICTURES} are required", states.len()));
     }
     Ok(states)
 }
 
-/// The scene of a state, and its picture.
+/// Returns two requests: for the scene of a state and for its picture.
 fn requests_of((number, state): (usize, &String)) -> [Request; 2] {
     [("json", "state"), ("png", "picture&format=png")].map(|(ending, what)| Request {
         name: format!("{number}.{ending}"),
@@ -91,7 +88,7 @@ fn requests_of((number, state): (usize, &String)) -> [Request; 2] {
     })
 }
 
-/// The scene models, by their names in scene files.
+/// Returns the scene models with their names in scene files.
 fn scene_models() -> Result<Vec<(String, PathBuf)>, String> {
     let paths = list_files(&project_root().join("scenes/models"), "glb")?;
     let name = |path: &PathBuf| {

@@ -1,4 +1,4 @@
-//! The commands that each target runs: pictures, passes, drawings, films and explanations.
+//! The commands that each target runs: pictures, passes, drawings, animations and explanations.
 
 use super::outputs::Outputs;
 use crate::Outcome;
@@ -12,7 +12,8 @@ use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-/// For each scene and each model; small, because an emulated processor is slow.
+/// Commands for each scene and each model. The pictures are small, because emulated processors are
+/// slow.
 const FOR_EACH_INPUT: &[&str] = &[
     "render {input} --size 160x120 --pass-format npy --passes depth,distance,normal,view-normal,\
         position,uv,barycentric,id,model,node,mesh,material,overdraw,coverage -o {name}.png",
@@ -24,7 +25,7 @@ const FOR_EACH_INPUT: &[&str] = &[
     "explain {input} --segment 0.3,0.2,0.1,-2,-1,40 --json",
 ];
 
-/// The other commands, the other styles, and an error.
+/// Commands that run once: the other subcommands, the other styles, and an error.
 const ONCE: &[&str] = &[
     "render {scenes}/product.ron --size 160x120 --style toon -o once_toon.png",
     "render {scenes}/product.ron --size 160x120 --bits 16 --tone-mapping agx -o once_agx.png",
@@ -49,7 +50,7 @@ const ONCE: &[&str] = &[
     "reference",
 ];
 
-/// Models of every kind, from the shared folder of test models.
+/// Models of all kinds, from the shared folder of test models.
 const SHARED_MODELS: &[&str] = &[
     "models/alpha-blend-mode-test/AlphaBlendModeTest.glb",
     "models/blender-vertex-color/22_vertex_color.gltf",
@@ -71,19 +72,19 @@ const SHARED_MODELS: &[&str] = &[
     "meshes/stl/20mm-xyz-cube.stl",
 ];
 
-/// Commands for the program; each runs in an empty folder.
+/// Commands for the program. Each runs in an empty folder.
 pub struct Workload {
     commands: Vec<WorkloadCommand>,
 }
 
-/// A command, and the file for its output.
+/// A command and the file for its output.
 struct WorkloadCommand {
     arguments: Vec<OsString>,
     printed: String,
 }
 
 impl Workload {
-    /// All commands. The shared models are reported as skipped if their folder is missing.
+    /// Loads all commands. Shared models that are missing are reported as skipped.
     pub fn load() -> Result<Self, String> {
         let mut inputs: Vec<(String, PathBuf)> =
             list_scenes()?.into_iter().map(|scene| (scene.name, scene.path)).collect();
@@ -108,16 +109,17 @@ impl Workload {
         Ok(Self { commands: each.chain(once).collect() })
     }
 
-    /// The number of commands.
+    /// Returns the number of commands.
     pub fn command_count(&self) -> usize {
         self.commands.len()
     }
 
-    /// Runs all commands with a program, which is the last word of a command line, and reads the
-    /// files that they wrote.
+    /// Runs all commands and reads the files that they wrote. `program` is a command line that ends
+    /// with the program's path.
     ///
     /// # Errors
-    /// The program does not start. Its own failures are kept with its output.
+    /// Fails if the program does not start. If the program itself fails, its status is stored with
+    /// its output.
     pub fn run_with(&self, program: &[OsString], folder: &Path) -> Result<Outputs, String> {
         if folder.exists() {
             fs::remove_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
@@ -142,7 +144,7 @@ impl Workload {
 }
 
 impl WorkloadCommand {
-    /// Replaces the names in braces; paths may contain spaces.
+    /// Parses a command and replaces the names in braces. Paths may contain spaces.
     fn parse(line: &str, name: &str, input: &Path, printed: &str) -> Self {
         let scenes = project_root().join("scenes");
         let word = |word: &str| match word {
@@ -156,9 +158,9 @@ impl WorkloadCommand {
         Self { arguments: line.split_whitespace().map(word).collect(), printed: printed.into() }
     }
 
-    /// Runs it and keeps its status and its output.
+    /// Runs the command, and stores its status and its output.
     fn run_with(&self, program: &[OsString], folder: &Path) -> Outcome {
-        let (first, rest) = program.split_first().ok_or("there is no program")?;
+        let (first, rest) = program.split_first().ok_or("the command line is empty")?;
         let mut command = Command::new(first);
         command.args(rest).args(&self.arguments).current_dir(folder);
         let output =
