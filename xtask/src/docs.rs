@@ -1,7 +1,7 @@
-//! `cargo xtask docs [OUT]`: the documentation as static pages, in target/site by default.
+//! `cargo xtask docs [OUT]`: writes the documentation as static pages, to target/site by default.
 //!
-//! The generator is the package `xtask/site`: it reads Markdown with a crate that nothing else
-//! needs. Its `main.rs` describes its output and its checks.
+//! The generator is a separate package, `xtask/site`, because it needs a Markdown parser that
+//! nothing else uses. Its `main.rs` describes the output and the checks.
 
 use crate::Outcome;
 use crate::program::{Build, Program, cargo_command, compile, run_command, run_visibly};
@@ -17,7 +17,8 @@ pub fn run_docs(arguments: &[String]) -> Outcome {
         _ => return Err("docs [OUT]: OUT is a folder".into()),
     };
     let program = Program::build(Build::Release)?;
-    // As in the tests: with the features of the whole workspace nothing is compiled twice.
+    // As in the tests, build with the features of the whole workspace, so that nothing is compiled
+    // twice.
     let mut build = cargo_command(&["build", "--quiet", "--workspace", "--bin", "alberti-site"]);
     compile(|| run_command(&mut build))?;
     let mut site = Command::new(target_folder().join("debug/alberti-site"));

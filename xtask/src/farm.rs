@@ -1,11 +1,12 @@
-//! `cargo xtask simulate-farm`: the time that `alberti batch` takes on many cores, by simulation.
+//! `cargo xtask simulate-farm`: simulates how long `alberti batch` takes on many cores.
 //!
 //! ```text
-//!  times of pictures ─► shards ─► nodes of 16 cores, which die now and then ─► time, pictures a second
+//!  picture times ─► shards ─► nodes of 16 cores, some of which fail ─► time, pictures per second
 //! ```
 //! The times come from a measured run or from a named report. Shards wait for a free node in order,
-//! as in an array job. A node that dies gives its shard back after the scheduler's time-outs. The
-//! random numbers are the same in every run, and so are the tables, which `docs/batch.md` repeats.
+//! as in an array job. If a node fails, its shard returns to the queue after the scheduler's
+//! timeouts. Every run uses the same random numbers and therefore prints the same tables, which
+//! `docs/batch.md` contains.
 
 mod picture_times;
 
@@ -16,25 +17,27 @@ use std::cmp::Reverse;
 use std::collections::{BinaryHeap, VecDeque};
 use std::path::Path;
 
-/// Milliseconds, the unit of all times: sums of integers do not depend on their order.
+/// Milliseconds, the unit of all times. They are integers, because integer sums do not depend on
+/// the order of summation.
 type Milliseconds = u64;
 
 /// The cores per node.
 const CORES: usize = 16;
-/// From the submission of a shard to its first picture: the scheduler, the program, the list.
+/// The time from the submission of a shard to its first picture: starting the job and the program,
+/// and reading the list.
 const START: Milliseconds = 2_000;
-/// From the death of a node to the next start of its shard, with Slurm's defaults: 300 s until the
-/// node counts as down, and 120 s until a job restarts.
+/// The time from the failure of a node to the restart of its shard, with Slurm's defaults: 300 s
+/// until the node counts as down, and 120 s until a job restarts.
 const LOSS: Milliseconds = 420_000;
-/// File system calls by name for each picture, as counted with strace: three look-ups of the model,
-/// and three openings and closings, for the key, the load and its check.
+/// File system calls that read a picture's model, as counted with strace: the model is looked up,
+/// opened and closed three times, to compute its key, to load it and to check it.
 const REQUESTS_TO_READ: u64 = 9;
-/// Calls to write a file: folder look-up, creation, synchronization, closing, renaming.
+/// File system calls that write a file: folder lookup, create, sync, close and rename.
 const REQUESTS_TO_WRITE: u64 = 6;
 /// Pictures per tar file.
 const TAR: u64 = 1_000;
 
-/// A farm and its work.
+/// A render farm and its work.
 #[derive(Clone, Copy)]
 struct Farm {
     nodes: usize,
@@ -44,11 +47,11 @@ struct Farm {
     slowness: f64,
     /// The mean time between two node failures; 0 if none fails.
     hours_to_death: u64,
-    /// Whether a shard continues where it was; otherwise it starts over.
+    /// Whether a shard resumes after a failure instead of starting over.
     continues: bool,
 }
 
-/// The quantities that the tables vary.
+/// The default farm; each table varies some of its values.
 const FARM: Farm = Farm {
     nodes: 64,
     shards: 256,
@@ -58,7 +61,7 @@ const FARM: Farm = Farm {
     continues: true,
 };
 
-/// Prints the tables, with the times from a report if one is given.
+/// Prints the tables, computed from the times in a report or from the measured times.
 pub fn run_simulation(arguments: &[String]) -> Outcome {
     let times = match arguments {
         [] => PictureTimes::measured(),
@@ -69,7 +72,7 @@ pub fn run_simulation(arguments: &[String]) -> Outcome {
     Ok(())
 }
 
-/// The three tables, as Markdown.
+/// Returns the three tables as Markdown.
 fn tables(times: &PictureTimes) -> String {
     let rate = 1000.0 / times.mean();
     format!(
@@ -80,7 +83,7 @@ fn tables(times: &PictureTimes) -> String {
     )
 }
 
-/// The time, by node count and shard count.
+/// Returns a table of the time by node count and shard count.
 fn scaling_table(times: &PictureTimes) -> String {
     let mut text = "| nodes | cores | shards | time | pictures per second | cores in use |\n\
                     | ---: | ---: | ---: | ---: | ---: | ---: |\n"
@@ -97,9 +100,9 @@ fn scaling_table(times: &PictureTimes) -> String {
     text
 }
 
-/// The cost of node failures.
+/// Returns a table of the cost of node failures.
 fn death_table(times: &PictureTimes) -> String {
-    let mut text = "| each node fails every | time | if shards started over |\n\
+    let mut text = "| each node fails every | time | time if shards start over |\n\
                     | ---: | ---: | ---: |\n"
         .to_owned();
     for hours in [0, 100, 10, 2] {
@@ -112,7 +115,7 @@ fn death_table(times: &PictureTimes) -> String {
     text
 }
 
-/// The number of requests per second that the file system has to answer.
+/// Returns a table of the number of requests per second to the file system.
 fn request_table(rate: f64) -> String {
     let mut text =
         "| cores | one file per picture | `--tar 1000` |\n| ---: | ---: | ---: |\n".to_owned();
@@ -126,12 +129,12 @@ fn request_table(rate: f64) -> String {
 }
 
 impl Farm {
-    /// The time until the last picture is drawn.
+    /// Returns the time until the last picture is rendered.
     fn run(&self, times: &PictureTimes) -> Milliseconds {
         let mut random = Random(1);
         let mut waiting: VecDeque<Milliseconds> = self.shard_times(times, &mut random).into();
-        // The times at which nodes become free, and at which shards come back with their remaining
-        // work: earliest first.
+        // The times at which nodes become free, and at which shards return to the queue with their
+        // remaining work, earliest first.
         let mut free: BinaryHeap<Reverse<Milliseconds>> =
             (0..self.nodes).map(|_| Reverse(0)).collect();
         let mut back: BinaryHeap<Reverse<(Milliseconds, Milliseconds)>> = BinaryHeap::new();
@@ -149,7 +152,7 @@ impl Farm {
             if death < stop {
                 let drawn = if self.continues { death.saturating_sub(start + START) } else { 0 };
                 back.push(Reverse((death + LOSS, left - drawn)));
-                // It is repaired or replaced.
+                // The node is repaired or replaced.
                 free.push(Reverse(death + LOSS));
             } else {
                 end = end.max(stop);
@@ -159,13 +162,14 @@ impl Farm {
         end
     }
 
-    /// The time for which each shard takes a node: at most its share of every core, and then the
-    /// longest picture (Graham 1969).
+    /// Returns the time for which each shard occupies a node. An upper bound is used: the work
+    /// divided by the number of cores, plus the longest picture (Graham 1969).
     fn shard_times(&self, times: &PictureTimes, random: &mut Random) -> Vec<Milliseconds> {
         let mut shards = vec![(0.0_f64, 0.0_f64); self.shards];
         for picture in 0..self.pictures {
             let time = times.time_at(random.next_fraction()) * self.slowness;
-            // Dealt in turn, which is less even than by bytes, the program's way.
+            // Pictures are assigned in turn. The program assigns them by file size, which is more
+            // even.
             let (sum, longest) = &mut shards[picture % self.shards];
             *sum += time;
             *longest = longest.max(time);
@@ -175,10 +179,10 @@ impl Farm {
         shards.into_iter().map(|shard| time(shard) as Milliseconds).collect()
     }
 
-    /// The remaining life of a node, exponentially distributed.
+    /// Returns the time until a node fails, which is exponentially distributed.
     fn time_to_death(&self, random: &mut Random) -> Milliseconds {
         if self.hours_to_death == 0 {
-            // Longer than any run, and adding it does not overflow.
+            // Longer than any run, but small enough to add without overflow.
             return Milliseconds::MAX / 4;
         }
         let mean = self.hours_to_death as f64 * 3_600_000.0;
@@ -186,11 +190,11 @@ impl Farm {
     }
 }
 
-/// Random numbers: SplitMix64.
+/// A random number generator: SplitMix64.
 struct Random(u64);
 
 impl Random {
-    /// A number from 0 to below 1.
+    /// Returns a number that is at least 0 and less than 1.
     fn next_fraction(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut bits = self.0;
@@ -209,16 +213,16 @@ mod tests {
     }
 
     #[test]
-    fn equal_pictures_take_what_division_says() {
+    fn equal_pictures_take_the_expected_time() {
         let farm = Farm { nodes: 10, shards: 40, pictures: 64_000, ..FARM };
-        // Four shards per node, each of 100 pictures per core at 48 ms, and the longest one.
+        // Four shards per node, each with 100 pictures per core at 48 ms, plus the longest picture.
         assert_eq!(farm.run(&constant(48.0)), 4 * (START + 100 * 48 + 45));
         let uneven = Farm { shards: 11, ..farm };
         assert!(uneven.run(&constant(48.0)) >= 2 * (START + 363 * 48), "a node has two shards");
     }
 
     #[test]
-    fn deaths_cost_time_outs_and_more_if_shards_begin_again() {
+    fn failures_cost_timeouts_and_more_if_shards_start_over() {
         let times = constant(100.0);
         let farm = |hours| Farm {
             nodes: 4,
@@ -229,13 +233,13 @@ mod tests {
         };
         let (never, often) = (farm(0).run(&times), farm(1).run(&times));
         let anew = Farm { continues: false, ..farm(1) }.run(&times);
-        // Seven hours of two shards per node; a node dies every hour and then waits seven minutes.
+        // Two shards take a node seven hours; a node fails every hour and then waits seven minutes.
         assert!(never < often && often < never * 3 / 2, "{never} {often}");
         assert!(anew > often * 2, "{often} {anew}");
     }
 
     #[test]
-    fn the_page_has_the_tables() {
+    fn the_page_contains_the_tables() {
         let page =
             read_text(&crate::workspace::project_root().join("docs/batch.md")).expect("the page");
         for line in tables(&PictureTimes::measured()).lines().filter(|line| !line.is_empty()) {

@@ -1,21 +1,21 @@
-//! `cargo xtask fuzz`: bytes and numbers that libFuzzer generates, guided by the branches they
-//! reach.
+//! `cargo xtask fuzz`: feeds the fuzz targets with input that libFuzzer generates, guided by the
+//! branches that the input reaches.
 //!
 //! ```text
 //! fuzz [TARGET…] [--minutes N] [--jobs N] [--corpus DIR]
-//!   TARGET        some of the targets below; default: all, one after the other
-//!   --minutes N   minutes of processor time for each target, all its jobs together; 20 if not said
-//!   --jobs N      processes that work on a target at a time; 1 if not said
-//!   --corpus DIR  the folder of the corpora, default target/fuzz
+//!   TARGET        targets to run; default: all, one after the other
+//!   --minutes N   minutes of CPU time per target, over all its jobs; default 20
+//!   --jobs N      number of concurrent processes per target; default 1
+//!   --corpus DIR  the folder of the corpora; default target/fuzz
 //! ```
 //!
-//! The targets are in `tests/fuzz`, a separate package that needs a C++ compiler; the stable Rust
-//! compiler is enough. They begin with `tests/fuzz/corpus`, which holds a few small cases for each
-//! target, the shared assets (`$ASSETS`, or `shared/assets` next to the project), the scenes and
-//! the cases of `tests/hostile`. A panic, a broken promise, more than a second or more than 200 MB
-//! of memory is a crash: the input is saved in `DIR/TARGET/artifacts`, the run ends with 1, and
-//! later runs begin with that input. Fix the crash, and add a small case like it to `tests/hostile`
-//! or to the tests of the crate.
+//! The targets are in `tests/fuzz`, a separate package. It needs a C++ compiler and the stable Rust
+//! compiler. The first inputs are a few small cases for each target in `tests/fuzz/corpus`, the
+//! shared assets (`$ASSETS`, or `shared/assets` next to the project), the scenes, and the cases in
+//! `tests/hostile`. A panic, a failed assertion, more than one second or more than 200 MB of memory
+//! counts as a crash. The input is saved in `DIR/TARGET/artifacts`, the command fails, and later
+//! runs begin with that input. When you fix a crash, add a minimal case to `tests/hostile` or to
+//! the tests of the crate.
 
 mod pack;
 mod seeds;
@@ -31,67 +31,63 @@ use std::path::{Path, PathBuf};
 struct FuzzTarget {
     name: &'static str,
     about: &'static str,
-    /// The words in its inputs, if they are text.
+    /// The dictionary of words in its inputs, if they are text.
     words: Option<&'static str>,
 }
 
 const TARGETS: &[FuzzTarget] = &[
     FuzzTarget {
         name: "model",
-        about: "a whole .glb or .gltf: loaded, posed, drawn, encoded",
+        about: "a .glb or .gltf file: loaded, posed, rendered, encoded",
         words: Some("gltf.dict"),
     },
-    FuzzTarget { name: "stl", about: "a whole .stl, text or binary", words: Some("stl.dict") },
-    FuzzTarget { name: "obj", about: "a whole .obj", words: Some("obj.dict") },
-    FuzzTarget { name: "mtl", about: "a material library, in use", words: Some("mtl.dict") },
-    FuzzTarget { name: "ply", about: "a whole .ply, text or binary", words: Some("ply.dict") },
-    FuzzTarget { name: "threemf", about: "a whole .3mf", words: Some("threemf.dict") },
+    FuzzTarget { name: "stl", about: "an .stl file, text or binary", words: Some("stl.dict") },
+    FuzzTarget { name: "obj", about: "an .obj file", words: Some("obj.dict") },
+    FuzzTarget {
+        name: "mtl",
+        about: "a material library, used by a model",
+        words: Some("mtl.dict"),
+    },
+    FuzzTarget { name: "ply", about: "a .ply file, text or binary", words: Some("ply.dict") },
+    FuzzTarget { name: "threemf", about: "a .3mf file", words: Some("threemf.dict") },
     FuzzTarget { name: "meshopt", about: "a buffer view compressed by meshopt", words: None },
     FuzzTarget { name: "draco", about: "a primitive compressed by Draco", words: None },
-    FuzzTarget {
-        name: "image",
-        about: "an image of a texture: PNG, JPEG, WebP, KTX2",
-        words: None,
-    },
+    FuzzTarget { name: "image", about: "a texture image: PNG, JPEG, WebP, KTX2", words: None },
     FuzzTarget {
         name: "scene",
-        about: "the text of a scene: parsed, resolved, drawn by one thread and by two",
+        about: "a scene file: parsed, resolved, rendered with one thread and with two",
         words: Some("scene.dict"),
     },
     FuzzTarget {
         name: "include",
-        about: "a scene and files that it includes",
+        about: "a scene file and the files that it includes",
         words: Some("scene.dict"),
     },
-    FuzzTarget {
-        name: "background",
-        about: "an image behind a scene: PNG, JPEG, WebP",
-        words: None,
-    },
+    FuzzTarget { name: "background", about: "a background image: PNG, JPEG, WebP", words: None },
     FuzzTarget {
         name: "environment",
-        about: "a Radiance image around a scene",
+        about: "an environment map in Radiance format",
         words: Some("environment.dict"),
     },
-    FuzzTarget { name: "camera", about: "cameras by K, R and t", words: None },
+    FuzzTarget { name: "camera", about: "cameras from K, R and t", words: None },
     FuzzTarget {
         name: "explorer",
-        about: "requests and links of the explorer",
+        about: "explorer requests and links",
         words: Some("explorer.dict"),
     },
     FuzzTarget {
         name: "job_list",
-        about: "a list of jobs for `batch`, as JSON lines or CSV",
+        about: "a job list for `batch`, as JSON Lines or CSV",
         words: Some("job_list.dict"),
     },
     FuzzTarget {
         name: "maths",
-        about: "any numbers for the functions of `tests/soak`",
+        about: "arbitrary numbers for the functions of `tests/soak`",
         words: None,
     },
     FuzzTarget {
         name: "raster",
-        about: "triangles, lines, points: whole, in parts, by all instructions",
+        about: "triangles, lines, points: whole, in parts, with all instruction sets",
         words: None,
     },
 ];
@@ -152,7 +148,7 @@ fn parse_order(arguments: &[String]) -> Result<FuzzOrder, String> {
             flag if flag.starts_with('-') => return Err(format!("unknown flag `{flag}`")),
             name => {
                 let found = TARGETS.iter().find(|target| target.name == name);
-                let unknown = || format!("there is no target `{name}`\n\n{}", fuzz_help());
+                let unknown = || format!("unknown target `{name}`\n\n{}", fuzz_help());
                 order.targets.push(found.ok_or_else(unknown)?);
             }
         }
@@ -167,14 +163,15 @@ fn parse_order(arguments: &[String]) -> Result<FuzzOrder, String> {
 }
 
 fn parse_number<T: std::str::FromStr>(text: &str) -> Result<T, String> {
-    text.parse().map_err(|_| format!("`{text}` is not a number that fits here"))
+    text.parse().map_err(|_| format!("`{text}` is not a valid number"))
 }
 
 fn fuzz_help() -> String {
     let mut text = String::from(
         "Usage: cargo xtask fuzz [TARGET…] [--minutes N] [--jobs N] [--corpus DIR]\n\n\
-         Minutes are of processor time, for each target: 20. Jobs: 1. Corpus: target/fuzz.\n\
-         Crashes are kept in DIR/TARGET/artifacts and tried first by later runs.\n",
+         N is CPU minutes per target for --minutes (default 20), processes per target for --jobs\n\
+         (default 1). DIR is target/fuzz by default.\n\
+         Inputs that crash are saved in DIR/TARGET/artifacts, and later runs try them first.\n",
     );
     for target in TARGETS {
         text += &format!("\n  {:11} {}", target.name, target.about);
@@ -182,8 +179,8 @@ fn fuzz_help() -> String {
     text
 }
 
-/// Counters at every branch, and the operands of comparisons: `cargo fuzz` asks the compiler for
-/// the same.
+/// Flags for counters at every branch and for tracing comparison operands, the same as in `cargo
+/// fuzz`.
 const COMPILER_FLAGS: [&str; 6] = [
     "-Cpasses=sancov-module",
     "-Cllvm-args=-sanitizer-coverage-level=4",
@@ -193,10 +190,10 @@ const COMPILER_FLAGS: [&str; 6] = [
     "--cfg=fuzzing",
 ];
 
-/// Builds all targets; returns the folder of their programs.
+/// Builds all targets and returns the folder of their programs.
 fn build_targets() -> Result<PathBuf, String> {
-    println!("building the targets, which takes minutes for the first time");
-    // A named platform keeps the flags away from build scripts and macros.
+    println!("building the targets, which takes minutes the first time");
+    // With an explicit platform, the flags do not apply to build scripts and macros.
     let platform = host_triple()?;
     let folder = target_folder().join("fuzz/build");
     let manifest = ["--manifest-path", "tests/fuzz/Cargo.toml"];
@@ -209,16 +206,16 @@ fn build_targets() -> Result<PathBuf, String> {
     Ok(folder.join(platform).join("release"))
 }
 
-/// The platform that the compiler runs on, by the compiler's name for it.
+/// Returns the target triple of the platform that the compiler runs on.
 fn host_triple() -> Result<String, String> {
     let mut version =
         std::process::Command::new(std::env::var_os("RUSTC").unwrap_or("rustc".into()));
     let text = crate::program::capture_output(version.arg("-vV").current_dir(project_root()))?;
     let host = text.lines().find_map(|line| line.strip_prefix("host: "));
-    host.map(str::to_owned).ok_or_else(|| "the compiler does not say its platform".into())
+    host.map(str::to_owned).ok_or_else(|| "the compiler does not report its platform".into())
 }
 
-/// The folder of the shared assets, if it exists.
+/// Returns the folder of the shared assets, if it exists.
 fn assets_folder() -> Option<PathBuf> {
     let beside = project_root().join("../shared/assets");
     let folder = std::env::var_os("ASSETS").map_or(beside, |named| Path::new(&named).to_owned());
@@ -231,7 +228,7 @@ mod tests {
     use crate::workspace::{list_files, read_text};
 
     #[test]
-    fn each_target_is_a_program_of_its_package() {
+    fn each_target_is_a_program_of_the_fuzz_package() {
         let package = project_root().join("tests/fuzz");
         let manifest = read_text(&package.join("Cargo.toml")).unwrap();
         let mut files: Vec<String> = list_files(&package.join("targets"), "rs")
@@ -250,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn dictionaries_are_lines_of_quoted_words() {
+    fn dictionary_lines_are_quoted_words() {
         for file in TARGETS.iter().filter_map(|target| target.words) {
             let text = read_text(&project_root().join("tests/fuzz").join(file)).unwrap();
             for line in text.lines().filter(|line| !line.starts_with('#')) {
@@ -261,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn orders_are_read_and_slips_are_named() {
+    fn command_lines_are_parsed_and_mistakes_are_reported() {
         let words = |line: &str| line.split(' ').map(str::to_owned).collect::<Vec<_>>();
         let good = parse_order(&words("scene model --minutes 0.5 --jobs 2")).ok().unwrap();
         let names: Vec<&str> = good.targets.iter().map(|target| target.name).collect();

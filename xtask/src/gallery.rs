@@ -1,5 +1,6 @@
-//! `cargo xtask gallery`: every scene on one page, with its file's comment below it; with
-//! `--models DIR`, every model in a folder in every style and light (`tests/gallery`).
+//! `cargo xtask gallery`: renders every scene to one page, with the comment of its file as the
+//! caption. With `--models DIR`, it renders every model in a folder in every style and light
+//! (`tests/gallery`).
 
 use crate::Outcome;
 use crate::program::{Build, Program, cargo_command, run_visibly};

@@ -1,8 +1,8 @@
-//! `cargo xtask golden`: golden images, one per scene.
+//! `cargo xtask golden`: compares or replaces the golden images, one per scene.
 //!
 //! The comparison is the test `tests/goldens`, which this command runs. `--bless` replaces the
-//! goldens of named scenes after someone has looked at their pictures; it needs a name or `--all`,
-//! and never works in CI.
+//! goldens of the named scenes, or of all scenes with `--all`. Look at the pictures first; it does
+//! not work in CI.
 
 use crate::Outcome;
 use crate::program::{Build, Program, cargo_command};
@@ -11,10 +11,10 @@ use std::fs;
 use std::io::Cursor;
 use std::path::Path;
 
-/// The maximum size of a golden in bytes: goldens stay in the history of the repository.
+/// The maximum size of a golden in bytes: goldens remain in the repository history.
 const MAX_BYTES: usize = 150_000;
 
-/// Compares the named scenes with their goldens, or replaces the goldens with `--bless`.
+/// Compares the named scenes with their goldens, or replaces the goldens if `--bless` is given.
 pub fn run_golden(arguments: &[String]) -> Outcome {
     match arguments.iter().position(|argument| argument == "--bless") {
         Some(flag) => {
@@ -40,10 +40,11 @@ fn compare_goldens(names: &[String]) -> Outcome {
     if status.success() { Ok(()) } else { Err("some pictures differ from their goldens".into()) }
 }
 
-/// Makes the current pictures for the named scenes, or with `--all` for every scene, their goldens.
+/// Replaces the goldens of the named scenes, or of every scene with `--all`, with the current
+/// pictures.
 fn bless_goldens(names: &[&String]) -> Outcome {
     if std::env::var_os("CI").is_some() {
-        return Err("goldens are blessed by a person who has looked at them, never in CI".into());
+        return Err("goldens cannot be blessed in CI: a person must look at them first".into());
     }
     let chosen = chosen_scenes(names)?;
     let program = Program::build(Build::Release)?;
@@ -60,8 +61,8 @@ fn bless_goldens(names: &[&String]) -> Outcome {
     Ok(())
 }
 
-/// Rewrites a PNG with the same pixels and the best compression; returns its new size. The program
-/// prefers speed.
+/// Rewrites a PNG with the same pixels and the best compression, and returns its new size. The
+/// program itself favors speed.
 fn compress_file(path: &Path) -> Result<usize, String> {
     let bytes = fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
     let bytes = recompress_png(&bytes).map_err(|error| format!("{}: {error}", path.display()))?;
@@ -89,7 +90,7 @@ fn recompress_png(bytes: &[u8]) -> Result<Vec<u8>, String> {
 fn chosen_scenes(names: &[&String]) -> Result<Vec<Scene>, String> {
     let scenes = list_scenes()?;
     if names.is_empty() {
-        return Err("say which: --bless NAME… or --bless --all".into());
+        return Err("use --bless NAME… or --bless --all".into());
     }
     if names.iter().any(|name| *name == "--all") {
         return Ok(scenes);
@@ -97,7 +98,7 @@ fn chosen_scenes(names: &[&String]) -> Result<Vec<Scene>, String> {
     if let Some(unknown) =
         names.iter().find(|name| !scenes.iter().any(|scene| scene.name == ***name))
     {
-        return Err(format!("there is no scenes/{unknown}.ron"));
+        return Err(format!("scenes/{unknown}.ron does not exist"));
     }
     Ok(scenes.into_iter().filter(|scene| names.contains(&&scene.name)).collect())
 }

@@ -1,4 +1,4 @@
-//! Packages of the workspace, as Cargo reads them: `cargo metadata`.
+//! The packages of the workspace, from `cargo metadata`.
 
 use crate::program::{capture_output, cargo_command};
 use serde_json::Value;
@@ -13,9 +13,9 @@ pub struct Package {
     /// The version in its manifest.
     pub version: String,
     /// The package names in its table `[dependencies]`; dependencies of tests and build scripts are
-    /// left out.
+    /// omitted.
     pub dependencies: Vec<String>,
-    /// Name and source file of its integration tests, sorted by name.
+    /// The names and source files of its integration tests, sorted by name.
     pub tests: Vec<(String, PathBuf)>,
 }
 
@@ -30,7 +30,7 @@ pub struct Metadata {
 }
 
 impl Metadata {
-    /// Asks Cargo.
+    /// Runs `cargo metadata`.
     pub fn load() -> Result<Self, String> {
         let text = capture_output(&mut cargo_command(&["metadata", "--format-version", "1"]))?;
         let json =
@@ -60,14 +60,14 @@ impl Metadata {
         }
     }
 
-    /// A package of the workspace, by its name or by its name in code.
+    /// Returns a package of the workspace, given its name or its name in code.
     pub fn package(&self, name: &str) -> Option<&Package> {
         self.packages
             .iter()
             .find(|package| package.name == name || short_name(&package.name) == name)
     }
 
-    /// Names of all packages that a package is built with, directly or not.
+    /// Returns the names of all direct and indirect dependencies of a package.
     pub fn transitive_dependencies(&self, name: &str) -> BTreeSet<&str> {
         let roots = self.resolved.iter().filter(|(_, (known, _))| short_name(known) == name);
         let mut pending: Vec<&String> = roots.flat_map(|(_, (_, ids))| ids).collect();
@@ -98,7 +98,8 @@ impl Package {
     }
 }
 
-/// The name of a package in code: the short names are taken on the registry.
+/// Returns the name of a package in code. Package names are longer, because the short names are
+/// taken on the registry.
 pub fn short_name(package: &str) -> &str {
     package.strip_prefix("alberti-").unwrap_or(package)
 }
@@ -136,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn packages_of_the_workspace_have_their_normal_dependencies_and_tests() {
+    fn workspace_packages_list_their_normal_dependencies_and_tests() {
         let metadata = sample();
         assert_eq!(metadata.packages.len(), 1);
         let alpha = metadata.package("alpha").unwrap();

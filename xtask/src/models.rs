@@ -1,4 +1,5 @@
-//! `cargo xtask models`: writes `scenes/models` from the code of `scenes/generator`, or compares.
+//! `cargo xtask models`: writes `scenes/models` from the code in `scenes/generator`, or compares
+//! them.
 
 use crate::Outcome;
 use crate::workspace::{create_folder, list_files, project_root, relative_path};
@@ -10,12 +11,12 @@ fn models_folder() -> PathBuf {
     project_root().join("scenes/models")
 }
 
-/// Writes the models, or compares them with `--check`.
+/// Writes the models, or compares them if `--check` is given.
 pub fn run_models(arguments: &[String]) -> Outcome {
     match arguments {
         [] => write_models(),
         [flag] if flag == "--check" => check_models(),
-        _ => Err("say `models` or `models --check`".into()),
+        _ => Err("use `models` or `models --check`".into()),
     }
 }
 
@@ -37,7 +38,7 @@ fn check_models() -> Outcome {
     let models = all_models()?;
     for (name, bytes) in &models {
         if fs::read(models_folder().join(name)).ok().as_ref() != Some(bytes) {
-            faults.push(format!("scenes/models/{name} is not what the code makes"));
+            faults.push(format!("scenes/models/{name} differs from what the code generates"));
         }
         if bytes.len() > MAX_BYTES {
             faults.push(format!(
@@ -48,13 +49,13 @@ fn check_models() -> Outcome {
     }
     for path in list_files(&models_folder(), "glb")? {
         if !models.iter().any(|(name, _)| path.ends_with(name)) {
-            faults.push(format!("{} is made by no code", relative_path(&path)));
+            faults.push(format!("no code generates {}", relative_path(&path)));
         }
     }
     if faults.is_empty() {
-        println!("{} models are what the code makes", models.len());
+        println!("{} models match the code", models.len());
         return Ok(());
     }
-    faults.push("`cargo xtask models` writes them anew".into());
+    faults.push("run `cargo xtask models` to write them again".into());
     Err(faults.join("\n  "))
 }

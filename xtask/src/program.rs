@@ -1,4 +1,4 @@
-//! Processes: build and run the program `alberti`, and call Cargo.
+//! Runs other processes: builds and runs the program `alberti`, and calls Cargo.
 
 use crate::test::process_seconds;
 use crate::workspace::{project_root, target_folder};
@@ -12,12 +12,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub enum Build {
     Debug,
     Release,
-    /// Release, with a compiler that may use AVX2 and fused multiply-add.
+    /// Release, for processors with AVX2 and fused multiply-add.
     Wide,
 }
 
 impl Build {
-    /// Its name in messages and folder names.
+    /// Returns its name in messages and folder names.
     pub fn name(self) -> &'static str {
         match self {
             Self::Debug => "debug",
@@ -27,7 +27,7 @@ impl Build {
     }
 }
 
-/// The program from one build.
+/// The program, built with one profile.
 pub struct Program {
     path: PathBuf,
 }
@@ -38,7 +38,8 @@ impl Program {
         let mut cargo = cargo_command(&["build", "--quiet", "--bin", "alberti"]);
         let mut folder = target_folder();
         if build == Build::Debug {
-            // As in the tests: with the features of the whole workspace nothing is compiled twice.
+            // As in the tests, build with the features of the whole workspace, so that nothing is
+            // compiled twice.
             cargo.arg("--workspace");
         } else {
             cargo.args(["--package", "alberti", "--release"]);
@@ -56,7 +57,7 @@ impl Program {
     /// Builds the release program of another checkout of the workspace, in its own target folder.
     pub fn build_checkout(root: &Path) -> Result<Self, String> {
         let folder = root.join("target");
-        // The program was once part of the library.
+        // In old revisions, the program was part of the library package.
         let package = if root.join("crates/alberti").is_dir() { "alberti" } else { "pipeline" };
         let mut cargo = cargo_command(&["build", "--quiet", "--release", "--locked"]);
         cargo.args(["--package", package, "--bin", "alberti"]);
@@ -65,24 +66,24 @@ impl Program {
         Ok(Self { path: folder.join("release").join(name) })
     }
 
-    /// An already built program.
+    /// Refers to a program that has already been built.
     pub fn at(path: &Path) -> Self {
         Self { path: path.to_owned() }
     }
 
-    /// Its path.
+    /// Returns its path.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Draws a scene, or returns the program's message.
+    /// Renders a scene. Returns the program's message if it fails.
     pub fn render(&self, scene: &Path, picture: &Path, flags: &[&str]) -> Result<(), String> {
         run_command(
             Command::new(&self.path).arg("render").arg(scene).arg("-o").arg(picture).args(flags),
         )
     }
 
-    /// Draws a scene from its text, with paths relative to a folder.
+    /// Renders a scene from its text, with paths relative to a folder.
     pub fn render_text(&self, text: &str, folder: &Path, picture: &Path) -> Result<(), String> {
         let mut render = Command::new(&self.path);
         render.current_dir(folder).args(["render", "-", "-o"]).arg(picture);
@@ -98,17 +99,19 @@ impl Program {
     }
 }
 
-/// Cargo, run at the root: the one that started this program.
+/// Returns a command that runs Cargo in the workspace root: the same Cargo that started this
+/// program.
 pub fn cargo_command(arguments: &[&str]) -> Command {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.current_dir(project_root()).args(arguments);
     cargo
 }
 
-/// Hundredths of seconds that compilers took in this process's children, as counted by [`compile`].
+/// The CPU time that compilers have used in child processes, in hundredths of a second, as counted
+/// by [`compile`].
 static COMPILE_TICKS: AtomicU64 = AtomicU64::new(0);
 
-/// Counts the processor time of some work as compiler time.
+/// Counts the CPU time of some work as compiler time.
 pub fn compile<T>(work: impl FnOnce() -> T) -> T {
     let before = process_seconds();
     let result = work();
@@ -117,17 +120,17 @@ pub fn compile<T>(work: impl FnOnce() -> T) -> T {
     result
 }
 
-/// The processor seconds that [`compile`] has counted.
+/// Returns the CPU seconds that [`compile`] has counted.
 pub fn compile_seconds() -> f64 {
     COMPILE_TICKS.load(Ordering::Relaxed) as f64 / 100.0
 }
 
-/// Runs a command to its end. Its output is shown only if it fails.
+/// Runs a command to completion. Its output is shown only if it fails.
 pub fn run_command(command: &mut Command) -> Result<(), String> {
     capture_output(command).map(drop)
 }
 
-/// Runs a command to its end and returns its standard output.
+/// Runs a command to completion and returns its standard output.
 pub fn capture_output(command: &mut Command) -> Result<String, String> {
     let shown = command_line(command);
     let output = command.output().map_err(|error| format!("{shown}: {error}"))?;
@@ -139,14 +142,14 @@ pub fn capture_output(command: &mut Command) -> Result<String, String> {
     Err(format!("`{shown}` failed ({})\n{stdout}{stderr}", output.status))
 }
 
-/// Runs a command to its end with its output visible.
+/// Runs a command to completion with visible output.
 pub fn run_visibly(command: &mut Command) -> Result<(), String> {
     let shown = command_line(command);
     let status = command.status().map_err(|error| format!("{shown}: {error}"))?;
     if status.success() { Ok(()) } else { Err(format!("`{shown}` failed ({status})")) }
 }
 
-/// A command as one would type it.
+/// Formats a command as it would be typed.
 pub fn command_line(command: &Command) -> String {
     let program = Path::new(command.get_program()).file_stem().unwrap_or_default();
     let words = std::iter::once(program).chain(command.get_args());

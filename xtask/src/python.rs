@@ -1,11 +1,11 @@
-//! `cargo xtask python`: the wheel of the Python package, and its tests.
+//! `cargo xtask python`: builds the wheel of the Python package and tests it.
 //!
 //! ```text
 //!  maturin ─► wheel ─► new virtual environment: only NumPy ─► a picture
 //!                      and then pytest, mypy, trimesh, OpenCV … ─► the tests
 //! ```
-//! Without Python, its module `venv` or a package registry, the step is reported as skipped, and so
-//! are tests whose packages cannot be had.
+//! Without Python, its module `venv` or a package registry, the step is reported as skipped. Tests
+//! whose packages cannot be installed are reported as skipped too.
 
 use crate::Outcome;
 use crate::program::{Build, Program, command_line, compile, run_command, run_visibly};
@@ -20,7 +20,7 @@ const PACKAGE: &str = "crates/python";
 const BUILDER: &[&str] = &["maturin>=1.9,<2"];
 /// Packages that most tests need.
 const TEST_PACKAGES: &[&str] = &["pytest", "mypy"];
-/// Packages that single tests need; without one of them, those tests are skipped.
+/// Packages that individual tests need. If one cannot be installed, those tests are skipped.
 const PEERS: &[&str] = &[
     "trimesh",
     "networkx",
@@ -37,7 +37,7 @@ const PEERS: &[&str] = &[
 /// The maximum size of a released wheel in bytes.
 const MAX_WHEEL_BYTES: u64 = 8_000_000;
 
-/// A picture with only NumPy installed.
+/// A script that renders a picture with only NumPy installed.
 const FIRST_PICTURE: &str = "
 import sys, alberti
 frame = alberti.render(alberti.load(sys.argv[1]), size=(320, 240), passes=('rgb', 'depth', 'ids'))
@@ -45,8 +45,8 @@ assert frame.rgb.shape == (240, 320, 3) and frame.ids.any() and frame.depth.min(
 print('a picture, its depth and its ids:', frame)
 ";
 
-/// Builds the wheel, with `--release` as published, and tests it; with `--first` only makes a
-/// picture with the library of the debug build.
+/// Builds the wheel and tests it. `--release` builds it as published. `--first` only renders a
+/// picture with the library from the debug build.
 pub fn run_python(arguments: &[String]) -> Outcome {
     let is_release = match arguments {
         [] => false,
@@ -57,7 +57,10 @@ pub fn run_python(arguments: &[String]) -> Outcome {
     let Some(environment) = VirtualEnvironment::create(&target_folder().join("python/build"))
         .filter(|environment| environment.install(BUILDER).is_ok())
     else {
-        report_skip("python", "there is no python3 with venv, or no registry of packages");
+        report_skip(
+            "python",
+            "python3 with venv is missing, or no package registry can be reached",
+        );
         return Ok(());
     };
     let wheel = build_wheel(&environment, is_release)?;
@@ -69,14 +72,14 @@ pub fn run_python(arguments: &[String]) -> Outcome {
     test_wheel(&wheel)
 }
 
-/// A picture with the package as it is in the sources, and with the library built with the whole
-/// workspace: no wheel is packed, and nothing extra is compiled.
+/// Renders a picture with the package from the source tree and the library from the workspace
+/// build. Packs no wheel and compiles nothing extra.
 fn make_first_picture() -> Outcome {
     let folder = target_folder().join("python/first");
     let Some(environment) = VirtualEnvironment::create(&folder.join("environment"))
         .filter(|environment| environment.install(&["numpy"]).is_ok())
     else {
-        report_skip("python-first", "there is no python3 with venv, or NumPy cannot be installed");
+        report_skip("python-first", "python3 with venv is missing, or NumPy cannot be installed");
         return Ok(());
     };
     Program::build(Build::Debug)?;
@@ -101,7 +104,7 @@ fn make_first_picture() -> Outcome {
 /// Builds the wheel into an empty folder.
 fn build_wheel(environment: &VirtualEnvironment, is_release: bool) -> Result<PathBuf, String> {
     let folder = target_folder().join("python/wheels");
-    // Leftovers from other versions would be taken for the new wheel.
+    // A leftover from another version could be mistaken for the new wheel.
     let _ = std::fs::remove_dir_all(&folder);
     create_folder(&folder)?;
     let mut maturin = Command::new(environment.program("maturin"));
@@ -111,20 +114,21 @@ fn build_wheel(environment: &VirtualEnvironment, is_release: bool) -> Result<Pat
     maturin.args(["--interpreter".as_ref(), environment.program("python").as_os_str()]);
     if is_release {
         maturin.arg("--release");
-        // In the program, `pipeline` runs once per command; here it fills passes, and drawings are
-        // made in loops.
+        // The program calls `pipeline` once per command, but Python scripts fill passes and make
+        // drawings in loops, so speed matters more here.
         maturin.args(["--config", "profile.release.package.alberti-pipeline.opt-level=3"]);
         maturin.args(["--config", "profile.release.package.alberti-drawing.opt-level=2"]);
         maturin.args(["--config", "profile.release.package.alberti-hidden-line.opt-level=2"]);
     }
     compile(|| run_command(&mut maturin))?;
-    list_files(&folder, "whl")?.pop().ok_or_else(|| "there is no wheel".to_owned())
+    list_files(&folder, "whl")?.pop().ok_or_else(|| "maturin wrote no wheel".to_owned())
 }
 
-/// Installs the wheel with only NumPy, then with the packages that its tests need, and runs these.
+/// Installs the wheel with only NumPy and renders a picture, then installs the packages that the
+/// tests need and runs the tests.
 fn test_wheel(wheel: &Path) -> Outcome {
     let environment = VirtualEnvironment::create(&target_folder().join("python/test"))
-        .ok_or("there is no second virtual environment")?;
+        .ok_or("cannot create a second virtual environment")?;
     environment.install(&[wheel.to_string_lossy().as_ref()])?;
     let model = project_root().join("scenes/models/table.glb");
     let python = || environment.isolated_python();
@@ -149,13 +153,14 @@ fn test_wheel(wheel: &Path) -> Outcome {
     run_visibly(types.current_dir(&package))
 }
 
-/// A virtual environment of Python.
+/// A Python virtual environment.
 pub struct VirtualEnvironment {
     folder: PathBuf,
 }
 
 impl VirtualEnvironment {
-    /// A new environment in place of an old one; `None` if Python cannot create any.
+    /// Creates an environment, replacing an existing one. Returns `None` if Python cannot create
+    /// it.
     pub fn create(folder: &Path) -> Option<Self> {
         let mut python = Command::new("python3");
         python.args(["-m", "venv", "--clear"]).arg(folder);
@@ -163,12 +168,13 @@ impl VirtualEnvironment {
         Some(Self { folder: folder.to_owned() })
     }
 
-    /// One of its programs.
+    /// Returns the path of one of its programs.
     fn program(&self, name: &str) -> PathBuf {
         self.folder.join("bin").join(name)
     }
 
-    /// Its Python, which sees neither other packages nor the folder it runs in.
+    /// Returns a command that runs its Python, isolated from other packages and from the current
+    /// folder.
     pub fn isolated_python(&self) -> Command {
         let mut python = Command::new(self.program("python"));
         python.arg("-I");

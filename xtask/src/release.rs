@@ -1,14 +1,14 @@
-//! `cargo xtask release`: the release files, built so that anybody can build the same bytes.
+//! `cargo xtask release`: builds the release files reproducibly, so that anyone can build the same
+//! bytes.
 //!
 //! ```text
-//! release OUT               everything for users, in an empty folder
-//! release --check           the same as a dry run: twice, in two folders, with all its tests
-//! release --deb [PROGRAM]   the Debian package of the release build, or of another, tried in an
-//!                           empty Debian
-//! release --crates          the crates as archives for the registry, not built
+//! release OUT               write everything for users to an empty folder
+//! release --check           do a dry run: build everything twice, in two folders, and test it
+//! release --deb [PROGRAM]   pack the release build or PROGRAM for Debian, and try the package
+//! release --crates          pack the crates for the registry without building them
 //! ```
-//! Nothing is published; `RELEASING.md` says how to do that. Debian tools are needed: `tar`,
-//! `gzip`, `dpkg-deb`, `sha256sum`, and `debootstrap` for the trial.
+//! Nothing is published; `RELEASING.md` explains how to do that. The command needs the Debian tools
+//! `tar`, `gzip`, `dpkg-deb`, `sha256sum`, and, to try the package, `debootstrap`.
 
 mod archives;
 mod build;
@@ -27,8 +27,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// The maximum size of the program in a package, in bytes. To be lowered to 8,000,000: optimizing
-/// all crates together (`lto`) saves less, and makes pictures take 70 % more instructions.
+/// The maximum size of the program in a package, in bytes. The goal is 8,000,000. Link-time
+/// optimization (`lto`) does not save enough, and pictures then take 70 % more instructions.
 const MAX_PROGRAM_BYTES: u64 = 10_600_000;
 
 /// Builds or checks the release files.
@@ -49,29 +49,30 @@ pub fn run_release(arguments: &[String]) -> Outcome {
             let folder = target_folder().join("release-build");
             write_release(&Release::read()?, project_root(), &folder, &out).map(drop)
         }
-        _ => Err("one of: OUT, --check, --crates, --deb [PROGRAM]".to_owned()),
+        _ => Err("use one of OUT, --check, --crates, --deb [PROGRAM]".to_owned()),
     }
 }
 
-/// Version and time of a release.
+/// The version and time of a release.
 pub struct Release {
-    /// The version of the workspace.
+    /// The workspace version.
     pub version: String,
-    /// Seconds since 1970: the last commit's, unless `SOURCE_DATE_EPOCH` is set.
+    /// The time in seconds since 1970: `SOURCE_DATE_EPOCH` or, if it is not set, the time of the
+    /// last commit.
     pub epoch: String,
 }
 
 impl Release {
     fn read() -> Result<Self, String> {
         let metadata = Metadata::load()?;
-        let program = metadata.package("alberti").ok_or("there is no package alberti")?;
+        let program = metadata.package("alberti").ok_or("the package alberti is missing")?;
         let epoch = match std::env::var("SOURCE_DATE_EPOCH") {
             Ok(epoch) => epoch,
             Err(_) => {
                 let mut git = Command::new("git");
                 git.current_dir(project_root()).args(["log", "-1", "--format=%ct"]);
                 capture_output(&mut git).map_err(|error| {
-                    format!("{error}\n  = help: outside of a checkout set SOURCE_DATE_EPOCH")
+                    format!("{error}\n  = help: outside a checkout, set SOURCE_DATE_EPOCH")
                 })?
             }
         };
@@ -104,14 +105,14 @@ fn write_release(
     Ok(programs)
 }
 
-/// Builds two releases from two copies of the sources in folders with different names; they must be
-/// equal.
+/// Builds two releases from two copies of the sources, in folders with different names, and checks
+/// that they are identical.
 fn check_release() -> Outcome {
     crates::package_crates(true)?;
     let folder = target_folder().join("release-check");
     let _ = fs::remove_dir_all(&folder);
     let names = ["one", "the other folder"];
-    // Immediately, so that people may go on with the work and commit it.
+    // Copy the sources immediately, so that work can continue during the check.
     let release = Release::read()?;
     names.iter().try_for_each(|name| build::copy_sources(&folder.join(name).join("sources")))?;
     let mut builds = Vec::new();
@@ -128,8 +129,8 @@ fn check_release() -> Outcome {
         let folder = folder.display();
         return Err(format!("two builds differ (see {folder}):\n{first}and\n{second}"));
     }
-    println!("two builds in two folders have the same bytes");
-    let deb = list_files(out, "deb")?.pop().ok_or("there is no package")?;
+    println!("two builds in different folders have the same bytes");
+    let deb = list_files(out, "deb")?.pop().ok_or("the Debian package is missing")?;
     debian::try_package(&deb, &Program::at(&programs.dynamic))
 }
 
@@ -154,7 +155,7 @@ fn check_size(program: &Path) -> Outcome {
     Ok(())
 }
 
-/// Writes a file; the error names it.
+/// Writes a file. The error message names the file.
 fn write_file(path: &Path, bytes: &[u8]) -> Outcome {
     fs::write(path, bytes).map_err(|error| format!("{}: {error}", path.display()))
 }

@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 
-/// Milliseconds per picture for 129 models at 256×256, on one otherwise idle core: from a triangle
-/// to 10 MB files with large textures.
+/// Milliseconds per picture for 129 models at 256×256, on one otherwise idle core. The models range
+/// from a triangle to 10 MB files with large textures.
 const MEASURED: [f64; 129] = [
     0.9, 1.1, 1.1, 1.2, 1.7, 1.7, 1.8, 1.8, 1.8, 1.8, 1.8, 1.9, 2.1, 2.3, 2.3, 2.3, 2.4, 2.4, 2.5,
     2.6, 2.6, 2.7, 2.7, 2.7, 2.7, 2.8, 2.8, 2.8, 2.9, 3.0, 3.0, 3.0, 3.3, 3.6, 3.6, 3.7, 3.7, 3.7,
@@ -19,32 +19,32 @@ const MEASURED: [f64; 129] = [
 pub struct PictureTimes(Vec<f64>);
 
 impl PictureTimes {
-    /// The measured times.
+    /// Returns the measured times.
     pub fn measured() -> Self {
         Self(MEASURED.to_vec())
     }
 
-    /// Given times; `None` if there are none.
+    /// Wraps the given times. Returns `None` if there are none.
     pub fn of(times: &[f64]) -> Option<Self> {
         (!times.is_empty()).then(|| Self(times.to_vec()))
     }
 
-    /// The picture times in a report.
+    /// Reads the picture times from a report.
     pub fn from_report(text: &str) -> Result<Self, String> {
         let records = text.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
         let done = records.filter(|record| record["status"] == "done");
         let times: Vec<f64> =
             done.filter_map(|record| Some(record["seconds"].as_f64()? * 1000.0)).collect();
-        Self::of(&times).ok_or_else(|| "the report has no picture that is done".to_owned())
+        Self::of(&times).ok_or_else(|| "the report has no finished picture".to_owned())
     }
 
-    /// One of the times, selected by a number from 0 to 1.
+    /// Returns one of the times, selected by a number from 0 to 1.
     pub fn time_at(&self, share: f64) -> f64 {
         let last = self.0.len() - 1;
         self.0[((share * self.0.len() as f64) as usize).min(last)]
     }
 
-    /// The mean time.
+    /// Returns the mean time.
     pub fn mean(&self) -> f64 {
         self.0.iter().sum::<f64>() / self.0.len() as f64
     }
@@ -63,7 +63,7 @@ mod tests {
     }
 
     #[test]
-    fn times_come_from_a_report() {
+    fn times_are_read_from_a_report() {
         let report = "{\"status\":\"done\",\"seconds\":0.5}\n{\"status\":\"failed\",\"seconds\":9}\n{\"status\":\"done\",\"seconds\":1.5}\n{\"sta";
         assert_eq!(PictureTimes::from_report(report).expect("times").mean(), 1000.0);
         assert!(PictureTimes::from_report("").is_err());

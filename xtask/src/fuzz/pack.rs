@@ -1,24 +1,24 @@
-//! Models of several files packed into one binary file, because the targets read no other files;
-//! and the compressed parts in them.
+//! Packs models with several files into one binary file, because the targets read a single input,
+//! and extracts compressed parts from them.
 
 use scene_models::glb::encode_glb;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
 
-/// A model in one piece.
+/// A model packed into one file.
 pub struct PackedModel {
     /// The whole file.
     pub file: Vec<u8>,
-    /// The document; its only buffer is the binary chunk.
+    /// The document, whose only buffer is the binary chunk.
     pub json: Value,
     /// The bytes of the first buffer.
     pub binary: Vec<u8>,
 }
 
 impl PackedModel {
-    /// Reads a `.glb`, or a `.gltf` with all the files it names. `None` if it is not glTF; a file
-    /// that cannot be packed is returned as it is.
+    /// Reads a `.glb`, or a `.gltf` with all files that it refers to. A file that cannot be packed
+    /// is returned unchanged. Returns `None` if the file cannot be read.
     pub fn read_model(path: &Path) -> Option<Self> {
         let file = fs::read(path).ok()?;
         if let Some((json, binary)) = glb_chunks(&file) {
@@ -67,7 +67,7 @@ impl PackedModel {
         Some(Self { file: encode_glb(json.to_string().as_bytes(), &binary), json, binary })
     }
 
-    /// The bytes in a range of the first buffer: `{"byteOffset": …, "byteLength": …}`.
+    /// Returns the bytes in a range of the first buffer: `{"byteOffset": …, "byteLength": …}`.
     pub fn view_bytes(&self, view: &Value) -> Option<&[u8]> {
         let start = view["byteOffset"].as_u64().unwrap_or(0) as usize;
         let length = view["byteLength"].as_u64()? as usize;
@@ -83,7 +83,7 @@ fn append_aligned(binary: &mut Vec<u8>, file: &[u8]) -> usize {
     start
 }
 
-/// Turns a view of one buffer into a view of the joint buffer.
+/// Converts a view of one buffer into a view of the combined buffer.
 fn shift_view(view: &mut Value, starts: &[usize]) -> Option<()> {
     let start = *starts.get(view["buffer"].as_u64()? as usize)?;
     let offset = view["byteOffset"].as_u64().unwrap_or(0);
@@ -92,7 +92,7 @@ fn shift_view(view: &mut Value, starts: &[usize]) -> Option<()> {
     Some(())
 }
 
-/// The JSON and the binary chunk of a valid binary file.
+/// Returns the JSON and the binary chunk of a valid binary file.
 fn glb_chunks(file: &[u8]) -> Option<(&[u8], &[u8])> {
     let word = |at: usize| Some(u32::from_le_bytes(*file.get(at..)?.first_chunk()?) as usize);
     let json = file.starts_with(b"glTF").then(|| file.get(20..)?.get(..word(12)?))??;
@@ -106,7 +106,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_packed_file_comes_apart_again() {
+    fn a_packed_file_can_be_split_again() {
         let file = encode_glb(b"{\"asset\":{}}", &[1, 2, 3]);
         let (json, binary) = glb_chunks(&file).unwrap();
         assert_eq!((json, binary), (&b"{\"asset\":{}}"[..], &[1, 2, 3, 0][..]));

@@ -1,4 +1,4 @@
-//! Seeds for the fuzz targets: real and hostile files, in the form that a target reads.
+//! Seeds for the fuzz targets: real and hostile files, in the format that each target reads.
 
 use super::assets_folder;
 use super::pack::PackedModel;
@@ -9,11 +9,11 @@ use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Larger files are too slow to mutate.
+/// The maximum size of a model. Larger files are too slow to mutate.
 const LARGEST_MODEL: usize = 200 << 10;
 const LARGEST_STREAM: usize = 48 << 10;
 
-/// Writes the seeds of a target into a folder; returns their number.
+/// Writes the seeds of a target into a folder and returns their number.
 pub fn write_seeds(target: &str, folder: &Path) -> Result<usize, String> {
     let mut seeds = match target {
         "model" => model_seeds().into_iter().map(|model| model.file).collect(),
@@ -24,7 +24,7 @@ pub fn write_seeds(target: &str, folder: &Path) -> Result<usize, String> {
         "image" | "background" => image_seeds(),
         "scene" => scene_seeds()?,
         "maths" | "raster" => number_seeds(),
-        // The first inputs of these targets are all committed.
+        // All seeds of these targets are committed.
         _ => Vec::new(),
     };
     seeds.extend(committed_cases(target)?);
@@ -47,7 +47,7 @@ pub fn write_seeds(target: &str, folder: &Path) -> Result<usize, String> {
     fs::read_dir(folder).map(Iterator::count).map_err(|error| error.to_string())
 }
 
-/// The cases in `tests/fuzz/corpus`.
+/// Returns the cases in `tests/fuzz/corpus`.
 fn committed_cases(target: &str) -> Result<Vec<Vec<u8>>, String> {
     let folder = project_root().join("tests/fuzz/corpus").join(target);
     let entries =
@@ -57,7 +57,7 @@ fn committed_cases(target: &str) -> Result<Vec<Vec<u8>>, String> {
     Ok(paths.iter().filter_map(|path| fs::read(path).ok()).collect())
 }
 
-/// All files below a folder with one of these extensions, sorted.
+/// Returns all files below a folder with one of these extensions, sorted.
 fn files_below(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut paths: Vec<PathBuf> = fs::read_dir(folder)
@@ -77,7 +77,7 @@ fn files_below(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     found
 }
 
-/// The shared assets with these extensions, the scenes' models and the test data.
+/// Returns the paths of the shared assets, scene models and test data with these extensions.
 fn asset_paths(endings: &[&str]) -> Vec<PathBuf> {
     let mut paths = files_below(&project_root().join("scenes"), endings);
     paths.extend(files_below(&project_root().join("crates/model/tests"), endings));
@@ -92,7 +92,7 @@ fn model_seeds() -> Vec<PackedModel> {
     asset_paths(&["glb", "gltf"]).iter().filter_map(|path| PackedModel::read_model(path)).collect()
 }
 
-/// The contents of the shared assets with these extensions.
+/// Returns the contents of these files.
 fn files_with_endings(endings: &[&str]) -> Vec<Vec<u8>> {
     asset_paths(endings).iter().filter_map(|path| fs::read(path).ok()).collect()
 }
@@ -102,7 +102,7 @@ fn scene_seeds() -> Result<Vec<Vec<u8>>, String> {
     Ok(paths.iter().filter_map(|path| fs::read(path).ok()).collect())
 }
 
-/// The streams of compressed views, as the target `meshopt` reads them.
+/// Returns the compressed views of a model, as the target `meshopt` reads them.
 fn meshopt_seeds(model: &PackedModel) -> Vec<Vec<u8>> {
     let views = model.json["bufferViews"].as_array().into_iter().flatten();
     let stream = |view: &Value| {
@@ -128,7 +128,7 @@ fn meshopt_seeds(model: &PackedModel) -> Vec<Vec<u8>> {
     views.filter_map(stream).collect()
 }
 
-/// The streams of compressed primitives, as the target `draco` reads them.
+/// Returns the compressed primitives of a model, as the target `draco` reads them.
 fn draco_seeds(model: &PackedModel) -> Vec<Vec<u8>> {
     let meshes = model.json["meshes"].as_array().into_iter().flatten();
     let primitives = meshes.flat_map(|mesh| mesh["primitives"].as_array().into_iter().flatten());
@@ -151,7 +151,7 @@ fn draco_seeds(model: &PackedModel) -> Vec<Vec<u8>> {
     primitives.filter_map(stream).collect()
 }
 
-/// Image files and images from models, each preceded by the number of its format.
+/// Returns image files and images from models, each preceded by the number of its format.
 fn image_seeds() -> Vec<Vec<u8>> {
     let kind = |file: &[u8]| match file {
         [0x89, b'P', ..] => 0,
@@ -174,8 +174,8 @@ fn image_seeds() -> Vec<Vec<u8>> {
     seeds
 }
 
-/// Bytes from a generator (splitmix64), each sequence preceded by the number of a function, of which
-/// there are fewer than 512.
+/// Returns random bytes (SplitMix64), each sequence preceded by the number of a function. There are
+/// fewer than 512 functions.
 fn number_seeds() -> Vec<Vec<u8>> {
     let mut state = 0u64;
     let mut word = || {

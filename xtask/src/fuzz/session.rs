@@ -1,4 +1,4 @@
-//! Fuzzing sessions: one run of a target, with libFuzzer's processes, their time limit, and their
+//! A fuzzing session: one run of a target, with libFuzzer's processes, their time limit and their
 //! reports.
 
 use crate::workspace::relative_path;
@@ -16,24 +16,25 @@ pub struct Session {
     pub program: PathBuf,
     /// Whether the target prints messages for each case.
     pub is_talkative: bool,
-    /// The dictionary.
+    /// The path of the dictionary.
     pub words: Option<PathBuf>,
     /// The folder of `seeds`, `corpus` and `artifacts`.
     pub folder: PathBuf,
-    /// Time limit of the run.
+    /// The limit of the run in minutes of CPU time.
     pub minutes: f64,
     /// The number of concurrent processes.
     pub jobs: usize,
 }
 
-/// Results of a run.
+/// The results of a run.
 pub struct SessionReport {
-    /// The target.
+    /// The name of the target.
     pub name: String,
-    /// Of the processors, all jobs together.
+    /// The CPU time of all jobs.
     time: Duration,
     executions: u64,
-    /// Coverage: branches reached, and branches by how often they are taken.
+    /// The coverage: the number of branches reached and, in `features`, of branches distinguished
+    /// by how often they were taken.
     edges: u64,
     features: u64,
     corpus: usize,
@@ -41,7 +42,7 @@ pub struct SessionReport {
     pub crashes: Vec<PathBuf>,
 }
 
-/// A process of libFuzzer.
+/// A libFuzzer process.
 struct FuzzJob {
     child: Child,
     log: PathBuf,
@@ -75,12 +76,15 @@ impl Session {
             for job in &jobs {
                 println!("{}", last_lines(&fs::read_to_string(&job.log).unwrap_or_default()));
             }
-            // A known crash is not written again, and still counts.
+            // A known crash is not written again, but it still counts.
             if report.crashes.is_empty() {
                 report.crashes.extend(before);
             }
             if report.crashes.is_empty() {
-                return Err(format!("{name} ended by itself; see {}", relative_path(&jobs[0].log)));
+                return Err(format!(
+                    "{name} ended unexpectedly; see {}",
+                    relative_path(&jobs[0].log)
+                ));
             }
             report.crashes.iter().for_each(|crash| println!("crash: {}", relative_path(crash)));
         }
@@ -91,11 +95,11 @@ impl Session {
         let log = self.folder.join(format!("job-{number}.log"));
         let file = File::create(&log).map_err(|error| format!("{}: {error}", log.display()))?;
         let folder = |part: &str| self.folder.join(part);
-        // Only as the last resort, because each case judges its own time and memory.
+        // These limits are a last resort, because each case checks its own time and memory.
         let mut command = Command::new(&self.program);
         command.args(["-timeout=30", "-rss_limit_mb=2048", "-print_final_stats=1"]);
         if self.is_talkative {
-            // The messages of the program under test; the fuzzer's own still appear.
+            // Hide the messages of the program under test. The fuzzer's own still appear.
             command.arg("-close_fd_mask=3");
         }
         command.arg(format!("-artifact_prefix={}/", folder("artifacts").display()));
@@ -129,16 +133,16 @@ impl Session {
 }
 
 impl FuzzJob {
-    /// Notes its running time, and whether it has ended.
+    /// Updates the time for which it has run, and whether it has ended.
     fn update_peak(&mut self) -> Result<(), String> {
-        // If the system does not report it, the clock is used.
+        // If the system does not report the CPU time, use the clock.
         self.time =
             processor_time(self.child.id()).unwrap_or_else(|| self.start.elapsed()).max(self.time);
         self.done = self.child.try_wait().map_err(|error| error.to_string())?.is_some();
         Ok(())
     }
 
-    /// Ends it as a person at the keyboard would, so that it still reports its results.
+    /// Stops the process with an interrupt, as Ctrl-C does, so that it still reports its results.
     fn stop_process(&mut self) -> Result<(), String> {
         if !self.done {
             let id = self.child.id().to_string();
@@ -151,10 +155,10 @@ impl FuzzJob {
     }
 }
 
-/// The processor time of a process, if the system reports it.
+/// Returns the CPU time of a process, if the system reports it.
 fn processor_time(process: u32) -> Option<Duration> {
     let text = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    // The name, in parentheses, may contain blanks. Linux counts in hundredths of a second,
+    // The name is in parentheses and may contain spaces. Linux counts in hundredths of a second,
     // regardless of its internal clock.
     let (_, after) = text.rsplit_once(')')?;
     let mut fields = after.split_whitespace().skip(11);
@@ -162,7 +166,7 @@ fn processor_time(process: u32) -> Option<Duration> {
     Some(Duration::from_millis(10 * ticks))
 }
 
-/// All inputs that ever crashed the target.
+/// Returns all inputs that have ever crashed the target.
 fn list_artifacts(folder: &Path) -> Result<BTreeSet<PathBuf>, String> {
     let folder = folder.join("artifacts");
     let entries =
@@ -170,14 +174,14 @@ fn list_artifacts(folder: &Path) -> Result<BTreeSet<PathBuf>, String> {
     Ok(entries.filter_map(|entry| Some(entry.ok()?.path())).collect())
 }
 
-/// The number after the last occurrence of a word.
+/// Returns the number after the last occurrence of a word.
 fn last_number(log: &str, word: &str) -> Option<u64> {
     let (_, after) = log.rsplit_once(&format!(" {word} "))?;
     after.split_whitespace().next()?.parse().ok()
 }
 
-/// The number of inputs tried: from the statistics at the end or, after a crash, from the last
-/// progress line.
+/// Returns the number of inputs tried, from the statistics at the end or, after a crash, from the
+/// last progress line.
 fn executed_runs(log: &str) -> Option<u64> {
     if let Some((_, after)) = log.rsplit_once("stat::number_of_executed_units:") {
         return after.split_whitespace().next()?.parse().ok();
@@ -186,7 +190,7 @@ fn executed_runs(log: &str) -> Option<u64> {
     progress.split_whitespace().next()?.parse().ok()
 }
 
-/// The end of a log without progress lines: from the panic on, otherwise the last lines.
+/// Returns the end of a log without progress lines, starting at the panic if there is one.
 fn last_lines(log: &str) -> String {
     let lines: Vec<&str> = log.lines().filter(|line| !line.starts_with('#')).collect();
     let last = lines.len().saturating_sub(LAST_LINES);
@@ -194,7 +198,7 @@ fn last_lines(log: &str) -> String {
     lines[start..].iter().take(LAST_LINES).copied().collect::<Vec<_>>().join("\n")
 }
 
-/// The number of lines that are enough to see where it happened.
+/// The number of lines to show, which is enough to see where a crash happened.
 const LAST_LINES: usize = 30;
 
 impl SessionReport {
@@ -223,7 +227,7 @@ mod tests {
         #4096 pulse  cov: 15 ft: 40 corp: 3/12b lim: 4096 exec/s: 2048 rss: 31Mb\n";
 
     #[test]
-    fn progress_is_read_from_the_log() {
+    fn progress_is_parsed_from_the_log() {
         assert_eq!((last_number(LOG, "cov:"), last_number(LOG, "ft:")), (Some(15), Some(40)));
         assert_eq!(executed_runs(LOG), Some(4096));
         let ended = format!("{LOG}stat::number_of_executed_units: 5000\nstat::peak_rss_mb: 1\n");
@@ -232,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn the_ending_begins_with_the_panic() {
+    fn the_last_lines_begin_with_the_panic() {
         let frames = "  at frame\n".repeat(90);
         let log =
             format!("INFO: x\n#1 INITED\nthread 't' panicked at a.rs:1:2:\n#2 NEW\nwhy\n{frames}");
@@ -245,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn this_process_has_run_for_less_than_an_hour() {
+    fn this_process_has_used_less_than_an_hour() {
         let time = processor_time(std::process::id());
         assert!(time.is_none_or(|time| time < Duration::from_secs(3600)), "{time:?}");
     }

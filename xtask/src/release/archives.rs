@@ -1,4 +1,4 @@
-//! Packages as files: the same contents give the same bytes, at any time and from any packer.
+//! Writes packages. The same contents give the same bytes, regardless of the time and the user.
 
 use super::contents::PackagedFile;
 use super::{Release, write_file};
@@ -10,7 +10,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The checksum file.
+/// The name of the checksum file.
 pub const CHECKSUMS: &str = "SHA256SUMS";
 
 /// Writes a Debian package with `dpkg-deb`.
@@ -23,7 +23,8 @@ pub fn write_deb(
     lay_out(files, &staging.join("usr"), staging)?;
     let machine = capture_output(Command::new("dpkg").arg("--print-architecture"))?;
     let machine = machine.trim();
-    let program = files.iter().find(|file| file.is_executable).ok_or("no program is packaged")?;
+    let program =
+        files.iter().find(|file| file.is_executable).ok_or("the package contains no program")?;
     let bytes: usize = files.iter().map(|file| file.bytes.len()).sum();
     let control = format!(
         "Package: alberti\nVersion: {version}\nArchitecture: {machine}\n\
@@ -49,11 +50,11 @@ pub fn write_deb(
     Ok(deb)
 }
 
-/// The Debian packages that a program needs: the C library, as new as its symbols, and the library
-/// for unwinding, if it is linked.
+/// Returns the Debian packages that a program needs: the C library, in the version that its symbols
+/// require, and the unwinding library, if it is linked.
 fn dependencies(program: &[u8]) -> String {
     let mentions = |text: &[u8]| program.windows(text.len()).any(|part| part == text);
-    // Packed relocations are read from this version on.
+    // glibc supports packed relocations from this version on.
     let relocations = mentions(b"GLIBC_ABI_DT_RELR\0").then_some(36);
     let symbols = (2..100).rev().find(|number| mentions(format!("GLIBC_2.{number}\0").as_bytes()));
     let libc = symbols.max(relocations).unwrap_or(36);
@@ -61,7 +62,7 @@ fn dependencies(program: &[u8]) -> String {
     format!("libc6 (>= 2.{libc}){unwinding}")
 }
 
-/// Writes the download archive: one folder, which can be unpacked anywhere.
+/// Writes the download archive, a single folder that can be unpacked anywhere.
 pub fn write_tar(release: &Release, files: &[PackagedFile], staging: &Path, out: &Path) -> Outcome {
     let name = format!("alberti-{}-{}-linux", release.version, std::env::consts::ARCH);
     lay_out(files, &staging.join(&name), staging)?;
@@ -101,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_program_depends_on_the_newest_symbols_that_it_names() {
+    fn a_program_depends_on_the_newest_symbols_that_it_uses() {
         let old = b"\0GLIBC_2.2.5\0GLIBC_2.34\0GLIBC_2.9\0";
         assert_eq!(dependencies(old), "libc6 (>= 2.34)");
         let new = b"\0libgcc_s.so.1\0GLIBC_2.17\0GLIBC_ABI_DT_RELR\0";

@@ -1,5 +1,5 @@
-//! The programs in a release: without paths of this machine, so that the bytes depend only on the
-//! sources.
+//! Builds the programs in a release, without paths of this machine, so that the bytes depend only
+//! on the sources.
 
 use super::write_file;
 use crate::Outcome;
@@ -9,20 +9,21 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The program as released.
+/// The two variants of the released program.
 pub struct Programs {
-    /// For distribution packages: it uses the C library of the system.
+    /// For distribution packages. It uses the system's C library.
     pub dynamic: PathBuf,
-    /// For download: it needs only the kernel.
+    /// For download. It needs only the kernel.
     pub standalone: PathBuf,
 }
 
-/// Builds both programs; only their linking differs, so that everything else is compiled once.
+/// Builds both programs. They differ only in linking, so everything else is compiled once.
 pub fn build_programs(sources: &Path, target: &Path) -> Result<Programs, String> {
     let compiler = Compiler::ask()?;
     let build = |name: &str, flags: &[&str]| {
         let mut cargo = cargo_command(&["rustc", "--quiet", "--locked", "--release"]);
-        // With a target, flags do not apply to procedural macros, which cannot be static.
+        // With an explicit target, the flags do not apply to procedural macros, which cannot be
+        // linked statically.
         cargo.args(["--package", "alberti", "--bin", "alberti", "--target", &compiler.host]);
         cargo.arg("--").args(flags).current_dir(sources);
         cargo.env("CARGO_TARGET_DIR", target).env_remove("RUSTFLAGS");
@@ -41,7 +42,7 @@ pub fn build_programs(sources: &Path, target: &Path) -> Result<Programs, String>
     })
 }
 
-/// The compiler's description of itself.
+/// The properties of the compiler.
 struct Compiler {
     host: String,
     commit: String,
@@ -54,7 +55,9 @@ impl Compiler {
         let about = capture_output(Command::new(&rustc).arg("-vV").current_dir(project_root()))?;
         let field = |name: &str| {
             let found = about.lines().find_map(|line| line.strip_prefix(name));
-            found.map(|value| value.trim().to_owned()).ok_or(format!("rustc says no {name}"))
+            found
+                .map(|value| value.trim().to_owned())
+                .ok_or(format!("rustc does not report {name}"))
         };
         let mut sysroot = Command::new(&rustc);
         sysroot.args(["--print", "sysroot"]).current_dir(project_root());
@@ -65,14 +68,14 @@ impl Compiler {
         })
     }
 
-    /// The flags that replace paths of this machine in panic messages.
+    /// Returns the flags that replace paths of this machine in panic messages.
     fn remapped_paths(&self, sources: &Path, target: &Path) -> String {
         // If several match, the last one applies.
         let pairs = [
             (cargo_home(), "cargo".to_owned()),
             (sources.to_owned(), "alberti".to_owned()),
             (target.to_owned(), "target".to_owned()),
-            // The path on machines where the sources of the standard library are not installed.
+            // Use the path that appears on machines without the standard library's sources.
             (
                 PathBuf::from(&self.sysroot).join("lib/rustlib/src/rust"),
                 format!("/rustc/{}", self.commit),
@@ -83,7 +86,7 @@ impl Compiler {
     }
 }
 
-/// Cargo's folder of downloaded files.
+/// Returns Cargo's folder for downloaded files.
 pub fn cargo_home() -> PathBuf {
     std::env::var_os("CARGO_HOME").map(PathBuf::from).unwrap_or_else(|| {
         PathBuf::from(std::env::var_os("HOME").unwrap_or_default()).join(".cargo")
@@ -112,7 +115,7 @@ pub fn copy_sources(to: &Path) -> Outcome {
     Ok(())
 }
 
-/// Copies a symbolic link itself.
+/// Copies a symbolic link without following it.
 fn copy_link(from: &Path, to: &Path) -> Outcome {
     run_command(Command::new("cp").args(["--no-dereference"]).arg(from).arg(to))
 }

@@ -1,5 +1,5 @@
-//! The contents of a package, below `usr`: the program, its pages, completions, thumbnails,
-//! licenses.
+//! The contents of a package, below `usr`: the program, its manual pages, shell completions,
+//! thumbnailer and licenses.
 
 use crate::program::run_command;
 use crate::workspace::{create_folder, list_files, project_root};
@@ -9,7 +9,7 @@ use std::process::Command;
 
 /// A file in a package.
 pub struct PackagedFile {
-    /// Its path below the prefix, which is `usr` in packages of distributions.
+    /// Its path below the prefix, which is `usr` in distribution packages.
     pub path: String,
     /// Its bytes.
     pub bytes: Vec<u8>,
@@ -23,17 +23,17 @@ impl PackagedFile {
     }
 }
 
-/// Completion scripts: the shell, and the path where Debian's shells look for them.
+/// The shells with completion scripts, each with the path where Debian's shells look for them.
 const COMPLETIONS: [(&str, &str); 3] = [
     ("bash", "share/bash-completion/completions/alberti"),
     ("zsh", "share/zsh/vendor-completions/_alberti"),
     ("fish", "share/fish/vendor_completions.d/alberti.fish"),
 ];
 
-/// The folder for the information that Debian wants about a package.
+/// The folder for the documents that Debian requires in a package.
 const DOCUMENTS: &str = "share/doc/alberti";
 
-/// All files in a package, most of which the program itself writes.
+/// Returns all files in a package, most of which the program itself writes.
 pub fn packaged_files(program: &Path, notices: &str) -> Result<Vec<PackagedFile>, String> {
     let read = |path: &Path| fs::read(path).map_err(|error| format!("{}: {error}", path.display()));
     let mut files = vec![PackagedFile {
@@ -66,7 +66,7 @@ pub fn packaged_files(program: &Path, notices: &str) -> Result<Vec<PackagedFile>
     Ok(files)
 }
 
-/// The manual pages, compressed without time and name.
+/// Returns the manual pages, compressed without a timestamp and a file name.
 fn manual_pages(program: &Path) -> Result<Vec<PackagedFile>, String> {
     let folder = crate::workspace::target_folder().join("man1");
     let _ = fs::remove_dir_all(&folder);
@@ -81,18 +81,18 @@ fn manual_pages(program: &Path) -> Result<Vec<PackagedFile>, String> {
     list_files(&folder, "gz")?.into_iter().map(page).collect()
 }
 
-/// The program's output.
+/// Runs the program and returns its output.
 fn print(program: &Path, arguments: &[&str]) -> Result<Vec<u8>, String> {
     crate::program::capture_output(Command::new(program).args(arguments)).map(String::into_bytes)
 }
 
-/// Debian's license file, in its machine-readable format.
+/// Returns Debian's license file, in its machine-readable format.
 fn copyright() -> Result<String, String> {
     let license = crate::workspace::read_text(&project_root().join("LICENSE-MIT"))?;
     let holder = license
         .lines()
         .find_map(|line| line.strip_prefix("Copyright (c) "))
-        .ok_or("LICENSE-MIT names nobody")?;
+        .ok_or("LICENSE-MIT names no copyright holder")?;
     let text: String = license
         .lines()
         .skip_while(|line| !line.starts_with("Permission"))

@@ -1,12 +1,12 @@
-//! The crates as the registry would receive them.
+//! Packs the crates as the registry would receive them.
 //!
 //! ```text
 //!  sources ─► copy with `publish = true` ─► cargo package --workspace ─► target/package-sources
 //! ```
-//! Cargo packs interdependent crates only if they may be published, which nobody should do by
-//! mistake, so the copy allows it. Without a build the step takes a second and finds gaps in
-//! manifests. With a build, each crate is built only from its archive, which also finds gaps in the
-//! archives.
+//! Cargo packs interdependent crates only if they may be published. The manifests forbid that, to
+//! prevent accidents, so only the copy allows it. Without building, the step takes a second and
+//! finds gaps in manifests. With building, each crate is built from its archive, which also finds
+//! gaps in the archives.
 
 use super::build::{cargo_home, copy_sources};
 use super::write_file;
@@ -15,10 +15,10 @@ use crate::program::{cargo_command, run_command};
 use crate::workspace::{list_files, read_text, target_folder};
 use std::fs;
 
-/// Members of the workspace that are not published.
+/// Workspace members that are not published.
 const UNPUBLISHED: [&str; 4] = ["alberti-tests", "book-doctests", "scene-models", "xtask"];
 
-/// Packs all crates; with `is_built` each is also built from its archive.
+/// Packs all crates. If `is_built` is true, each crate is also built from its archive.
 pub fn package_crates(is_built: bool) -> Outcome {
     let sources = target_folder().join("package-sources");
     let _ = fs::remove_dir_all(&sources);
@@ -50,10 +50,10 @@ pub fn package_crates(is_built: bool) -> Outcome {
     Ok(())
 }
 
-/// Removes the crates that an earlier run has unpacked: Cargo takes a crate of the same version for
-/// the same crate, and would build a new crate against an old one.
+/// Removes the crates that an earlier run unpacked. Cargo considers crates with the same version
+/// identical, so it would build a new crate against an old one.
 ///
-/// They are in the folder for crates from a registry without a host.
+/// They are in Cargo's folder for crates from a registry without a host.
 fn forget_unpacked_crates() -> Outcome {
     let registries = fs::read_dir(cargo_home().join("registry/src")).into_iter().flatten();
     let has_no_host = |entry: &fs::DirEntry| entry.file_name().to_string_lossy().starts_with('-');

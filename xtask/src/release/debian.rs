@@ -1,10 +1,11 @@
-//! The package in an empty Debian: installed, used like a user would, and removed without a trace.
+//! Tries the package in an empty Debian system: installs it, uses it as a user would, and removes
+//! it without a trace.
 //!
 //! ```text
 //!  debootstrap, once ─► copy ─► dpkg --install ─► picture, drawing, completion, thumbnail, manual
 //!                         └──── list of files ──── the same again ◄── dpkg --purge
 //! ```
-//! It needs root and `debootstrap`; without them it is reported as skipped.
+//! This needs root and `debootstrap`; without them, it is reported as skipped.
 
 use crate::Outcome;
 use crate::program::{Program, capture_output, run_command};
@@ -15,20 +16,21 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The oldest Debian that is supported.
+/// The oldest supported Debian release.
 const SUITE: &str = "bookworm";
 
-/// The files to copy into the trial, and their folder there.
+/// The folder of the scenes in the trial system.
 const SCENES: &str = "srv/scenes";
 
-/// The scenes that are rendered and drawn, each with the name of its output.
+/// The scenes to render, each with the name of its output.
 const OUTPUTS: [(&str, &str); 2] =
     [("teapot.ron", "picture.png"), ("two_point.ron", "drawing.svg")];
 
-/// The model whose thumbnail is made.
+/// The model for the thumbnail.
 const MODEL: &str = "models/house.glb";
 
-/// Installs, uses and removes a package; pictures must equal the ones made outside.
+/// Installs, uses and removes a package. Pictures must be identical to the ones rendered outside
+/// the trial system.
 pub fn try_package(deb: &Path, program: &Program) -> Outcome {
     let Some(trial) = new_debian()? else { return Ok(()) };
     let before = trial.files()?;
@@ -43,26 +45,27 @@ pub fn try_package(deb: &Path, program: &Program) -> Outcome {
     let after = trial.files()?;
     let left: Vec<&String> = after.symmetric_difference(&before).collect();
     if !left.is_empty() {
-        return Err(format!("removal leaves, or takes with it:\n  {left:?}"));
+        return Err(format!("files left behind or wrongly removed by the package:\n  {left:?}"));
     }
     println!(
-        "{}: installed in an empty Debian, used there, removed without a trace",
+        "{}: installed, used and removed without a trace in an empty Debian system",
         deb.file_name().unwrap_or_default().to_string_lossy()
     );
     fs::remove_dir_all(&trial.root).map_err(|error| error.to_string())
 }
 
-/// A Debian in a folder.
+/// A Debian system in a folder.
 struct Trial {
     root: PathBuf,
 }
 
-/// A copy of an empty Debian, which is made once; `None` if that is impossible.
+/// Returns a copy of an empty Debian system, which is created only once, or `None` if it cannot be
+/// created.
 fn new_debian() -> Result<Option<Trial>, String> {
     let is_root = capture_output(Command::new("id").arg("-u")).is_ok_and(|id| id.trim() == "0");
     let has_tool = Command::new("debootstrap").arg("--version").output().is_ok();
     if !is_root || !has_tool {
-        report_skip("package", "installing it takes root and debootstrap");
+        report_skip("package", "installing it requires root and debootstrap");
         return Ok(None);
     }
     let folder = target_folder().join("debian");
@@ -74,7 +77,7 @@ fn new_debian() -> Result<Option<Trial>, String> {
         debootstrap.args(["--variant=minbase", SUITE]).arg(&making);
         if let Err(error) = run_command(&mut debootstrap) {
             let reason = error.lines().last().unwrap_or_default().to_owned();
-            report_skip("package", &format!("there is no Debian to be had ({reason})"));
+            report_skip("package", &format!("debootstrap failed ({reason})"));
             return Ok(None);
         }
         fs::rename(&making, &empty).map_err(|error| error.to_string())?;
@@ -89,14 +92,14 @@ fn new_debian() -> Result<Option<Trial>, String> {
 }
 
 impl Trial {
-    /// Runs a line of shell inside.
+    /// Runs a shell command in the trial system.
     fn run(&self, line: &str) -> Result<String, String> {
         let mut chroot = Command::new("chroot");
         chroot.env_clear().env("PATH", "/usr/sbin:/usr/bin:/sbin:/bin").env("HOME", "/");
         capture_output(chroot.arg(&self.root).args(["bash", "-c", line]))
     }
 
-    /// All files, except for dpkg's records and the files that the trial brings along and makes.
+    /// Lists all files, except for dpkg's records and the files that the trial itself adds.
     fn files(&self) -> Result<BTreeSet<String>, String> {
         let list = self.run("find / -xdev -printf '%p %y %m %l\\n'")?;
         let ours = ["/srv/", "/var/lib/dpkg/", "/var/log/", "/var/cache/ldconfig/"];
@@ -104,7 +107,7 @@ impl Trial {
         Ok(list.lines().filter(|line| !is_ours(line)).map(str::to_owned).collect())
     }
 
-    /// A picture and a line drawing have the same bytes as outside.
+    /// Checks that a picture and a line drawing have the same bytes as outside the trial system.
     fn compare_pictures(&self, program: &Program) -> Outcome {
         let outside = target_folder().join("deb");
         create_folder(&outside)?;
@@ -114,7 +117,7 @@ impl Trial {
             program.render(&project_root().join("scenes").join(scene), &expected, &[])?;
             let read = |path: &Path| fs::read(path).map_err(|error| error.to_string());
             if read(&expected)? != read(&self.root.join("srv").join(name))? {
-                return Err(format!("{name} is another one in an empty Debian"));
+                return Err(format!("{name} differs in an empty Debian system"));
             }
         }
         Ok(())
@@ -124,31 +127,31 @@ impl Trial {
     fn make_thumbnail(&self) -> Outcome {
         let entry = read_text(&self.root.join("usr/share/thumbnailers/alberti.thumbnailer"))?;
         let line = entry.lines().find_map(|line| line.strip_prefix("Exec="));
-        let line = line.ok_or("the thumbnailer entry has no line Exec")?;
+        let line = line.ok_or("the thumbnailer entry has no Exec line")?;
         let input = format!("/{SCENES}/{MODEL}");
         let line =
             line.replace("%i", &input).replace("%o", "/srv/thumbnail.png").replace("%s", "128");
         self.run(&line)?;
         let picture = fs::read(self.root.join("srv/thumbnail.png")).map_err(|e| e.to_string())?;
-        // The width in the header of a PNG.
+        // These bytes of a PNG header are the width.
         if picture.get(16..20) == Some(&128_u32.to_be_bytes()) {
             return Ok(());
         }
-        Err(format!("`{line}` made no thumbnail of 128 pixels"))
+        Err(format!("`{line}` did not write a 128-pixel thumbnail"))
     }
 
-    /// Asks bash to complete `alberti ren`.
+    /// Checks that bash completes `alberti ren`, and that zsh recognizes its completion file.
     fn complete(&self) -> Outcome {
         let words = self.run(
             "source /usr/share/bash-completion/completions/alberti; COMP_WORDS=(alberti ren); \
              COMP_CWORD=1; _alberti alberti ren alberti; echo ${COMPREPLY[@]}",
         )?;
         if words.trim() != "render" {
-            return Err(format!("bash completes `alberti ren` by `{}`", words.trim()));
+            return Err(format!("bash completes `alberti ren` as `{}`", words.trim()));
         }
         let zsh = self.root.join("usr/share/zsh/vendor-completions/_alberti");
         if !read_text(&zsh)?.starts_with("#compdef alberti") {
-            return Err("zsh does not see which program its completions are for".into());
+            return Err("the zsh completions do not begin with `#compdef alberti`".into());
         }
         Ok(())
     }

@@ -1,10 +1,10 @@
-//! The bill of materials: CycloneDX 1.5 as JSON, without times and random numbers.
+//! The software bill of materials: CycloneDX 1.5 as JSON, without timestamps and random numbers.
 
 use super::Release;
 use super::third_party::Dependency;
 use serde_json::{Value, json};
 
-/// The parts that the program is built from, for tools that look for known vulnerabilities.
+/// Lists the crates that the program is built from, for tools that look for known vulnerabilities.
 pub fn bill_of_materials(release: &Release, dependencies: &[Dependency]) -> String {
     let (program, others): (Vec<&Dependency>, Vec<&Dependency>) =
         dependencies.iter().partition(|dependency| dependency.name == "alberti");
@@ -57,7 +57,7 @@ mod tests {
     use std::path::PathBuf;
 
     #[test]
-    fn the_program_is_what_the_bill_is_of_and_the_rest_its_components() {
+    fn the_bill_is_for_the_program_and_lists_the_rest_as_components() {
         let dependency = |name: &str, version: &str, checksum: Option<&str>| Dependency {
             name: name.into(),
             version: version.into(),

@@ -1,4 +1,4 @@
-//! The third-party code that the program is built with, and the licenses that must go with it.
+//! The third-party code in the program, and the licenses that must accompany it.
 
 use crate::program::{capture_output, cargo_command};
 use crate::workspace::{project_root, read_text};
@@ -16,21 +16,21 @@ pub struct Dependency {
     pub version: String,
     /// Its license, as an SPDX expression.
     pub license: String,
-    /// The SHA-256 of its archive, from the lock file; crates of the project have none.
+    /// The SHA-256 of its archive, from the lock file; `None` for crates of the project.
     pub checksum: Option<String>,
     /// The location of its sources.
     pub folder: PathBuf,
 }
 
 impl Dependency {
-    /// Whether it belongs to the project itself.
+    /// Returns whether it belongs to the project itself.
     pub fn is_ours(&self) -> bool {
         self.checksum.is_none()
     }
 }
 
-/// All crates that are linked into the program on this machine, sorted, without procedural macros
-/// and build dependencies.
+/// Returns all crates that are linked into the program on this machine, sorted, without procedural
+/// macros and build dependencies.
 pub fn shipped_dependencies() -> Result<Vec<Dependency>, String> {
     let mut tree = cargo_command(&["tree", "--locked", "--package", "alberti", "--prefix", "none"]);
     tree.args(["--edges", "normal,no-proc-macro", "--format", "{p}"]);
@@ -62,13 +62,13 @@ pub fn shipped_dependencies() -> Result<Vec<Dependency>, String> {
     Ok(found)
 }
 
-/// The name and the version in a line of `cargo tree`: `png v0.18.1`.
+/// Parses the name and the version in a line of `cargo tree`, such as `png v0.18.1`.
 fn name_and_version(line: &str) -> Option<(String, String)> {
     let mut words = line.split_whitespace();
     Some((words.next()?.to_owned(), words.next()?.strip_prefix('v')?.to_owned()))
 }
 
-/// The checksums in a lock file, by name and version.
+/// Returns the checksums in a lock file, by name and version.
 fn checksums(lock: &str) -> BTreeMap<(String, String), String> {
     let field = |package: &str, name: &str| {
         let line = package.lines().find_map(|line| line.strip_prefix(name))?;
@@ -82,10 +82,10 @@ fn checksums(lock: &str) -> BTreeMap<(String, String), String> {
         .collect()
 }
 
-/// The licenses of all third-party crates and of the standard library, with their texts.
+/// Returns a document with the licenses of all third-party crates and of the standard library.
 ///
 /// # Errors
-/// If a crate comes without its text, and may not be used under the Apache License either.
+/// Fails if a crate includes no license text and cannot be used under the Apache License.
 pub fn license_texts(dependencies: &[Dependency]) -> Result<String, String> {
     let mut users_by_text: BTreeMap<String, Vec<String>> = BTreeMap::new();
     let apache = read_text(&project_root().join("LICENSE-APACHE"))?;
@@ -95,9 +95,11 @@ pub fn license_texts(dependencies: &[Dependency]) -> Result<String, String> {
         list += &format!("  {name} {version}: {license}\n");
         let mut texts = texts_in(folder)?;
         if texts.is_empty() {
-            // Under that license no copyright line of the crate itself is needed.
+            // The Apache License does not require a copyright line from the crate itself.
             if !license.contains("Apache-2.0") {
-                return Err(format!("{name} {version} has no text of its license `{license}`"));
+                return Err(format!(
+                    "{name} {version} does not include the text of its license `{license}`"
+                ));
             }
             texts.push(apache.clone());
         }
@@ -107,12 +109,12 @@ pub fn license_texts(dependencies: &[Dependency]) -> Result<String, String> {
     }
     users_by_text.entry(apache).or_default().push("the Rust standard library".to_owned());
     let mut page = format!(
-        "The program alberti is licensed as MIT OR Apache-2.0. It contains the following, under the\n\
-         licenses named, whose texts follow.\n\n{list}  \
+        "The program alberti is licensed as MIT OR Apache-2.0. It contains the following\n\
+         software under the listed licenses, whose texts follow.\n\n{list}  \
          the Rust standard library: MIT OR Apache-2.0\n\n\
-         The program for download, which needs no C library, contains that of GNU (LGPL-2.1-or-later)\n\
-         and libgcc (GPL-3.0-or-later WITH GCC-exception-3.1); the sources of alberti are enough to link it\n\
-         with other versions of them.\n"
+         The program for download, which needs no C library, also contains the GNU C Library\n\
+         (LGPL-2.1-or-later) and libgcc (GPL-3.0-or-later WITH GCC-exception-3.1). The sources of\n\
+         alberti are sufficient to link it with other versions of them.\n"
     );
     let mut sections: Vec<(Vec<String>, String)> =
         users_by_text.into_iter().map(|(text, users)| (users, text)).collect();
@@ -123,7 +125,7 @@ pub fn license_texts(dependencies: &[Dependency]) -> Result<String, String> {
     Ok(page)
 }
 
-/// The texts of licenses and notices in a folder, with plain line endings.
+/// Returns the texts of the licenses and notices in a folder, with LF line endings.
 fn texts_in(folder: &Path) -> Result<Vec<String>, String> {
     let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let is_license = |path: &PathBuf| {
@@ -142,7 +144,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_of_the_tree_and_of_the_lock_file_are_read() {
+    fn lines_of_the_tree_and_the_lock_file_are_parsed() {
         let key = ("png".to_owned(), "0.18.1".to_owned());
         assert_eq!(name_and_version("png v0.18.1 (*)"), Some(key.clone()));
         let lock = "version = 4\n\n[[package]]\nname = \"png\"\nversion = \"0.18.1\"\n\
