@@ -1,10 +1,10 @@
-//! `cargo xtask soak`: millions of random calls of every builder and clip function, in release
-//! mode.
+//! `cargo xtask soak`: calls every builder and clip function millions of times with random input,
+//! in release mode.
 //!
-//! The calls and their inputs are in `tests/soak`. Nothing may panic, and finite input must give
-//! finite output. `cargo xtask soak --scenes MINUTES` renders random scenes with all features of
-//! the language instead: nothing may panic, no pass may contain NaN, and one thread must give the
-//! same bytes as two.
+//! The calls and their inputs are in `tests/soak`. No call may panic, and finite input must give
+//! finite output. `cargo xtask soak --scenes MINUTES` instead renders random scenes that use all
+//! features of scene files: nothing may panic, no pass may contain NaN, and one thread must give
+//! the same bytes as two.
 
 use crate::Outcome;
 use crate::program::{cargo_command, run_visibly};

@@ -1,5 +1,5 @@
-//! Programs as outside users write them: built and run against the packed crates, as if these came
-//! from the registry.
+//! Builds and runs programs like those of outside users against the packed crates, as if the crates
+//! came from the registry.
 //!
 //! ```text
 //!  crates ─► cargo package ─► *.crate ─► unpacked ─┐
@@ -14,8 +14,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// Packs the crates, builds the programs and runs them. With `--time` the peers are timed, in
-/// release builds.
+/// Packs the crates, builds the programs and runs them. With `--time`, they are release builds, and
+/// `peers` is timed.
 pub fn run_strangers(flags: &[String]) -> Outcome {
     let is_timed = flags.iter().any(|flag| flag == "--time");
     let folder = target_folder().join("strangers");
@@ -47,7 +47,7 @@ pub fn run_strangers(flags: &[String]) -> Outcome {
     Ok(())
 }
 
-/// Copies the programs, and points the patches of their workspace to the unpacked crates.
+/// Copies the programs and points the patches in their workspace to the unpacked crates.
 fn copy_programs(from: &Path, to: &Path) -> Outcome {
     for name in program_names(from)? {
         let sources = to.join(&name).join("src");
@@ -71,7 +71,7 @@ fn copy_programs(from: &Path, to: &Path) -> Outcome {
     fs::write(to.join("Cargo.toml"), manifest.join("\n")).map_err(|error| error.to_string())
 }
 
-/// The program folders, by name.
+/// Returns the names of the program folders.
 fn program_names(folder: &Path) -> Result<Vec<String>, String> {
     let entries = fs::read_dir(folder).map_err(|error| error.to_string())?;
     let is_program = |entry: &fs::DirEntry| entry.path().join("src/main.rs").exists();

@@ -1,14 +1,14 @@
-//! `cargo xtask test`: the tests, for a newcomer and for CI alike.
+//! `cargo xtask test`: runs the tests, both locally and in CI.
 //!
 //! ```text
-//! test                      the first tier: what guards a change
-//! test --all                the second tier as well: what guards a release
-//! test --second             only the second tier; with --minutes N, steps begin in that time
-//! test STEP…                some steps of either tier
+//! test                      the first tier, for every change
+//! test --all                the first and the second tier, before a release
+//! test --second             only the second tier; with --minutes N, no step starts after that time
+//! test STEP…                the named steps
 //! ```
 //! One Cargo call builds the test programs, which then run directly (`artifacts.rs`). Each step is
-//! a separate process, so its cost and its skips are known (`step.rs`). Steps that use one core run
-//! two at a time (`schedule.rs`). The summary lists costs and skips (`summary.rs`).
+//! a separate process, so that its cost and its skips can be measured (`step.rs`). Steps that use
+//! one core run in pairs (`schedule.rs`). The summary lists costs and skips (`summary.rs`).
 
 mod artifacts;
 mod cpu_time;
@@ -26,20 +26,20 @@ use schedule::Limits;
 use std::time::Duration;
 use step::{Step, Tier};
 
-/// The argument of the process that runs one step.
+/// The argument that makes a process run a single step.
 const RUN_ONE: &str = "--run-one";
 
-/// The command line.
+/// The parsed command line.
 #[derive(Default)]
 struct Options {
     tiers: Vec<Tier>,
     names: Vec<String>,
     keep_going: bool,
-    /// The time within which steps may begin.
+    /// The time within which steps may start.
     minutes: Option<u64>,
 }
 
-/// Runs the chosen steps; stops at the first failure unless `--keep-going` is given.
+/// Runs the selected steps. Stops at the first failure unless `--keep-going` is given.
 pub fn run_tests(arguments: &[String]) -> Outcome {
     let steps = steps::all_steps()?;
     match arguments {
@@ -93,7 +93,7 @@ fn find_step<'a>(steps: &'a [Step], name: &str) -> Result<&'a Step, String> {
     found.ok_or_else(|| format!("no such step: `{name}`; the steps are:\n{}", list_steps(steps)))
 }
 
-/// A line per step: its name and what it tests.
+/// Returns a line for each step, with its name and what it tests.
 fn list_steps(steps: &[Step]) -> String {
     let list = |tier| {
         let those = steps.iter().filter(move |step| step.tier == tier);
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn every_step_has_its_own_name_and_says_what_it_is_for() {
+    fn every_step_has_a_unique_name_and_a_description() {
         let steps = steps::all_steps().unwrap();
         for (i, step) in steps.iter().enumerate() {
             assert!(!step.about.is_empty(), "{}", step.name);
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn tiers_are_chosen_by_flags() {
+    fn flags_select_tiers() {
         assert_eq!(options("").unwrap().tiers, [Tier::First]);
         assert_eq!(options("--all").unwrap().tiers, [Tier::First, Tier::Second]);
         let second = options("--second --minutes 20 --keep-going").unwrap();

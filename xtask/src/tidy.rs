@@ -1,6 +1,6 @@
-//! `cargo xtask tidy`: project rules that no lint covers.
+//! `cargo xtask tidy`: checks project rules that no lint covers.
 //!
-//! Each rule is a function from sources to violations; each file below holds the rules of one
+//! Each rule is a function from sources to violations. Each module contains the rules for one
 //! subject.
 
 mod boundaries;
@@ -22,23 +22,23 @@ use crate::Outcome;
 pub use boundaries::{LAYERS, NO_STD};
 pub use source::{Source, rust_files};
 
-/// A broken rule: its location, and what to do about it.
+/// A rule violation, with its location and what to do about it.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Violation {
-    /// The file from the root, with a line number where there is one.
+    /// The path of the file, relative to the workspace root, with the line number if there is one.
     pub location: String,
     /// The rule, as an instruction.
     pub message: String,
 }
 
 impl Violation {
-    /// A violation at `FILE:LINE` or in a whole file.
+    /// Creates a violation at `FILE:LINE` or in a whole file.
     pub fn new(location: impl Into<String>, message: impl Into<String>) -> Self {
         Self { location: location.into(), message: message.into() }
     }
 }
 
-/// The rules for a single Rust file.
+/// The rules that apply to a single Rust file.
 const FILE_RULES: &[fn(&Source) -> Vec<Violation>] = &[
     size::file_length,
     size::function_length,
@@ -81,11 +81,11 @@ pub fn run_tidy(arguments: &[String]) -> Outcome {
     violations.extend(documents::citation_version()?);
     violations.extend(commits::large_commits_without_reason());
     if violations.is_empty() {
-        println!("{} files of Rust are tidy", sources.len());
+        println!("{} Rust files are tidy", sources.len());
         return Ok(());
     }
     let lines = violations
         .iter()
         .map(|violation| format!("\n  {}: {}", violation.location, violation.message));
-    Err(format!("{} rules are broken{}", violations.len(), lines.collect::<String>()))
+    Err(format!("{} rule violations{}", violations.len(), lines.collect::<String>()))
 }

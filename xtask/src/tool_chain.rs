@@ -1,11 +1,11 @@
-//! A compiler with the sources of the standard library, for targets whose compiled one is not
+//! A compiler with the sources of the standard library, for targets whose compiled library is not
 //! installed.
 
 use crate::program::{capture_output, cargo_command};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A compiler, and the Cargo that goes with it.
+/// A compiler and its Cargo.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ToolChain {
     pub cargo: PathBuf,
@@ -15,22 +15,23 @@ pub struct ToolChain {
 }
 
 impl ToolChain {
-    /// The tool chain of this workspace.
+    /// Returns the tool chain of this workspace.
     ///
     /// # Errors
-    /// Its compiler does not run.
+    /// Fails if its compiler does not run.
     pub fn own() -> Result<Self, String> {
         let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
         Self::at(cargo_command(&[]).get_program().into(), rustc.into())
     }
 
-    /// Debian's tool chain.
+    /// Returns Debian's tool chain.
     ///
     /// # Errors
-    /// It is not installed.
+    /// Fails if it is not installed.
     pub fn debian() -> Result<Self, String> {
         Self::at("/usr/bin/cargo".into(), "/usr/bin/rustc".into()).map_err(|_| {
-            "there is no second compiler: on Debian `apt-get install cargo-web rustc-web`".into()
+            "there is no second compiler: on Debian, run `apt-get install cargo-web rustc-web`"
+                .into()
         })
     }
 
@@ -39,10 +40,11 @@ impl ToolChain {
         Ok(Self { cargo, rustc, root: root.trim().into() })
     }
 
-    /// The workspace's if it has the sources of the standard library, otherwise Debian's.
+    /// Returns the workspace's tool chain if it has the sources of the standard library, otherwise
+    /// Debian's.
     ///
     /// # Errors
-    /// Neither has them; the message says how to get them.
+    /// Fails if neither has them. The message explains how to install them.
     pub fn with_sources() -> Result<Self, String> {
         let candidates = [Self::own(), Self::debian()].into_iter().flatten();
         let mut with = candidates
@@ -50,17 +52,17 @@ impl ToolChain {
         with.next().ok_or_else(|| MISSING.to_owned())
     }
 
-    /// The version of the compiler, such as `1.95.0`.
+    /// Returns the version of the compiler, such as `1.95.0`.
     ///
     /// # Errors
-    /// It does not run.
+    /// Fails if the compiler does not run.
     pub fn version(&self) -> Result<String, String> {
         let text = capture_output(Command::new(&self.rustc).arg("--version"))?;
         text.split(' ').nth(1).map(str::to_owned).ok_or(format!("`{text}` is not a version"))
     }
 
-    /// A Cargo call in a folder, with this compiler and these compiler flags. Its results go to
-    /// another folder.
+    /// Returns a command that runs Cargo in the folder `package`, with this compiler and these
+    /// compiler flags. The results go to the folder `out`.
     pub fn cargo_build(&self, package: &Path, flags: &[String], out: &Path) -> Command {
         let mut build = Command::new(&self.cargo);
         build.current_dir(package).args(["build", "--quiet", "--locked", "--release"]);
@@ -70,6 +72,6 @@ impl ToolChain {
     }
 }
 
-const MISSING: &str = "the sources of Rust's standard library are missing, which are compiled for \
-    other targets: run `rustup component add rust-src`, \
+const MISSING: &str = "the sources of Rust's standard library, needed to compile for other \
+    targets, are missing: run `rustup component add rust-src`, \
     or on Debian `apt-get install cargo-web rustc-web rust-web-src`";

@@ -1,14 +1,15 @@
-//! `cargo xtask web`: the explorer as static files for any host, and as one file for a lesson.
+//! `cargo xtask web`: builds the explorer as static files for any web host, and as a single file
+//! for use in class.
 //!
 //! ```text
 //! web [--out DIR] [--skip-without-tools]
-//!   --out DIR             where to write it; target/web if not said
-//!   --skip-without-tools  say so and succeed where WebAssembly cannot be built
+//!   --out DIR             the output folder; default target/web
+//!   --skip-without-tools  report a skip and succeed if WebAssembly cannot be built
 //! ```
 //!
-//! The folder holds the page from `crates/explorer/page`, the engine (`web.js`, `web_bg.wasm`), its
-//! lessons' models, and `alberti.html`, which is all of that in one file. Sizes above the limits
-//! are a failure: everybody who opens the page waits for them.
+//! The folder contains the page from `crates/explorer/page`, the engine (`web.js`, `web_bg.wasm`),
+//! the models of the lessons, and `alberti.html`, which combines all of that in one file. Files
+//! above their size limits are an error, because everyone who opens the page waits for them.
 
 mod module;
 mod node;
@@ -42,16 +43,16 @@ pub fn run_web(arguments: &[String]) -> Outcome {
         return Ok(());
     }
     build_site(&out)?;
-    println!("the explorer is in {}; alberti.html is all of it in one file", out.display());
+    println!("the explorer is in {}; alberti.html contains all of it in one file", out.display());
     sizes::check_sizes(&out)
 }
 
-/// The default output folder.
+/// Returns the default output folder.
 pub fn site_folder() -> PathBuf {
     target_folder().join("web")
 }
 
-/// The reason why WebAssembly cannot be built here, if it cannot.
+/// Returns the reason why WebAssembly cannot be built on this machine, if there is one.
 pub fn missing_tools() -> Option<String> {
     let tool_chain = tool_chain::WebToolChain::find().err();
     tool_chain.or_else(node::missing_node)
@@ -72,7 +73,7 @@ pub fn build_site(out: &Path) -> Outcome {
     node::write_single_file(out)
 }
 
-/// The page's files, by name.
+/// Returns the files of the page, by name.
 fn page_files() -> Result<Vec<PathBuf>, String> {
     let folder = project_root().join("crates/explorer/page");
     let entries =
@@ -82,7 +83,7 @@ fn page_files() -> Result<Vec<PathBuf>, String> {
     Ok(files.into_iter().collect())
 }
 
-/// The lessons, as the engine of a page lists them.
+/// Returns the lessons that the engine of a page lists.
 pub fn list_lessons(site: &Path) -> Result<Vec<Value>, String> {
     let request = Request { name: "lessons.json".into(), query: "what=lessons".into() };
     let answers = Answers::ask(site, &[], &[request])?;
@@ -94,7 +95,7 @@ pub fn list_lessons(site: &Path) -> Result<Vec<Value>, String> {
     }
 }
 
-/// The models in all lessons.
+/// Returns the models of all lessons.
 fn lesson_models(site: &Path) -> Result<BTreeSet<String>, String> {
     let lessons = list_lessons(site)?;
     let models = lessons.iter().filter_map(|lesson| lesson["models"].as_array()).flatten();
@@ -112,7 +113,7 @@ mod tests {
     use crate::workspace::read_text;
     use std::collections::BTreeMap;
 
-    /// Versions of each package of a lock file.
+    /// Returns the versions of each package in a lock file.
     fn locked(path: &str) -> BTreeMap<String, BTreeSet<String>> {
         let text = read_text(&project_root().join(path)).unwrap();
         let quoted = |line: &str| line.split('"').nth(1).map(str::to_owned);
@@ -130,11 +131,11 @@ mod tests {
         versions
     }
 
-    /// They belong to build scripts of other rasterizers, which `tests/peers` compares.
+    /// Packages for build scripts of other rasterizers, which `tests/peers` compares.
     const NOT_OF_THE_PROGRAM: [&str; 1] = ["semver"];
 
     #[test]
-    fn the_module_is_built_of_what_the_program_is_built_of() {
+    fn the_module_uses_the_same_versions_as_the_program() {
         let program = locked("Cargo.lock");
         let shared = locked("crates/web/Cargo.lock").into_iter();
         for (name, versions) in shared.filter(|it| !NOT_OF_THE_PROGRAM.contains(&it.0.as_str())) {

@@ -1,15 +1,15 @@
-//! Files in the workspace: its root, its scenes, and helpers whose error messages name the file.
+//! Files in the workspace: the root, the scenes, and helpers whose error messages name the file.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The folder of the workspace's `Cargo.toml`, known at compile time, so that commands work from
-/// any folder.
+/// Returns the folder of the workspace's `Cargo.toml`. It is known at compile time, so commands
+/// work from any folder.
 pub fn project_root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
 }
 
-/// Cargo's target folder when it runs at the root.
+/// Returns Cargo's target folder when it runs in the workspace root.
 pub fn target_folder() -> PathBuf {
     project_root().join(std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into()))
 }
@@ -23,12 +23,12 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The comment at the beginning of the file, which describes the picture.
+    /// Returns the comment at the beginning of the file, which describes the picture.
     pub fn scene_caption(&self) -> Result<String, String> {
         Ok(caption(&read_text(&self.path)?))
     }
 
-    /// The path of the golden image.
+    /// Returns the path of the golden image.
     pub fn golden_path(&self) -> PathBuf {
         project_root().join("tests/goldens").join(format!("{}.png", self.name))
     }
@@ -39,7 +39,7 @@ fn caption(source: &str) -> String {
     lines.map(str::trim).collect::<Vec<_>>().join(" ")
 }
 
-/// All of `scenes/*.ron`, by name.
+/// Returns all scenes in `scenes/*.ron`, sorted by name.
 pub fn list_scenes() -> Result<Vec<Scene>, String> {
     let mut scenes: Vec<Scene> =
         list_files(&project_root().join("scenes"), "ron")?.into_iter().filter_map(scene).collect();
@@ -52,7 +52,7 @@ fn scene(path: PathBuf) -> Option<Scene> {
     Some(Scene { name, path })
 }
 
-/// The files directly in `folder` whose names end in `.extension`, sorted.
+/// Returns the files directly in `folder` whose names end in `.extension`, sorted.
 pub fn list_files(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, String> {
     let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let mut paths: Vec<PathBuf> = entries
@@ -63,7 +63,7 @@ pub fn list_files(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, String
     Ok(paths)
 }
 
-/// The text of a file; an error names it.
+/// Reads the text of a file. The error message names the file.
 pub fn read_text(path: &Path) -> Result<String, String> {
     fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
 }
@@ -73,7 +73,7 @@ pub fn create_folder(path: &Path) -> Result<(), String> {
     fs::create_dir_all(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// The path relative to the root, with forward slashes, as messages name files.
+/// Returns the path relative to the workspace root, with forward slashes, for messages.
 pub fn relative_path(path: &Path) -> String {
     path.strip_prefix(project_root()).unwrap_or(path).to_string_lossy().replace('\\', "/")
 }
@@ -83,14 +83,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_caption_is_the_leading_comment_only() {
+    fn the_caption_is_only_the_leading_comment() {
         let source = "// A teapot.\n// It pours.\nScene(\n    // not this\n)";
         assert_eq!(caption(source), "A teapot. It pours.");
         assert_eq!(caption("Scene()"), "");
     }
 
     #[test]
-    fn the_root_is_where_the_workspace_is_declared() {
+    fn the_root_contains_the_workspace_manifest() {
         assert!(read_text(&project_root().join("Cargo.toml")).unwrap().contains("[workspace]"));
     }
 }

@@ -61,7 +61,7 @@ const USAGE: &str = "bench compare REV [--models DIR|NAME…] [--runs N] [--quic
 /// The number of rounds and, below, of frames in the turntable.
 const RUNS: usize = 5;
 const FRAMES: usize = 120;
-/// The same two numbers with `--quick`.
+/// Both numbers with `--quick`.
 const QUICK_RUNS: usize = 3;
 const QUICK_FRAMES: usize = 12;
 

@@ -1,4 +1,4 @@
-//! The test programs: built once by one Cargo call, then run directly.
+//! The test programs, built by a single Cargo call and then run directly.
 
 use crate::Outcome;
 use crate::program::{capture_output, cargo_command, compile, run_visibly};
@@ -12,9 +12,9 @@ const TESTS: &str = "alberti-tests";
 
 /// A test program that Cargo built.
 struct TestProgram {
-    /// Its package, by name.
+    /// The name of its package.
     package: String,
-    /// The name of the target: the library's or a test file's.
+    /// The name of the target: the library or a test file.
     target: String,
     path: PathBuf,
     /// The folder of the package, in which tests run.
@@ -30,8 +30,8 @@ pub struct TestPrograms {
 impl TestPrograms {
     /// Builds everything that is not up to date.
     ///
-    /// Always the whole workspace: Cargo unifies features over the selected packages, and would
-    /// compile most crates again for every other selection.
+    /// It always builds the whole workspace, because Cargo unifies features over the selected
+    /// packages and would compile most crates again for any other selection.
     pub fn build() -> Result<Self, String> {
         let call = ["build", "--workspace", "--lib", "--bins", "--tests", "--examples"];
         let mut cargo = cargo_command(&call);
@@ -43,7 +43,7 @@ impl TestPrograms {
             built.add_artifact(&message);
         }
         if built.alberti.as_os_str().is_empty() {
-            return Err("cargo built no program `alberti`".into());
+            return Err("cargo did not build the program `alberti`".into());
         }
         Ok(built)
     }
@@ -66,7 +66,7 @@ impl TestPrograms {
         let is_of_crate = |program: &&TestProgram| {
             program.package != TESTS || !matches!(program.target.as_str(), "suites" | "program")
         };
-        // A fault in one crate hides no fault in another.
+        // Run all of them, so that a failure in one crate does not hide a failure in another.
         let run = |program| self.run(program, &[], variables).err();
         let faults: Vec<String> =
             self.programs.iter().filter(is_of_crate).filter_map(run).collect();
@@ -92,7 +92,10 @@ impl TestPrograms {
 
     fn find(&self, target: &str) -> Result<&TestProgram, String> {
         let is_it = |program: &&TestProgram| program.package == TESTS && program.target == target;
-        self.programs.iter().find(is_it).ok_or_else(|| format!("cargo built no tests `{target}`"))
+        self.programs
+            .iter()
+            .find(is_it)
+            .ok_or_else(|| format!("cargo did not build the tests `{target}`"))
     }
 
     fn run(&self, program: &TestProgram, words: &[&str], variables: &[(&str, &str)]) -> Outcome {
@@ -101,10 +104,10 @@ impl TestPrograms {
         let mut command = Command::new(&program.path);
         command.args(words).current_dir(&program.folder).env("ALBERTI", &self.alberti);
         if program.package == "xtask" {
-            // Its tests provoke skips of benchmarks.
+            // Its tests cause skips on purpose.
             command.env_remove("SKIP_LOG");
         }
-        // The output of a thousand passing tests is not worth a reader's time.
+        // Nobody needs the output of a thousand passing tests.
         if program.target != "suites" {
             command.arg("--quiet");
         }
@@ -112,16 +115,16 @@ impl TestPrograms {
     }
 }
 
-/// The folders of test data that environment variables name, made absolute, because a test runs in
-/// another current folder.
+/// Returns the test data folders from environment variables, as absolute paths, because tests run
+/// in a different current folder.
 fn named_folders() -> Vec<(&'static str, PathBuf)> {
     let here = std::env::current_dir().unwrap_or_default();
     let named = |name| Some((name, here.join(std::env::var_os(name)?)));
     ["VECTORS", "ASSETS", "REFERENCES"].into_iter().filter_map(named).collect()
 }
 
-/// The name in the id of a package: `path+file:///…/crates/clip#alberti-clip@0.1.0`, or without the
-/// name if it equals the folder's.
+/// Returns the name in a package id such as `path+file:///…/crates/clip#alberti-clip@0.1.0`. Cargo
+/// omits the name if it is the same as the folder name.
 fn package_name(id: &str) -> String {
     let (path, version) = id.rsplit_once('#').unwrap_or((id, ""));
     let folder = path.rsplit('/').next().unwrap_or_default();
@@ -133,7 +136,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn packages_are_named_by_their_ids() {
+    fn package_names_are_parsed_from_ids() {
         assert_eq!(package_name("path+file:///a/crates/clip#alberti-clip@0.1.0"), "alberti-clip");
         assert_eq!(package_name("path+file:///a/xtask#0.1.0"), "xtask");
     }

@@ -1,13 +1,13 @@
-//! `no_std` in the math crates, checked by building each of them separately.
+//! Checks `no_std` in the math crates by building each crate separately.
 //!
-//! The attribute `#![no_std]` is a rule of tidy. This step lists the crates and features of each
-//! build without dev-dependencies: none may bring back the standard library.
+//! `cargo xtask tidy` requires the attribute `#![no_std]`. This step lists the crates and features
+//! of each build without dev-dependencies, none of which may bring the standard library back.
 
 use crate::Outcome;
 use crate::program::{capture_output, cargo_command, run_command};
 use crate::tidy::NO_STD;
 
-/// Allowed dependencies; procedural macros, which run in the compiler, do not count.
+/// The allowed dependencies. Procedural macros do not count, because they run in the compiler.
 const ALLOWED_DEPENDENCIES: &[&str] = &["alberti-homog", "glam", "libm", "thiserror"];
 
 /// Builds each crate and inspects its dependency tree.
@@ -19,14 +19,14 @@ pub fn check_no_std() -> Outcome {
             cargo_command(&["tree", "--edges", "normal,no-proc-macro", "--prefix", "none"]);
         let tree = capture_output(tree.args(["--format", "{p}|{f}", "--package", &package]))?;
         if let Some(fault) = tree.lines().find_map(|line| dependency_fault(&package, line)) {
-            return Err(format!("{name} is not free of the standard library: {fault}"));
+            return Err(format!("{name} uses the standard library: {fault}"));
         }
         println!("{name} is built without std");
     }
     Ok(())
 }
 
-/// The violation in a line of the tree: `crate version …|feature,feature`.
+/// Returns the violation in a line of the tree, `crate version …|feature,feature`.
 fn dependency_fault(name: &str, line: &str) -> Option<String> {
     let (package, features) = line.split_once('|')?;
     let package = package.split_whitespace().next()?;
@@ -35,7 +35,7 @@ fn dependency_fault(name: &str, line: &str) -> Option<String> {
         return Some(format!("it depends on {package}"));
     }
     let std = features.trim_end_matches(" (*)").split(',').any(|feature| feature == "std");
-    std.then(|| format!("{package} has its feature `std`"))
+    std.then(|| format!("the feature `std` of {package} is enabled"))
 }
 
 #[cfg(test)]
@@ -43,7 +43,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn strange_crates_and_std_features_are_faults() {
+    fn other_crates_and_std_features_are_violations() {
         assert_eq!(dependency_fault("alberti-clip", "alberti-clip v0.1.0 (somewhere)|"), None);
         assert_eq!(dependency_fault("clip", "glam v0.34.0|f64,libm (*)"), None);
         assert!(dependency_fault("clip", "alberti-camera v0.1.0|").is_none());

@@ -1,7 +1,7 @@
-//! The oldest compiler for the math crates: checks that their `rust-version` is true.
+//! Checks that the math crates compile with their declared `rust-version`.
 //!
-//! Debian 12 has that compiler in addition to a newer one. It is unpacked into the target folder,
-//! not installed.
+//! Debian 12 has that compiler in addition to a newer one. The compiler is unpacked into the target
+//! folder, not installed.
 
 use crate::Outcome;
 use crate::program::{capture_output, cargo_command, run_command};
@@ -11,7 +11,7 @@ use crate::workspace::{create_folder, list_files, target_folder};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The compiler that the manifests name, without its last number.
+/// The compiler version in the manifests, without the patch number.
 const VERSION: &str = "1.85";
 
 /// Checks each math crate with the oldest compiler.
@@ -27,19 +27,19 @@ pub fn check_oldest_rust() -> Outcome {
         let manifest = format!("crates/{name}/Cargo.toml");
         let text = crate::workspace::read_text(&crate::workspace::project_root().join(&manifest))?;
         if !text.contains(&format!("\nrust-version = \"{VERSION}\"\n")) {
-            return Err(format!("{manifest} does not say rust-version = \"{VERSION}\""));
+            return Err(format!("{manifest} must have the line rust-version = \"{VERSION}\""));
         }
         let package = format!("alberti-{name}");
-        // The workspace as a whole needs a newer one.
+        // The workspace as a whole needs a newer compiler.
         let mut cargo = cargo_command(&["check", "--quiet", "--ignore-rust-version", "--package"]);
         cargo.arg(&package).env("RUSTC", &compiler);
         run_command(cargo.env("CARGO_TARGET_DIR", target_folder().join("oldest-rust/target")))?;
-        println!("{package} is built by Rust {VERSION}");
+        println!("{package} compiles with Rust {VERSION}");
     }
     Ok(())
 }
 
-/// A script that runs the compiler, unpacked from Debian's packages.
+/// Unpacks the compiler from Debian's packages and returns a script that runs it.
 fn unpack_compiler() -> Result<PathBuf, String> {
     let folder = target_folder().join("oldest-rust");
     let script = folder.join("rustc");
@@ -50,7 +50,7 @@ fn unpack_compiler() -> Result<PathBuf, String> {
     let versions = known.lines().filter_map(|line| line.split('|').nth(1));
     let is_meant = |version: &&str| version.starts_with(&format!("{VERSION}."));
     let version = versions.map(str::trim).find(is_meant);
-    let version = version.ok_or("apt-get knows no such package")?;
+    let version = version.ok_or("apt-get does not have this package")?;
     let packages = folder.join("packages");
     create_folder(&packages)?;
     let of_version = |package: &str| format!("{package}={version}");

@@ -1,41 +1,42 @@
-//! The order of steps: one or two at a time.
+//! Runs the steps in order, one or two at a time.
 
 use super::step::{RunningStep, Sharing, Step, StepReport};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// The maximum number of machine-sharing steps that run at once.
+/// The maximum number of steps that run at the same time.
 const AT_ONCE: usize = 2;
 
 /// The interval between checks for finished steps.
 const POLL: Duration = Duration::from_millis(20);
 
-/// The conditions for stopping.
+/// The conditions under which no more steps start.
 pub struct Limits {
-    /// Whether steps begin after one has failed.
+    /// Whether steps still start after a step has failed.
     pub keep_going: bool,
-    /// The time within which steps may begin.
+    /// The time within which steps may start.
     pub time: Option<Duration>,
 }
 
-/// The steps that ran, and those that did not.
+/// The steps that ran and the steps that did not.
 pub struct Run {
-    /// In the order in which they ended.
+    /// The reports, in the order in which the steps ended.
     pub reports: Vec<StepReport>,
-    /// The steps that the time did not allow, by name.
+    /// The names of the steps that did not start in time.
     pub left_out: Vec<String>,
-    /// Wall-clock seconds.
+    /// The wall-clock time in seconds.
     pub seconds: f64,
 }
 
-/// Runs steps in their order; those that share the machine may overtake each other.
+/// Runs steps in order. Steps that share the machine may finish in a different order.
 pub fn run_steps(steps: &[&Step], limits: &Limits) -> Result<Run, String> {
     let start = Instant::now();
-    // Before a build replaces this program: afterwards its path would belong to a deleted file.
+    // Read the path before a build replaces this program, because then it would refer to a deleted
+    // file.
     let program = std::env::current_exe().map_err(|error| error.to_string())?;
     let mut run = Run { reports: Vec::new(), left_out: Vec::new(), seconds: 0.0 };
     let mut running: Vec<RunningStep> = Vec::new();
-    // The output of a single step is for its reader; with several, only failed ones show theirs.
+    // The output of a single step is shown. With several steps, only failed steps show theirs.
     let is_watched = steps.len() == 1;
     let has_failed = |run: &Run| run.reports.iter().any(|report| report.failure.is_some());
     for step in steps {
@@ -59,7 +60,7 @@ pub fn run_steps(steps: &[&Step], limits: &Limits) -> Result<Run, String> {
     Ok(run)
 }
 
-/// Waits until at most `room` steps are running; prints the results of those that ended.
+/// Waits until at most `room` steps are running, and prints the results of the steps that ended.
 fn wait_until(running: &mut Vec<RunningStep>, room: usize, run: &mut Run) -> Result<(), String> {
     while running.len() > room {
         let mut index = 0;
@@ -80,7 +81,7 @@ fn wait_until(running: &mut Vec<RunningStep>, room: usize, run: &mut Run) -> Res
 fn print_end(report: &StepReport) {
     let StepReport { name, seconds, cpu_seconds, .. } = report;
     match &report.failure {
-        None => println!("   {name} passed: {seconds:.1} s, {cpu_seconds:.1} s of the processor"),
+        None => println!("   {name} passed: {seconds:.1} s, {cpu_seconds:.1} s of CPU time"),
         Some(output) => println!("{output}\n   {name} FAILED after {seconds:.1} s"),
     }
 }

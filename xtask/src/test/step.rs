@@ -1,4 +1,4 @@
-//! Steps of the tests: a command, its costs, its result.
+//! Test steps: commands, with their costs and results.
 
 use super::artifacts::TestPrograms;
 use super::cpu_time::process_seconds;
@@ -10,15 +10,15 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command};
 use std::time::Instant;
 
-/// A step of the tests.
+/// A test step.
 pub struct Step {
     /// The name by which the command line selects it.
     pub name: String,
-    /// The line in the list of steps.
+    /// Its description in the list of steps.
     pub about: String,
-    /// When it runs.
+    /// The tier in which it runs.
     pub tier: Tier,
-    /// Whether others may run at the same time.
+    /// Whether other steps may run at the same time.
     pub sharing: Sharing,
     /// The command to run.
     pub action: Action,
@@ -29,28 +29,28 @@ pub struct Step {
 pub enum Tier {
     /// For every change: `cargo xtask test`.
     First,
-    /// Before a release: `cargo xtask test --all`, and as much as there is time for in CI.
+    /// Before a release: `cargo xtask test --all`. CI runs as many of these steps as time allows.
     Second,
 }
 
 /// Whether other steps may run at the same time.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Sharing {
-    /// It uses all cores by itself, mostly for Cargo builds.
+    /// No: it uses all cores, mostly for Cargo builds.
     Alone,
-    /// Another one may run at the same time.
+    /// Yes: another step may run at the same time.
     Shared,
 }
 
 /// The command of a step.
 pub enum Action {
-    /// Cargo with these arguments, one call after the other.
+    /// Cargo calls with these arguments, one after the other.
     Cargo(Vec<Vec<String>>),
-    /// A suite of `tests/suites.rs`, with flags.
+    /// A suite of `tests/suites.rs`.
     Suite(&'static str),
-    /// The tests of `tests/program` whose names contain the first and not the second text.
+    /// The tests of `tests/program` whose names contain the first string but not the second.
     Program(&'static str, Option<&'static str>),
-    /// Unit and integration tests of the crates.
+    /// The unit and integration tests of the crates.
     CrateTests,
     /// A command of this program.
     Own(fn() -> Outcome),
@@ -60,11 +60,11 @@ pub enum Action {
 pub struct StepReport {
     /// The name by which the command line selects it.
     pub name: String,
-    /// Wall-clock seconds.
+    /// The wall-clock time in seconds.
     pub seconds: f64,
-    /// The processor seconds of the step and everything it started.
+    /// The CPU time of the step and of everything it started, in seconds.
     pub cpu_seconds: f64,
-    /// The part of them spent in compilers.
+    /// The part of the CPU time spent in compilers.
     pub compile_seconds: f64,
     /// The reason why it failed.
     pub failure: Option<String>,
@@ -72,28 +72,28 @@ pub struct StepReport {
     pub skipped: Vec<String>,
 }
 
-/// A step that runs in a separate process, so that its cost and its skips are known.
+/// A step that runs in a separate process, so that its cost and its skips can be measured.
 pub struct RunningStep {
     name: String,
     child: Child,
     start: Instant,
-    /// The file for its output; `None` if a person watches it.
+    /// The file for its output, or `None` if the output is visible.
     log: Option<PathBuf>,
 }
 
 impl Step {
-    /// A step of one or more Cargo calls, each written as on the command line.
+    /// Creates a step of one or more Cargo calls, each written as on the command line.
     pub fn cargo(name: &str, about: &str, calls: &[&str]) -> Self {
         let words = |call: &&str| call.split_whitespace().map(str::to_owned).collect();
         Self::new(name, about, Action::Cargo(calls.iter().map(words).collect()))
     }
 
-    /// A step that is a command of this program.
+    /// Creates a step that runs a command of this program.
     pub fn built_in(name: &str, about: &str, run: fn() -> Outcome) -> Self {
         Self::new(name, about, Action::Own(run))
     }
 
-    /// A step of the first tier that runs by itself.
+    /// Creates a step of the first tier that runs alone.
     pub fn new(name: &str, about: &str, action: Action) -> Self {
         Self {
             name: name.into(),
@@ -104,22 +104,22 @@ impl Step {
         }
     }
 
-    /// The step, marked so that others may run beside it.
+    /// Lets other steps run at the same time.
     pub fn shared(self) -> Self {
         Self { sharing: Sharing::Shared, ..self }
     }
 
-    /// The step, moved to the second tier.
+    /// Moves the step to the second tier.
     pub fn second(self) -> Self {
         Self { tier: Tier::Second, ..self }
     }
 
-    /// The variable that tells tests how many of their cases to run.
+    /// Returns the environment variables that make tests run all of their cases.
     fn variables(&self) -> &'static [(&'static str, &'static str)] {
         if self.tier == Tier::Second { &[("THOROUGH", "1")] } else { &[] }
     }
 
-    /// Runs the step in this process, and leaves its costs in the report file.
+    /// Runs the step in this process, and writes its costs to a file.
     pub fn run_here(&self) -> Outcome {
         let outcome = match &self.action {
             Action::Own(run) => run(),
@@ -141,7 +141,8 @@ impl Step {
         outcome.and(written.map_err(|error| error.to_string()))
     }
 
-    /// Starts the step through this program's path; its output goes to a file unless it is watched.
+    /// Starts the step in a new process of this program. Its output goes to a file unless it is
+    /// watched.
     pub fn start(&self, program: &Path, is_watched: bool) -> Result<RunningStep, String> {
         create_folder(&steps_folder())?;
         let with_name = |error: std::io::Error| format!("{}: {error}", self.name);
@@ -165,7 +166,7 @@ impl Step {
 }
 
 impl RunningStep {
-    /// The report if the step has ended.
+    /// Returns the report if the step has ended.
     pub fn poll(&mut self) -> Result<Option<StepReport>, String> {
         let status = self.child.try_wait().map_err(|error| format!("{}: {error}", self.name))?;
         let Some(status) = status else { return Ok(None) };

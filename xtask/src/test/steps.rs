@@ -7,9 +7,9 @@ use crate::Outcome;
 use crate::program::{cargo_command, compile, run_visibly};
 use crate::tidy::NO_STD;
 
-/// The first tier has cheap checks, one build, then everything that runs the built programs. In the
-/// second tier, the steps that find most for their time come first, because CI may not reach the
-/// end.
+/// Returns all steps. The first tier has cheap checks, then one build, then everything that runs
+/// the built programs. In the second tier, the steps that find the most problems per minute come
+/// first, because CI may not reach the end.
 pub fn all_steps() -> Result<Vec<Step>, String> {
     let mut steps = cheap_steps();
     steps.extend(build_steps());
@@ -24,7 +24,7 @@ fn cheap_steps() -> Vec<Step> {
     vec![
         Step::cargo(
             "fmt",
-            "rustfmt would change nothing",
+            "all code is formatted",
             &[
                 "fmt --all --check",
                 "fmt --manifest-path book/mdbook-alberti/Cargo.toml --check",
@@ -36,7 +36,7 @@ fn cheap_steps() -> Vec<Step> {
             .shared(),
         Step::built_in(
             "models",
-            "the committed models of the scenes are what the code generates",
+            "the committed scene models match the code that generates them",
             || crate::models::run_models(&["--check".into()]),
         )
         .shared(),
@@ -57,20 +57,16 @@ fn build_steps() -> Vec<Step> {
     vec![
         Step::cargo(
             "clippy",
-            "no warning from clippy, in the packages for other tools as well",
+            "clippy reports no warnings, including in packages for other tools",
             &["clippy --quiet --workspace --all-targets -- -D warnings"],
         ),
-        Step::built_in(
-            "no-std",
-            "the five crates of mathematics build without std",
-            no_std::check_no_std,
-        )
-        .shared(),
+        Step::built_in("no-std", "the math crates build without std", no_std::check_no_std)
+            .shared(),
         Step::built_in("build", "programs and tests compile", || TestPrograms::build().map(drop)),
         Step::built_in("docs", "the documentation builds without warnings", build_documentation),
         Step::built_in(
             "api",
-            "the public interfaces are as docs/api lists them, and as the version promises",
+            "the public interfaces match docs/api, and the version allows their changes",
             || crate::api::run_api(&[]),
         )
         .shared(),
@@ -87,10 +83,10 @@ fn suite_steps() -> Vec<Step> {
     let suite = |name, about: &str| Step::new(name, about, Action::Suite(name)).shared();
     vec![
         Step::new("units", "unit and integration tests of the crates", Action::CrateTests).shared(),
-        suite("hostile", "malicious files against the importer, with limits of time and memory"),
+        suite("hostile", "malicious files against the importer, with time and memory limits"),
         Step::cargo(
             "doctests",
-            "the examples of the documentation run",
+            "the examples in the documentation run",
             &["test --quiet --workspace --doc -- --skip book_pages"],
         )
         .shared(),
@@ -102,18 +98,18 @@ fn suite_steps() -> Vec<Step> {
         .shared(),
         Step::new(
             "book_formulas",
-            "the formulas of the book agree with the crates",
+            "the formulas in the book agree with the crates",
             Action::Program("book_formulas", None),
         )
         .shared(),
         suite(
             "drawing",
-            "line drawings against the z-buffer: models, a tenth of the random scenes",
+            "line drawings against the z-buffer: models and a tenth of the random scenes",
         ),
-        suite("corpus", "valid, odd and broken glTF files are rendered, or refused with a reason"),
+        suite("corpus", "valid, odd and broken glTF files are rendered, or rejected with a reason"),
         suite("looks", "pictures are not black, empty or unlit"),
-        suite("references", "pictures against ray traced ones, by the formulas of glTF"),
-        suite("assemblies", "sheets of models with several parts, a tenth of the models"),
+        suite("references", "pictures against ray-traced references, with the glTF formulas"),
+        suite("assemblies", "sheets of models with several parts: a tenth of the models"),
         suite("goldens", "every scene against its golden image, pixel by pixel"),
         suite("schemas", "every JSON document against its JSON Schema"),
         suite("check", "the diagnostics of `alberti check` against those of the Khronos validator"),
@@ -122,14 +118,14 @@ fn suite_steps() -> Vec<Step> {
     ]
 }
 
-/// A first look at the page and at Python, which need other tool chains.
+/// Quick tests of the page and of Python, which need other tool chains.
 fn interface_steps() -> Vec<Step> {
     vec![
         Step::built_in("page", "the explorer's page in a browser: the first lesson", || {
             crate::browser::run_browser(&["--first".into()])
         })
         .shared(),
-        Step::built_in("python-first", "a picture, its depth and its ids in Python", || {
+        Step::built_in("python-first", "Python renders a picture, its depth and its ids", || {
             crate::python::run_python(&["--first".into()])
         })
         .shared(),
@@ -141,22 +137,22 @@ fn release_steps() -> Vec<Step> {
     vec![
         Step::built_in(
             "determinism",
-            "release and debug builds give the same bytes, with every number of threads",
+            "release and debug builds give the same bytes, with any number of threads",
             || crate::determinism::run_determinism(&[]),
         ),
         Step::built_in(
             "package",
-            "the Debian package works in an empty Debian, and its removal leaves nothing there",
+            "the Debian package works in an empty Debian system, and no file remains after removal",
             || crate::release::run_release(&["--deb".into()]),
         ),
         Step::built_in(
             "oldest-rust",
-            "the crates of mathematics build with the oldest compiler that they name",
+            "the math crates build with the oldest compiler that they declare",
             oldest_rust::check_oldest_rust,
         ),
         Step::built_in(
             "strangers",
-            "programs of others build against the packed crates, and run",
+            "programs of outside users build against the packed crates and run",
             || crate::strangers::run_strangers(&[]),
         ),
         Step::built_in("aarch64", "AArch64 in an emulator gives the same bytes", || {
@@ -164,12 +160,12 @@ fn release_steps() -> Vec<Step> {
         }),
         Step::built_in(
             "web",
-            "the explorer builds for browsers, and its files are within their limits",
+            "the explorer builds for browsers, and its files are within their size limits",
             || crate::web::run_web(&["--skip-without-tools".into()]),
         ),
         Step::built_in(
             "instructions",
-            "fixed workloads take no more instructions than are recorded",
+            "fixed workloads take no more instructions than recorded",
             || crate::bench::run_bench(&["--instructions".into()]),
         ),
     ]
@@ -183,34 +179,36 @@ fn later_steps() -> Vec<Step> {
         suite("looks-all", "looks", "every model in every style, still and as a thumbnail"),
         Step::built_in(
             "browser",
-            "the explorer's lessons hold in a browser, by mouse and by keyboard",
+            "the explorer's lessons work in a browser, with mouse and keyboard",
             || crate::browser::run_browser(&[]),
         )
         .shared(),
         Step::built_in(
             "python",
-            "the wheel makes pictures in an empty environment, and its tests pass",
+            "the wheel renders pictures in an empty environment, and its tests pass",
             || crate::python::run_python(&[]),
         )
         .shared(),
-        Step::built_in("dxf", "DXF files pass the audit of another program", || {
-            crate::dxf::run_dxf(&[])
-        })
+        Step::built_in(
+            "dxf",
+            "DXF files pass another program's audit",
+            || crate::dxf::run_dxf(&[]),
+        )
         .shared(),
         Step::built_in(
             "site",
-            "the documentation becomes pages: the guides' commands work, and links lead somewhere",
+            "the documentation pages build, the guides' commands work, and no link is broken",
             || crate::docs::run_docs(&[]),
         )
         .shared(),
         Step::built_in(
             "book",
-            "the book's figures and numbers work, its links lead somewhere, both editions are whole",
+            "the book's numbers are correct, no link is broken, and both editions are complete",
             || crate::book::run_book(&["--test".into()]),
         )
         .shared(),
-        suite("cluster", "cluster", "`alberti batch` on a Slurm cluster whose nodes die"),
-        suite("thumbnails", "thumbnails", "thumbnails of every format by a thumbnail service"),
+        suite("cluster", "cluster", "`alberti batch` on a Slurm cluster with failing nodes"),
+        suite("thumbnails", "thumbnails", "thumbnails of every format from a thumbnail service"),
         suite("drawing-all", "drawing", "line drawings: every random scene"),
         Step::new(
             "units-all",
@@ -224,7 +222,7 @@ fn later_steps() -> Vec<Step> {
             Action::Program("scene_data", None),
         )
         .shared(),
-        suite("hostile-all", "hostile", "malicious files: each from a file as well as from memory"),
+        suite("hostile-all", "hostile", "malicious files: each from a file and from memory"),
         suite("assemblies-all", "assemblies", "sheets of every model with several parts"),
     ]
 }
@@ -235,29 +233,29 @@ fn build_variant_steps() -> Vec<Step> {
     vec![
         Step::cargo(
             "book-code",
-            "the Rust code of the book's pages runs",
+            "the Rust code in the book runs",
             &["test --quiet --workspace --doc book_pages"],
         ),
         Step::built_in(
             "web-bytes",
-            "WebAssembly draws the pictures of the program",
+            "WebAssembly renders the same pictures as the program",
             crate::determinism::compare_web_pictures,
         ),
-        Step::built_in("outside", "packages outside of the workspace compile", check_outside),
+        Step::built_in("outside", "packages outside the workspace compile", check_outside),
         Step::built_in(
             "crates",
-            "every crate can be packed for the registry, with what its manifest has to say",
+            "every crate can be packed for the registry, with a complete manifest",
             || crate::release::run_release(&["--crates".into()]),
         ),
         Step::cargo(
             "maths",
-            "unit tests and doctests of the crates of mathematics, built by themselves",
+            "unit tests and doctests of the math crates, built separately",
             &[&format!("test --quiet{maths}")],
         ),
     ]
 }
 
-/// Compiles what no other step does: all targets of the packages outside the workspace.
+/// Compiles all targets of the packages outside the workspace, which no other step compiles.
 fn check_outside() -> Outcome {
     for manifest in ["tests/fuzz", "crates/web", "book/mdbook-alberti"] {
         let mut cargo = cargo_command(&["check", "--quiet", "--locked", "--all-targets"]);

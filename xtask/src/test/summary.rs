@@ -1,24 +1,24 @@
-//! The summary of a run: costs, skips, and whether both are allowed.
+//! The summary of a run: costs and skips, and whether they are allowed.
 
 use super::cpu_time::machine_slowness;
 use super::schedule::Run;
 use crate::Outcome;
 use crate::workspace::{project_root, read_text};
 
-/// The allowed cost of the first tier on a machine where [`machine_slowness`] is 1.
+/// The budget of the first tier, in CPU seconds, on a machine where [`machine_slowness`] is 1.
 const FIRST_TIER_CPU_SECONDS: f64 = 1100.0;
 
-/// The factor above its budget at which a tier fails.
+/// The factor by which a tier may exceed its budget before it fails.
 const BUDGET_EXCESS: f64 = 4.0 / 3.0;
 
-/// The prefixes of the skips that CI may have.
+/// The file with the prefixes of the skips that are allowed in CI.
 const ALLOWED_SKIPS: &str = ".ci/allowed-skips";
 
-/// Prints each step with its costs, slowest first, then the skips, then the counts.
+/// Prints each step with its costs, the slowest first, then the skips and the counts.
 pub fn print_summary(run: &Run, is_first_tier: bool) -> Outcome {
     let mut reports: Vec<_> = run.reports.iter().collect();
     reports.sort_by(|a, b| b.cpu_seconds.total_cmp(&a.cpu_seconds));
-    println!("\n── summary: seconds, those of the processor, and the part of compilers in these");
+    println!("\n── summary: wall-clock time, CPU time, and the share of compilers in it");
     for report in &reports {
         let verdict = if report.failure.is_some() { "FAILED" } else { "passed" };
         let compiling = 100.0 * report.compile_seconds / report.cpu_seconds.max(0.01);
@@ -36,7 +36,7 @@ pub fn print_summary(run: &Run, is_first_tier: bool) -> Outcome {
         println!("  {line}{times}");
     }
     if !run.left_out.is_empty() {
-        println!("  LEFT OUT for lack of time: {}", run.left_out.join(", "));
+        println!("  NOT RUN for lack of time: {}", run.left_out.join(", "));
     }
     let failures: Vec<&str> = reports
         .iter()
@@ -51,7 +51,7 @@ pub fn print_summary(run: &Run, is_first_tier: bool) -> Outcome {
     if !failures.is_empty() {
         return Err(format!("failed: {}", failures.join(", ")));
     }
-    // CI has every tool and an idle machine; elsewhere that is not certain.
+    // Only CI is sure to have every tool and an idle machine.
     if std::env::var_os("CI").is_none() {
         return Ok(());
     }
@@ -59,7 +59,7 @@ pub fn print_summary(run: &Run, is_first_tier: bool) -> Outcome {
     if is_first_tier { check_budget(cpu_seconds, machine_slowness()) } else { Ok(()) }
 }
 
-/// Each line once, in the order of first occurrence, with its count.
+/// Returns each line once, in the order of first occurrence, with its count.
 fn count_lines<'a>(lines: &[&'a String]) -> Vec<(&'a str, usize)> {
     let mut counted: Vec<(&str, usize)> = Vec::new();
     for line in lines {
@@ -71,7 +71,7 @@ fn count_lines<'a>(lines: &[&'a String]) -> Vec<(&'a str, usize)> {
     counted
 }
 
-/// A skip in CI must be expected.
+/// Fails if there is a skip that is not allowed in CI.
 fn check_skips(skipped: &[&String], allowed: &str) -> Outcome {
     let allowed: Vec<&str> =
         allowed.lines().filter(|line| !line.is_empty() && !line.starts_with('#')).collect();
@@ -86,22 +86,22 @@ fn check_skips(skipped: &[&String], allowed: &str) -> Outcome {
     }
     Err(format!(
         "CI must not skip these:\n  {}\n  = help: install what is missing in .ci/run, or add a line \
-         to {ALLOWED_SKIPS} and say why",
+         to {ALLOWED_SKIPS} with the reason",
         unexpected.join("\n  ")
     ))
 }
 
-/// A tier must not become slower unnoticed.
+/// Fails if the first tier has become much slower.
 fn check_budget(cpu_seconds: f64, slowness: f64) -> Outcome {
     let budget = FIRST_TIER_CPU_SECONDS * slowness;
     println!(
-        "the first tier took {cpu_seconds:.0} s of the processor; its budget here is {budget:.0} s \
-         ({FIRST_TIER_CPU_SECONDS} s times {slowness:.2}, how much slower this machine computes)"
+        "the first tier took {cpu_seconds:.0} s of CPU time; its budget here is {budget:.0} s \
+         ({FIRST_TIER_CPU_SECONDS} s times {slowness:.2} for the slower machine)"
     );
     if cpu_seconds <= budget * BUDGET_EXCESS {
         return Ok(());
     }
-    Err("that is more than a third above the budget: move something to the second tier".into())
+    Err("the budget is exceeded by more than a third: move something to the second tier".into())
 }
 
 #[cfg(test)]
@@ -109,7 +109,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_skip_that_is_not_expected_fails_in_ci() {
+    fn an_unexpected_skip_fails_in_ci() {
         let skip = |what: &str| format!("SKIPPED {what}");
         let lines = [skip("cluster: there is no slurmd"), skip("viewers: chromium is missing")];
         let lines: Vec<&String> = lines.iter().collect();
@@ -119,14 +119,14 @@ mod tests {
     }
 
     #[test]
-    fn a_skip_that_is_there_often_is_printed_once() {
+    fn a_repeated_skip_is_printed_once() {
         let lines = ["SKIPPED a", "SKIPPED b", "SKIPPED a"].map(str::to_owned);
         let lines: Vec<&String> = lines.iter().collect();
         assert_eq!(count_lines(&lines), [("SKIPPED a", 2), ("SKIPPED b", 1)]);
     }
 
     #[test]
-    fn a_budget_is_that_of_the_machine() {
+    fn the_budget_depends_on_the_machine() {
         assert!(check_budget(FIRST_TIER_CPU_SECONDS, 1.0).is_ok());
         assert!(check_budget(1.4 * FIRST_TIER_CPU_SECONDS, 1.0).is_err());
         assert!(check_budget(1.4 * FIRST_TIER_CPU_SECONDS, 2.0).is_ok());

@@ -5,8 +5,8 @@ use super::code::is_word_char;
 use super::source::Source;
 use crate::metadata::{Metadata, short_name};
 
-/// Crates that only one part of the code may name, so that they can be replaced, and the paths of
-/// that part.
+/// Crates that only one part of the code may name, so that they can be replaced, each with the
+/// paths of that part.
 const NAMED_BY: &[(&str, &[&str])] = &[
     ("gltf", &["crates/gltf-import/src"]),
     ("ron", &["crates/scene-file/src"]),
@@ -26,11 +26,12 @@ const NAMED_BY: &[(&str, &[&str])] = &[
     ("clap", &["crates/alberti/src"]),
 ];
 
-/// The crates from the bottom up, and the earlier ones that each may depend on: all, unless there
-/// is a list. These are the arrows of the code map.
+/// The crates from the bottom up, each with the earlier crates that it may depend on: all, unless
+/// there is a list. These are the arrows in the crate map.
 ///
-/// No stage depends on another one, `model` knows no scene, and `shade`, `drawing` and `sheet` do
-/// not know the pipeline that uses them. `hidden-line` knows neither pictures nor pages.
+/// No stage depends on another stage. `model` does not depend on scenes. `shade`, `drawing` and
+/// `sheet` do not depend on the pipeline that uses them. `hidden-line` does not depend on pictures
+/// or pages.
 pub const LAYERS: &[(&str, Option<&[&str]>)] = &[
     ("homog", None),
     ("camera", Some(&["homog"])),
@@ -77,22 +78,22 @@ pub const LAYERS: &[(&str, Option<&[&str]>)] = &[
 const STAGES: &[&str] = &["homog", "camera", "projection", "clip", "viewport", "raster"];
 const STAGE_DEPENDENCIES: &[&str] = &["glam", "libm", "thiserror"];
 
-/// Exceptions: the vector instructions of the rasterizer, and the libraries whose types `homog`
-/// converts behind features.
+/// Exceptions: vector instructions for the rasterizer, and the libraries whose types `homog`
+/// converts if features enable it.
 const EXTRA_DEPENDENCIES: &[(&str, &str)] =
     &[("raster", "fearless_simd"), ("homog", "mint"), ("homog", "nalgebra"), ("homog", "serde")];
 
 /// Packages that a crate must not be built with, even indirectly: users of the library do not
-/// compile the packages of the program, and a line-drawing program compiles no picture decoder.
+/// compile the program's packages, and a program for line drawings compiles no image decoders.
 const NEVER_BUILT_WITH: &[(&str, &[&str])] = &[
     ("hidden-line", &["png", "zune-jpeg", "draco-core", "gltf", "tiny-skia", "pdf-writer"]),
     ("pipeline", &["clap", "gif", "terminal_size"]),
 ];
 
-/// The stages that promise to work without the standard library.
+/// The math crates, which promise to work without the standard library.
 pub const NO_STD: &[&str] = &["homog", "camera", "projection", "recognition", "clip", "viewport"];
 
-/// Crate names outside the part that may use them.
+/// Finds crate names outside the part that may use them.
 pub fn crate_boundaries(source: &Source) -> Vec<Violation> {
     if !source.path.starts_with("crates/") {
         return Vec::new();
@@ -109,7 +110,7 @@ pub fn crate_boundaries(source: &Source) -> Vec<Violation> {
     forbidden.flat_map(|(name, by)| lines(name, by)).collect()
 }
 
-/// Whether a line of code has `name` at the head of a path.
+/// Returns whether a line of code contains a path that starts with `name`.
 fn names_crate(line: &str, name: &str) -> bool {
     let path = format!("{name}::");
     line.match_indices(&path).any(|(at, _)| {
@@ -118,16 +119,17 @@ fn names_crate(line: &str, name: &str) -> bool {
     })
 }
 
-/// Crates that promise to work without the standard library say so.
+/// Checks that crates that promise to work without the standard library declare it.
 pub fn no_std_where_promised(source: &Source) -> Vec<Violation> {
     let promised = NO_STD.iter().any(|name| source.path == format!("crates/{name}/src/lib.rs"));
     if !promised || source.code.iter().any(|line| line.trim() == "#![no_std]") {
         return Vec::new();
     }
-    vec![Violation::new(&source.path, "this crate promises `#![no_std]`")]
+    vec![Violation::new(&source.path, "this crate must be `#![no_std]`")]
 }
 
-/// Dependencies between the packages of the workspace, and of the stages on other packages.
+/// Checks dependencies between workspace packages, and dependencies of the stages on other
+/// packages.
 pub fn dependencies() -> Result<Vec<Violation>, String> {
     Ok(dependency_violations(&Metadata::load()?))
 }
@@ -139,7 +141,7 @@ fn dependency_violations(metadata: &Metadata) -> Vec<Violation> {
         let allowed = allowed.unwrap_or(&below);
         let manifest = format!("crates/{name}/Cargo.toml");
         let Some(package) = metadata.package(name) else {
-            violations.push(Violation::new(manifest, "no such package"));
+            violations.push(Violation::new(manifest, "this package does not exist"));
             continue;
         };
         let is_stage = STAGES.contains(name);
@@ -172,7 +174,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn gltf_is_named_by_the_importer_alone() {
+    fn only_the_importer_may_name_gltf() {
         let text =
             "//! A.\nuse gltf::Document;\n// gltf::x\nlet a = my_gltf::B; crate::gltf::c();\n";
         let places = |path: &str| {
@@ -186,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn a_promise_of_no_std_is_kept() {
+    fn the_promise_of_no_std_is_checked() {
         let lib =
             |text: &str| no_std_where_promised(&Source::new("crates/clip/src/lib.rs", text)).len();
         assert_eq!((lib("//! A.\n#![no_std]\n"), lib("//! #![no_std]\n")), (0, 1));

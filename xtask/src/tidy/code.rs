@@ -1,7 +1,8 @@
-//! A small lexer: Rust source with comments and literals blanked, so that rules can search code.
+//! A small lexer that blanks comments and literals in Rust source, so that rules can search only
+//! code.
 
-/// The source with comments and the insides of strings and characters replaced by spaces. Lines
-/// stay where they are.
+/// Replaces comments and the contents of string and character literals with spaces. Line numbers do
+/// not change.
 #[must_use]
 pub fn blank_comments_and_strings(source: &str) -> String {
     let mut rest = source;
@@ -27,12 +28,12 @@ pub fn blank_comments_and_strings(source: &str) -> String {
     code
 }
 
-/// Whether a character can be part of an identifier.
+/// Returns whether a character can be part of an identifier.
 pub fn is_word_char(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// The length of a block comment, which may contain others.
+/// Returns the length of a block comment, which may be nested.
 fn block_comment_len(text: &str) -> usize {
     let mut depth = 0;
     let mut at = 0;
@@ -57,7 +58,7 @@ fn block_comment_len(text: &str) -> usize {
     at
 }
 
-/// The length of a string in double quotes, from the first quote to the last.
+/// Returns the length of a string in double quotes, including both quotes.
 fn string_len(text: &str) -> usize {
     let mut escaped = false;
     for (at, c) in text.char_indices().skip(1) {
@@ -71,7 +72,7 @@ fn string_len(text: &str) -> usize {
     text.len()
 }
 
-/// The length of a raw string such as `r#"…"#`, if one begins here.
+/// Returns the length of a raw string such as `r#"…"#`, if the text begins with one.
 fn raw_string_len(text: &str) -> Option<usize> {
     let marked = text.strip_prefix('b').unwrap_or(text).strip_prefix('r')?;
     let hashes = marked.len() - marked.trim_start_matches('#').len();
@@ -81,7 +82,7 @@ fn raw_string_len(text: &str) -> Option<usize> {
     Some(inside.find(&end).map_or(text.len(), |at| before + at + end.len()))
 }
 
-/// The length of a character literal; 0 if the quote begins a lifetime.
+/// Returns the length of a character literal, or 0 if the quote begins a lifetime.
 fn char_literal_len(text: &str) -> usize {
     let mut characters = text.char_indices().skip(1);
     match (characters.next(), characters.next()) {
@@ -98,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_code_is_left() {
+    fn only_code_remains() {
         let table = [
             ("a // b", "a     "),
             ("a /* b /* c */ d */ e", "a                   e"),
@@ -113,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_stay_where_they_are() {
+    fn line_numbers_do_not_change() {
         let source = "/* a\nb */ c\n\"d\ne\" f";
         assert_eq!(blank_comments_and_strings(source).lines().count(), 4);
         assert!(blank_comments_and_strings(source).lines().nth(3).unwrap().ends_with('f'));

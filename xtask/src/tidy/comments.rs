@@ -1,44 +1,44 @@
-//! Comments: their width, their opening words, and the formulas that they cite.
+//! Rules for comments: their width, their opening words, and the formulas that they cite.
 
 use super::Violation;
 use super::source::Source;
 use crate::workspace::{project_root, read_text};
 use std::collections::BTreeSet;
 
-/// The width of code, and of comments, in columns.
+/// The maximum width of code and comments, in columns.
 const MAX_COLUMNS: usize = 100;
-/// Wider comment lines that remain; this number may only fall.
+/// The number of wider comment lines that remain. It may only fall.
 const WIDE_LINES_LEFT: usize = 700;
 
-/// Openings that say nothing before the reader has looked up another item.
+/// Openings that mean nothing until the reader has looked up another item.
 const EMPTY_OPENINGS: [&str; 2] = ["What ", "The same "];
-/// Doc lines with such an opening that remain; this number may only fall.
+/// The number of doc comments with such an opening that remain. It may only fall.
 const EMPTY_OPENINGS_LEFT: usize = 300;
 
 /// The file that lists the formulas.
 const FORMULAS: &str = "docs/formulas.md";
-/// Names that look like the id of a formula.
+/// Names that look like formula ids.
 const NOT_FORMULAS: [&str; 7] =
     ["UTF-8", "UTF-16", "SHA-256", "AVX-512", "ECMA-48", "PDF-1", "SSE-2"];
 
-/// Comment lines above the width.
+/// Finds comment lines that are too wide.
 pub fn wide_lines(sources: &[Source]) -> Vec<Violation> {
     let wide = |line: &str| line.chars().count() > MAX_COLUMNS && line.trim().starts_with("//");
-    let message = format!("a comment of more than {MAX_COLUMNS} columns");
+    let message = format!("a comment is wider than {MAX_COLUMNS} columns");
     beyond_budget(lines_that(sources, wide, &message), WIDE_LINES_LEFT)
 }
 
-/// Doc comments that open with words for another item.
+/// Finds doc comments that open with words that refer to another item.
 pub fn empty_openings(sources: &[Source]) -> Vec<Violation> {
     let is_empty = |line: &str| {
         let text = line.trim().strip_prefix("///").or(line.trim().strip_prefix("//!"));
         text.is_some_and(|text| EMPTY_OPENINGS.iter().any(|word| text.trim().starts_with(word)))
     };
-    let message = "name the thing itself first, by the term of the field";
+    let message = "begin with the technical term for the thing itself";
     beyond_budget(lines_that(sources, is_empty, message), EMPTY_OPENINGS_LEFT)
 }
 
-/// Formulas that are cited and not listed.
+/// Finds formulas that are cited but not listed.
 pub fn unlisted_formulas(sources: &[Source]) -> Result<Vec<Violation>, String> {
     Ok(unlisted_ids(sources, &read_text(&project_root().join(FORMULAS))?))
 }
@@ -57,7 +57,7 @@ fn unlisted_ids(sources: &[Source], list: &str) -> Vec<Violation> {
     violations
 }
 
-/// The ids in a text: two to five letters or digits, a dash, a number.
+/// Returns the ids in a text: two to five letters or digits, a hyphen and a number.
 fn formula_ids(text: &str) -> impl Iterator<Item = &str> {
     let words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '-' && c != '_');
     words.filter(|word| {
@@ -80,7 +80,7 @@ fn lines_that(sources: &[Source], is_bad: impl Fn(&str) -> bool, message: &str) 
     violations
 }
 
-/// No violations, as long as there are no more than the known remaining ones.
+/// Returns no violations if there are at most `left`, the number of known ones that remain.
 fn beyond_budget(violations: Vec<Violation>, left: usize) -> Vec<Violation> {
     if violations.len() <= left { Vec::new() } else { violations }
 }
@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn comments_are_as_wide_as_code() {
+    fn comments_are_no_wider_than_code() {
         let line = |columns: usize| format!("/// {}\n", "ü".repeat(columns - 4));
         assert_eq!(wide_lines(&source(&line(MAX_COLUMNS))).len(), 0);
         let wide = line(MAX_COLUMNS + 1).repeat(WIDE_LINES_LEFT + 1);
@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn docs_open_with_the_thing_itself() {
+    fn docs_begin_with_the_thing_itself() {
         let count = |line: &str| {
             empty_openings(&source(&line.repeat(EMPTY_OPENINGS_LEFT + 1))).len()
                 / (EMPTY_OPENINGS_LEFT + 1)

@@ -1,17 +1,18 @@
-//! Commits: a large one must explain why it was made.
+//! Rule for commits: a large commit must explain why it was made.
 
 use super::Violation;
 use crate::program::capture_output;
 use crate::workspace::project_root;
 use std::process::Command;
 
-/// The commit after which the rule holds.
+/// The rule applies to commits after this one.
 const SINCE: &str = "d734859d";
 
-/// The number of changed lines from which a commit needs a body.
+/// The minimum number of changed lines for which a commit needs a body.
 const MIN_LARGE: u64 = 400;
 
-/// Large commits without a body. Without the history, as in an archive, nothing is checked.
+/// Finds large commits without a body. If the history is missing, as in an archive, nothing is
+/// checked.
 pub fn large_commits_without_reason() -> Vec<Violation> {
     let mut log = Command::new("git");
     log.current_dir(project_root()).args(["log", "--no-merges", "--numstat"]);
@@ -20,7 +21,8 @@ pub fn large_commits_without_reason() -> Vec<Violation> {
     text.split('\u{1}').filter_map(violation_of).collect()
 }
 
-/// The fault in an entry of the log: hash, subject and body, then a line for each file.
+/// Returns the violation in a log entry, which has the hash, the subject and the body, then a line
+/// for each file.
 fn violation_of(entry: &str) -> Option<Violation> {
     let mut parts = entry.splitn(4, '\u{2}');
     let (hash, subject, body) = (parts.next()?, parts.next()?, parts.next()?);
@@ -28,12 +30,12 @@ fn violation_of(entry: &str) -> Option<Violation> {
     if lines < MIN_LARGE || !body.trim().is_empty() {
         return None;
     }
-    let message = format!("changes {lines} lines without a body: say why (\"{subject}\")");
+    let message = format!("changes {lines} lines without a body: explain why (\"{subject}\")");
     Some(Violation::new(format!("commit {hash}"), message))
 }
 
-/// Lines added and removed in a file. Pictures, for which git prints `-`, lock files and generated
-/// listings do not count: they are not anybody's decision.
+/// Returns the number of lines added and removed in a file. Pictures, for which git prints `-`,
+/// lock files and generated listings do not count, because nobody writes them by hand.
 fn changed_lines(line: &str) -> u64 {
     let mut columns = line.split('\t');
     let counts = [columns.next(), columns.next()];

@@ -1,5 +1,5 @@
-//! The map of the crates in `ARCHITECTURE.md`, drawn from the manifests as Cargo reads them, and
-//! the maximum size of a crate.
+//! The crate map in `ARCHITECTURE.md`, generated from `cargo metadata`, and the maximum size of a
+//! crate.
 
 use super::boundaries::LAYERS;
 use super::{Source, Violation};
@@ -9,21 +9,21 @@ use crate::workspace::{project_root, read_text};
 use std::collections::BTreeSet;
 
 const DOCUMENT: &str = "ARCHITECTURE.md";
-/// The marks before and after the map in the document.
+/// The markers before and after the map in the document.
 const BEFORE: &str =
     "<!-- The crates: `cargo xtask tidy --bless` writes these lines. -->\n\n```text\n";
 const AFTER: &str = "```\n";
 
-/// Source lines, without tests, above which a crate must be split.
+/// The number of source lines, without tests, above which a crate must be split.
 const MAX_CRATE_LINES: usize = 13_000;
-/// The crate that is still to be split, and its limit until then.
+/// Crates that are yet to be split, each with its limit until then.
 const STILL_WHOLE: &[(&str, usize)] = &[("alberti", 14_700)];
 
-/// The map, if it does not match the manifests.
+/// Returns a violation if the map does not match the manifests.
 pub fn outdated_map() -> Result<Vec<Violation>, String> {
     let text = read_text(&project_root().join(DOCUMENT))?;
     let is_current = with_map(&text, &crate_map(&Metadata::load()?))? == text;
-    let message = "the map of the crates is outdated: run `cargo xtask tidy --bless`";
+    let message = "the crate map is outdated: run `cargo xtask tidy --bless`";
     Ok((!is_current).then(|| Violation::new(DOCUMENT, message)).into_iter().collect())
 }
 
@@ -36,14 +36,14 @@ pub fn write_map() -> Outcome {
 }
 
 fn with_map(text: &str, map: &str) -> Result<String, String> {
-    let missing = || format!("{DOCUMENT} has no place for the map of the crates");
+    let missing = || format!("{DOCUMENT} has no markers for the crate map");
     let (head, rest) = text.split_once(BEFORE).ok_or_else(missing)?;
     let (_, tail) = rest.split_once(AFTER).ok_or_else(missing)?;
     Ok(format!("{head}{BEFORE}{map}{AFTER}{tail}"))
 }
 
-/// One line for each crate, from the bottom up: the crates it depends on, without those that
-/// another of them already depends on.
+/// Returns a line for each crate, from the bottom up, with the crates it depends on. Crates on
+/// which another listed crate already depends are omitted.
 fn crate_map(metadata: &Metadata) -> String {
     let width = LAYERS.iter().map(|(name, _)| name.len()).max().unwrap_or_default();
     let line = |name: &str| {
@@ -57,7 +57,7 @@ fn crate_map(metadata: &Metadata) -> String {
     LAYERS.iter().map(|(name, _)| line(name)).collect()
 }
 
-/// The crates of the map that a manifest names, in the order of the map.
+/// Returns the crates on the map that a manifest names, in the order of the map.
 fn direct_dependencies<'a>(metadata: &'a Metadata, name: &str) -> Vec<&'a str> {
     let Some(package) = metadata.package(name) else { return Vec::new() };
     let names: BTreeSet<&str> =
@@ -71,7 +71,7 @@ fn all_below<'a>(metadata: &'a Metadata, name: &str) -> BTreeSet<&'a str> {
     further.chain(direct.iter().copied()).collect()
 }
 
-/// Crates that have become too large for one reader to keep in mind.
+/// Finds crates that have become too large to understand as a whole.
 pub fn crate_lengths(sources: &[Source]) -> Vec<Violation> {
     let lines = |name: &str| {
         let folder = format!("crates/{name}/src/");
@@ -84,7 +84,7 @@ pub fn crate_lengths(sources: &[Source]) -> Vec<Violation> {
         let whole = STILL_WHOLE.iter().find(|(whole, _)| whole == name);
         let most = whole.map_or(MAX_CRATE_LINES, |(_, most)| *most);
         (lines > most).then(|| {
-            let message = format!("{lines} lines, where {most} are allowed: cut it");
+            let message = format!("{lines} lines, but at most {most} are allowed: split the crate");
             Violation::new(format!("crates/{name}"), message)
         })
     };
@@ -100,14 +100,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_map_takes_the_place_of_the_old_one() {
+    fn the_new_map_replaces_the_old_one() {
         let text = format!("# A\n{BEFORE}old\n{AFTER}end\n");
         assert_eq!(with_map(&text, "new\n"), Ok(format!("# A\n{BEFORE}new\n{AFTER}end\n")));
         assert!(with_map("# A\n", "new\n").is_err());
     }
 
     #[test]
-    fn a_crate_above_the_limit_is_named_and_its_tests_do_not_count() {
+    fn a_crate_above_the_limit_is_reported_and_tests_do_not_count() {
         let long = |path: &str| Source::new(path, "\n".repeat(MAX_CRATE_LINES));
         let tests = [long("crates/clip/src/tests.rs"), long("crates/clip/src/lib.rs")];
         assert_eq!(crate_lengths(&tests), []);

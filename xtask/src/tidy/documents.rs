@@ -1,4 +1,4 @@
-//! Markdown documents: their links and paths must lead to files, their code blocks must name a
+//! Rules for Markdown documents: links and paths must lead to files, and code blocks must name a
 //! language.
 
 use super::Violation;
@@ -6,10 +6,10 @@ use super::source::text_files;
 use crate::workspace::{project_root, read_text};
 use std::path::Path;
 
-/// Folders of the workspace; a word of a document that begins with one is a path.
+/// Folders of the workspace. A word in a document that begins with one of them is a path.
 const FOLDERS: [&str; 5] = ["crates/", "scenes/", "tests/", "xtask/", ".ci/"];
 
-/// Broken links and paths, and code blocks without a language.
+/// Finds broken links and paths, and code blocks without a language.
 pub fn broken_links() -> Result<Vec<Violation>, String> {
     let files = text_files()?;
     let documents = files.iter().filter(|(path, _)| path.ends_with(".md"));
@@ -18,13 +18,13 @@ pub fn broken_links() -> Result<Vec<Violation>, String> {
         .collect())
 }
 
-/// A version in `CITATION.cff` that is not the workspace's.
+/// Checks that the version in `CITATION.cff` is the workspace version.
 pub fn citation_version() -> Result<Vec<Violation>, String> {
     let read = |name: &str| read_text(&project_root().join(name));
     let (citation, manifest) = (read("CITATION.cff")?, read("Cargo.toml")?);
     let cited = citation.lines().find_map(|line| line.strip_prefix("version: "));
     let is_ours = |cited: &str| manifest.contains(&format!("\nversion = \"{cited}\"\n"));
-    let message = "give the version of the workspace's Cargo.toml";
+    let message = "use the version from the workspace's Cargo.toml";
     let fault = (!cited.is_some_and(is_ours)).then(|| Violation::new("CITATION.cff", message));
     Ok(fault.into_iter().collect())
 }
@@ -37,7 +37,7 @@ fn document_links(path: &str, text: &str, exists: impl Fn(&Path) -> bool) -> Vec
         let place = || format!("{path}:{}", i + 1);
         if let Some(language) = line.trim_start().strip_prefix("```") {
             if !fenced && language.trim().is_empty() {
-                faults.push(Violation::new(place(), "say the language of this code block"));
+                faults.push(Violation::new(place(), "specify the language of this code block"));
             }
             fenced = !fenced;
             continue;
@@ -56,7 +56,7 @@ fn document_links(path: &str, text: &str, exists: impl Fn(&Path) -> bool) -> Vec
     faults
 }
 
-/// The files that the Markdown links in a line lead to.
+/// Returns the targets of the Markdown links to files in a line.
 fn link_targets(line: &str) -> impl Iterator<Item = &str> {
     let targets =
         line.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(target, _)| target);
@@ -64,7 +64,8 @@ fn link_targets(line: &str) -> impl Iterator<Item = &str> {
     files.filter(|target| !target.is_empty() && !target.contains("://"))
 }
 
-/// The words of a line that are paths from the root; placeholders such as `NAME` are not.
+/// Returns the words in a line that are paths from the workspace root. Placeholders such as `NAME`
+/// do not count.
 fn project_paths(line: &str) -> impl Iterator<Item = &str> {
     let words = line.split(|c: char| c.is_whitespace() || "`()[]\"',;|".contains(c));
     let words = words.map(|word| word.trim_end_matches(['.', ':']));
@@ -101,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn code_blocks_have_a_language_and_an_end() {
+    fn code_blocks_must_have_a_language_and_be_closed() {
         assert_eq!(
             (faults("```rust\n[a](c)\n```"), faults("```\nx\n```"), faults("```sh\nx")),
             (0, 1, 1)

@@ -1,17 +1,18 @@
-//! Names: a type name has one meaning within a crate, and few functions are called `of`.
+//! Rules for names: a type name has one meaning within a crate, and few functions are called `of`.
 
 use super::Violation;
 use super::code::is_word_char;
 use super::source::Source;
 use std::collections::BTreeMap;
 
-/// Type names that may be declared more than once in a crate, with the reason. At most eight.
+/// Type names that may be declared more than once in a crate, each with the reason. At most eight
+/// are allowed.
 const REPEATED_TYPES: &[(&str, &str, &str)] = &[];
 
-/// The maximum number of functions called `of` in all crates: nobody can search for that name.
+/// The maximum number of functions called `of` in all crates. The name is hard to search for.
 const MAX_FUNCTIONS_NAMED_OF: usize = 15;
 
-/// Types with the same name in one crate, outside tests.
+/// Finds types with the same name in one crate, outside tests.
 pub fn repeated_types(sources: &[Source]) -> Vec<Violation> {
     let mut declared: BTreeMap<(&str, &str), Vec<String>> = BTreeMap::new();
     for source in sources.iter().filter(|source| !is_test(source)) {
@@ -35,7 +36,7 @@ pub fn repeated_types(sources: &[Source]) -> Vec<Violation> {
         .collect()
 }
 
-/// All functions called `of`, if there are too many.
+/// Returns all functions called `of`, if there are too many.
 pub fn functions_named_of(sources: &[Source]) -> Vec<Violation> {
     let mut lines = Vec::new();
     for source in sources.iter().filter(|source| source.path.starts_with("crates/")) {
@@ -53,20 +54,20 @@ fn is_test(source: &Source) -> bool {
     source.path.contains("/tests/") || source.path.ends_with("tests.rs")
 }
 
-/// The crate of a library or program file.
+/// Returns the crate of a library or program file.
 fn crate_name(path: &str) -> Option<&str> {
     let (name, rest) = path.strip_prefix("crates/")?.split_once('/')?;
     rest.starts_with("src/").then_some(name)
 }
 
-/// The name that a line declares as a type at the top level of a module.
+/// Returns the name of a type that a line declares at the top level of a module.
 fn declared_type(line: &str) -> Option<&str> {
     let mut words = line.split_whitespace().skip_while(|word| word.starts_with("pub"));
     let keyword = words.next()?;
     let is_type = matches!(keyword, "struct" | "enum" | "trait" | "union")
         || keyword == "type" && !line.starts_with(' ');
     let name = words.next().filter(|_| is_type)?;
-    // In a macro the name may be a variable: `struct $name`.
+    // In a macro, the name may be a variable, as in `struct $name`.
     name.split(|c: char| !is_word_char(c)).next().filter(|name| !name.is_empty())
 }
 
@@ -95,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn functions_named_of_are_counted_beyond_their_limit() {
+    fn too_many_functions_named_of_are_reported() {
         let text =
             |count: usize| "pub fn of(x: u8) {}\nfn office() {}\nlet of = 1;\n".repeat(count);
         let count =

@@ -1,22 +1,22 @@
-//! Phrases that a native author would not write, counted: their number may only fall.
+//! Counts phrases that a native author would not write. Their number may only fall.
 //!
-//! Each is right in some sentence, so that none is forbidden. CONTRIBUTING.md says what to write
-//! instead.
+//! Each phrase is correct in some sentences, so none is forbidden. CONTRIBUTING.md explains what to
+//! write instead.
 
 use super::Violation;
 use crate::program::capture_output;
 use crate::workspace::project_root;
 use std::process::Command;
 
-/// A family of phrases, and what to write instead.
+/// A group of phrases, with what to write instead.
 struct Family {
-    /// The phrases, in lower case.
+    /// The phrases, in lowercase.
     phrases: &'static [&'static str],
-    /// Words that make a line right although it has a phrase.
+    /// Words that make a line acceptable although it contains a phrase.
     exceptions: &'static [&'static str],
-    /// The number of lines that may have one.
+    /// The maximum number of lines with one of the phrases.
     most: usize,
-    /// The rule.
+    /// What to write instead.
     rule: &'static str,
 }
 
@@ -105,7 +105,7 @@ const FAMILIES: &[Family] = &[
     },
 ];
 
-/// Families with more lines than they may have.
+/// Finds groups whose phrases are on more lines than allowed.
 pub fn phrases(files: &[(String, String)]) -> Vec<Violation> {
     let counted = files.iter().filter(|(path, _)| is_counted(path));
     let lines: Vec<String> =
@@ -117,21 +117,22 @@ pub fn phrases(files: &[(String, String)]) -> Vec<Violation> {
     too_many.collect()
 }
 
-/// Whether the sentences of a file are English of this project.
+/// Returns whether the sentences in a file are English text of this project.
 fn is_counted(path: &str) -> bool {
     let is_text = [".rs", ".md", ".py", ".pyi", ".tsv"].iter().any(|ending| path.ends_with(ending));
     is_text && !path.starts_with("docs/api/") && !path.starts_with("xtask/src/tidy/")
 }
 
 impl Family {
-    /// Whether a line in lower case has one of the phrases.
+    /// Returns whether a lowercase line contains one of the phrases.
     fn is_in(&self, line: &str) -> bool {
         let is_right = self.exceptions.iter().any(|exception| line.contains(exception));
         !is_right && self.phrases.iter().any(|phrase| has_phrase(line, phrase))
     }
 
     fn violation(&self, count: usize) -> Violation {
-        let message = format!("{count} lines, where {} are allowed: {}", self.most, self.rule);
+        let message =
+            format!("{count} lines, but at most {} are allowed: {}", self.most, self.rule);
         let added = added_lines().into_iter().filter(|line| self.is_in(&line.to_lowercase()));
         let shown: Vec<String> =
             added.take(5).map(|line| format!("\n    {}", line.trim())).collect();
@@ -139,7 +140,7 @@ impl Family {
     }
 }
 
-/// Whether a phrase is in a line as whole words.
+/// Returns whether a line contains a phrase as whole words.
 fn has_phrase(line: &str, phrase: &str) -> bool {
     line.match_indices(phrase).any(|(at, _)| {
         let is_word = |c: char| c.is_alphanumeric() || c == '_';
@@ -149,7 +150,8 @@ fn has_phrase(line: &str, phrase: &str) -> bool {
     })
 }
 
-/// The lines that were added since the last commit, or by it if there are none.
+/// Returns the lines that were added since the last commit or, if there are none, by the last
+/// commit.
 fn added_lines() -> Vec<String> {
     let diff = |range: &[&str]| {
         let mut git = Command::new("git");
@@ -167,11 +169,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn phrases_are_whole_words_and_exceptions_are_right() {
+    fn phrases_are_whole_words_and_exceptions_are_allowed() {
         let family = |phrase: &str| FAMILIES.iter().find(|f| f.phrases.contains(&phrase));
-        let own = family("is no").expect("a family");
+        let own = family("is no").expect("a group");
         assert!(own.is_in("the matrix is no rotation"));
         assert!(!own.is_in("there is no such file") && !own.is_in("it is normal"));
-        assert!(!family("stands").expect("a family").is_in("bystands"));
+        assert!(!family("stands").expect("a group").is_in("bystands"));
     }
 }

@@ -1,11 +1,12 @@
-//! Scenes: each has a golden, a caption and a row in `scenes/README.md`; there are no others.
+//! Rules for scenes: each has a golden, a caption and a row in `scenes/README.md`, and there are no
+//! other goldens or rows.
 
 use super::Violation;
 use crate::workspace::{list_files, list_scenes, project_root, read_text};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Scenes without golden, caption or row, and goldens or rows without a scene.
+/// Finds scenes without a golden, a caption or a row, and goldens or rows without a scene.
 pub fn goldens_and_table() -> Result<Vec<Violation>, String> {
     let mut names = BTreeSet::new();
     let mut faults = Vec::new();
@@ -13,7 +14,7 @@ pub fn goldens_and_table() -> Result<Vec<Violation>, String> {
         if scene.scene_caption()?.is_empty() {
             faults.push(Violation::new(
                 format!("scenes/{}.ron", scene.name),
-                "open the scene with a comment: what the picture shows and why",
+                "begin the scene with a comment that explains what the picture shows and why",
             ));
         }
         names.insert(scene.name);
@@ -25,13 +26,14 @@ pub fn goldens_and_table() -> Result<Vec<Violation>, String> {
     Ok(faults)
 }
 
-/// The scene that a picture is the golden for; none for the leftovers of a failed comparison.
+/// Returns the scene that a golden belongs to, or `None` for pictures left over from a failed
+/// comparison.
 fn golden_name(path: &Path) -> Option<String> {
     let name = path.file_stem()?.to_str()?;
     (!name.ends_with(".actual") && !name.ends_with(".diff")).then(|| name.to_owned())
 }
 
-/// The scenes that the table lists: rows that begin with a link to a `.ron` file.
+/// Returns the scenes that the table lists: its rows begin with a link to a `.ron` file.
 fn table_rows(table: &str) -> BTreeSet<String> {
     let linked = |line: &str| {
         Some(line.strip_prefix("| [")?.split_once("](")?.1.split_once(".ron)")?.0.to_owned())
@@ -49,11 +51,12 @@ fn unmatched_names(
     for name in scenes.difference(goldens) {
         faults.push(Violation::new(
             scene(name),
-            format!("no golden: look at the picture, then `cargo xtask golden --bless {name}`"),
+            format!("no golden: look at the picture, then run `cargo xtask golden --bless {name}`"),
         ));
     }
     for name in goldens.difference(scenes) {
-        faults.push(Violation::new(format!("tests/goldens/{name}.png"), "the golden of no scene"));
+        faults
+            .push(Violation::new(format!("tests/goldens/{name}.png"), "this golden has no scene"));
     }
     for name in scenes.difference(rows) {
         faults.push(Violation::new(scene(name), "not in the table of scenes/README.md"));
@@ -61,7 +64,7 @@ fn unmatched_names(
     for name in rows.difference(scenes) {
         faults.push(Violation::new(
             "scenes/README.md",
-            format!("the table has `{name}`, which is not a scene"),
+            format!("the table lists `{name}`, which is not a scene"),
         ));
     }
     faults
@@ -72,7 +75,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn scenes_goldens_and_rows_must_be_the_same() {
+    fn scenes_goldens_and_rows_must_match() {
         let set =
             |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<BTreeSet<_>>();
         assert_eq!(unmatched_names(&set(&["a"]), &set(&["a"]), &set(&["a"])), []);
@@ -83,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_and_goldens_are_read_by_name() {
+    fn rows_and_goldens_are_identified_by_name() {
         let table = "| scene | shows |\n| --- | --- |\n| [teapot](teapot.ron) | a pot |\n";
         assert_eq!(table_rows(table).into_iter().collect::<Vec<_>>(), ["teapot"]);
         assert_eq!(golden_name(Path::new("x/a.png")).as_deref(), Some("a"));

@@ -1,13 +1,14 @@
-//! Signatures: the form of function parameters.
+//! Rule for signatures: the form of function parameters.
 
 use super::Violation;
 use super::code::is_word_char;
 use super::source::Source;
 
-/// The maximum number of lines read from a signature.
+/// The maximum number of lines to read from a signature.
 const MOST_LINES: usize = 80;
 
-/// Tuples that are destructured in the signature: their members have no name at the call.
+/// Finds tuples that are destructured in a signature, because their members have no names for
+/// callers.
 pub fn tuple_parameters(source: &Source) -> Vec<Violation> {
     if !source.path.starts_with("crates/") || !source.path.contains("/src/") {
         return Vec::new();
@@ -16,7 +17,7 @@ pub fn tuple_parameters(source: &Source) -> Vec<Violation> {
         let tuples = parameters(&source.code[start..]).into_iter().filter(|one| is_tuple(one));
         tuples.map(move |one| {
             let one = one.split_whitespace().collect::<Vec<&str>>().join(" ");
-            let message = format!("make `{one}` several parameters, or one with a name");
+            let message = format!("replace `{one}` with several parameters or one named parameter");
             Violation::new(source.line_text(start + 1), message)
         })
     };
@@ -24,12 +25,12 @@ pub fn tuple_parameters(source: &Source) -> Vec<Violation> {
     functions.flat_map(tuples).collect()
 }
 
-/// Whether a parameter is a tuple of patterns or a reference to one.
+/// Returns whether a parameter is a tuple of patterns or a reference to one.
 fn is_tuple(parameter: &str) -> bool {
     parameter.trim_start().trim_start_matches('&').starts_with('(')
 }
 
-/// Whether a function begins in a line of code.
+/// Returns whether a function begins in a line of code.
 pub fn begins_function(line: &str) -> bool {
     let Some(at) = line.find("fn ") else { return false };
     let before = line[..at].chars().next_back();
@@ -37,8 +38,8 @@ pub fn begins_function(line: &str) -> bool {
     named && !before.is_some_and(is_word_char)
 }
 
-/// The parameters of the function that begins in the first line, including `self`: the texts
-/// between the commas of its list, outside inner brackets.
+/// Returns the parameters of the function that begins in the first line, including `self`. The list
+/// is split at commas outside inner brackets.
 pub fn parameters(lines: &[String]) -> Vec<String> {
     let signature = lines[..lines.len().min(MOST_LINES)].join("\n");
     let Some((_, after_fn)) = signature.split_once("fn ") else { return Vec::new() };
@@ -48,7 +49,7 @@ pub fn parameters(lines: &[String]) -> Vec<String> {
         let is_inside = depth > 0;
         match c {
             '<' if depth <= 1 => angles += 1,
-            // The arrow of a function type closes nothing.
+            // The `>` in the arrow of a function type is not a closing bracket.
             '>' if depth <= 1 && previous != '-' => angles -= 1,
             '(' | '[' | '{' if angles == 0 || is_inside => depth += 1,
             ')' | ']' | '}' if is_inside => depth -= 1,
@@ -62,7 +63,7 @@ pub fn parameters(lines: &[String]) -> Vec<String> {
             current.push(c);
         }
         if is_list_end {
-            // Nothing is in an empty list, or after the last comma.
+            // Skip an empty list, and the empty part after a trailing comma.
             found.retain(|one| !one.trim().is_empty());
             return found;
         }
@@ -75,7 +76,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parameters_end_at_commas_outside_of_inner_brackets() {
+    fn parameters_end_at_commas_outside_inner_brackets() {
         let table: [(&str, &[&str]); 5] = [
             ("fn f() {", &[]),
             ("fn f(a: u8) -> (u8, u8) {", &["a: u8"]),
@@ -94,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn tuples_are_not_taken_apart_in_signatures() {
+    fn tuples_are_not_destructured_in_signatures() {
         let faults = |path: &str, code: &str| tuple_parameters(&Source::new(path, code));
         let path = "crates/a/src/b.rs";
         let code = "\nfn f(\n    a: u8,\n    (b, c): (u8, u8),\n) {}\nfn g(&(a, b): &Pair) {}\n";
@@ -112,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn functions_begin_with_a_name() {
+    fn functions_begin_with_fn_and_a_name() {
         assert!(begins_function("pub(crate) const fn f() {"));
         assert!(!begins_function("// fnord ") && !begins_function("let x: fn (u8)"));
     }

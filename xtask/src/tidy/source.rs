@@ -1,4 +1,4 @@
-//! Source files as the rules see them: text, and code without comments and strings.
+//! Source files for the rules: their text, and their code without comments and strings.
 
 use super::code::blank_comments_and_strings;
 use crate::workspace::{project_root, read_text, relative_path};
@@ -7,23 +7,23 @@ use std::path::{Path, PathBuf};
 
 /// A Rust source file.
 pub struct Source {
-    /// From the root, with forward slashes.
+    /// The path relative to the workspace root, with forward slashes.
     pub path: String,
     /// The unchanged text of the file.
     pub text: String,
-    /// The lines with comments and the insides of strings blanked out, so that only code is left.
+    /// The lines with comments and string contents blanked out, so that only code remains.
     pub code: Vec<String>,
 }
 
 impl Source {
-    /// A file from its path and text.
+    /// Creates a source file from its path and text.
     pub fn new(path: impl Into<String>, text: impl Into<String>) -> Self {
         let text = text.into();
         let code = blank_comments_and_strings(&text).lines().map(str::to_owned).collect();
         Self { path: path.into(), text, code }
     }
 
-    /// Whether the file belongs to a library crate, not to a program, a test or an example.
+    /// Returns whether the file belongs to a library crate, not to a program, a test or an example.
     pub fn is_library(&self) -> bool {
         let program = ["crates/alberti/src/"];
         self.path.starts_with("crates/")
@@ -31,26 +31,26 @@ impl Source {
             && !program.iter().any(|part| self.path.starts_with(part))
     }
 
-    /// The lines of code before the file's tests, each with its number.
+    /// Returns the lines of code before the file's tests, each with its number.
     pub fn code_without_tests(&self) -> impl Iterator<Item = (usize, &str)> {
         let lines = self.code.iter().take_while(|line| line.trim() != "#[cfg(test)]");
         lines.enumerate().map(|(i, line)| (i + 1, line.as_str()))
     }
 
-    /// A location of this file: `PATH:LINE`.
+    /// Formats a location in this file: `PATH:LINE`.
     pub fn line_text(&self, number: usize) -> String {
         format!("{}:{number}", self.path)
     }
 }
 
-/// Every Rust file in the workspace.
+/// Reads every Rust file in the workspace.
 pub fn rust_files() -> Result<Vec<Source>, String> {
     let paths = walk_files(project_root())?;
     let rust = paths.iter().filter(|path| path.extension().is_some_and(|actual| actual == "rs"));
     rust.map(|path| Ok(Source::new(relative_path(path), read_text(path)?))).collect()
 }
 
-/// Path and text of every text file in the workspace.
+/// Returns the path and text of every text file in the workspace.
 pub fn text_files() -> Result<Vec<(String, String)>, String> {
     let text = ["rs", "toml", "ron", "md", "lock", "svg", "sh", "po", "py", "pyi", "tsv"];
     let mut paths = walk_files(project_root())?;
@@ -60,8 +60,8 @@ pub fn text_files() -> Result<Vec<(String, String)>, String> {
     paths.iter().map(|path| Ok((relative_path(path), read_text(path)?))).collect()
 }
 
-/// All files below a folder, sorted, without build output, hidden folders and links; linked files
-/// are read at their targets.
+/// Returns all files below a folder, sorted, without build output, hidden folders and links. Linked
+/// files are read at their targets.
 fn walk_files(folder: &Path) -> Result<Vec<PathBuf>, String> {
     let mut found = Vec::new();
     let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;

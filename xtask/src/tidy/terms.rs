@@ -1,9 +1,10 @@
-//! Terms: the Chinese of the book, the explorer and the program has one word per concept.
+//! Rule for terms: the Chinese text of the book, the explorer and the program uses one word per
+//! concept.
 
 use super::Violation;
 
-/// Variants, and the term that is used instead. The glossary of the book, which lists synonyms for
-/// readers who know another one, is exempt.
+/// Variants, each with the term to use instead. The book's glossary is exempt, because it lists
+/// synonyms for readers who know a different term.
 const VARIANTS: [(&str, &str); 18] = [
     ("外码", "区域码"),
     ("归一化", "规范化"),
@@ -25,7 +26,7 @@ const VARIANTS: [(&str, &str); 18] = [
     ("管线", "流水线"),
 ];
 
-/// Lines with a variant of a term.
+/// Finds lines with a variant of a term.
 pub fn chinese_variants(files: &[(String, String)]) -> Vec<Violation> {
     let is_checked =
         |path: &str| path != "book/src/words.md" && !path.starts_with("xtask/src/tidy");
@@ -35,7 +36,7 @@ pub fn chinese_variants(files: &[(String, String)]) -> Vec<Violation> {
             let found = VARIANTS.iter().filter(|(variant, _)| line.contains(variant));
             violations.extend(found.map(|(variant, term)| {
                 let location = format!("{path}:{}", i + 1);
-                Violation::new(location, format!("`{variant}`: the term here is {term}"))
+                Violation::new(location, format!("`{variant}`: use the term {term}"))
             }));
         }
     }

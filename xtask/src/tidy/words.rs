@@ -1,22 +1,22 @@
-//! Words: the opening of files, markers of unfinished work, printing macros, machine paths.
+//! Rules for words: file openings, markers of unfinished work, printing macros and machine paths.
 
 use super::Violation;
 use super::source::Source;
 
-/// The rules themselves must name the words that they forbid.
+/// The rules themselves, which must name the words that they forbid.
 const EXEMPT: &str = "xtask/src/tidy";
 
-/// Markers of postponed work, which belongs in an issue or in the README.
+/// Markers of unfinished work, which belongs in an issue or in the README.
 const UNFINISHED: [&str; 3] = ["TODO", "FIXME", "XXX"];
 
 /// Macros that print or abort, which a library must not do.
 const PRINTING: [&str; 7] =
     ["todo!", "dbg!", "println!", "eprintln!", "print!", "eprint!", "unimplemented!"];
 
-/// Prefixes of paths that exist on one machine only.
+/// Prefixes of paths that exist on only one machine.
 const MACHINE_PATHS: [&str; 5] = ["/home/", "/root/", "/tmp/", "/Users/", "C:\\Users"];
 
-/// Files begin with module documentation.
+/// Checks that a file begins with module documentation.
 pub fn module_docs(source: &Source) -> Vec<Violation> {
     let first = source.text.lines().find(|line| !line.trim().is_empty());
     if first
@@ -24,10 +24,10 @@ pub fn module_docs(source: &Source) -> Vec<Violation> {
     {
         return Vec::new();
     }
-    vec![Violation::new(&source.path, "open the file with `//!`: what it is and why")]
+    vec![Violation::new(&source.path, "begin the file with `//!` and explain what it is and why")]
 }
 
-/// Markers of postponed work.
+/// Finds markers of unfinished work.
 pub fn unfinished_markers(source: &Source) -> Vec<Violation> {
     if source.path.starts_with(EXEMPT) {
         return Vec::new();
@@ -40,7 +40,7 @@ pub fn unfinished_markers(source: &Source) -> Vec<Violation> {
     violations.collect()
 }
 
-/// Printing macros in libraries.
+/// Finds printing macros in libraries.
 pub fn printing_macros(source: &Source) -> Vec<Violation> {
     if !source.is_library() {
         return Vec::new();
@@ -52,7 +52,7 @@ pub fn printing_macros(source: &Source) -> Vec<Violation> {
     violations.collect()
 }
 
-/// Machine paths in any text file.
+/// Finds machine paths in all text files.
 pub fn machine_path_mentions(files: &[(String, String)]) -> Vec<Violation> {
     let mut faults = Vec::new();
     for (path, text) in files.iter().filter(|(path, _)| !path.starts_with(EXEMPT)) {
@@ -60,7 +60,7 @@ pub fn machine_path_mentions(files: &[(String, String)]) -> Vec<Violation> {
             if let Some(start) = MACHINE_PATHS.iter().find(|start| has_word(line, start)) {
                 faults.push(Violation::new(
                     format!("{path}:{}", i + 1),
-                    format!("`{start}…` exists on one machine only"),
+                    format!("`{start}…` exists on only one machine"),
                 ));
             }
         }
@@ -68,7 +68,7 @@ pub fn machine_path_mentions(files: &[(String, String)]) -> Vec<Violation> {
     faults
 }
 
-/// Whether `word` is in the line, and not as the end of a longer word or path.
+/// Returns whether a line contains `word`, but not as the end of a longer word or path.
 fn has_word(line: &str, word: &str) -> bool {
     line.match_indices(word).any(|(at, _)| {
         let before = line[..at].chars().next_back();
@@ -81,7 +81,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_says_what_it_is_before_anything_else() {
+    fn a_file_begins_with_its_documentation() {
         let faults = |text: &str| module_docs(&Source::new("a.rs", text)).len();
         assert_eq!(
             (faults("\n//! A."), faults("// A."), faults("use a;\n//! A."), faults("")),
@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn machine_paths_are_found_and_relative_ones_are_not() {
+    fn machine_paths_are_found_but_relative_paths_are_not() {
         let faults = |line: &str| machine_path_mentions(&[("README.md".into(), line.into())]).len();
         assert_eq!(
             (faults("see /home/anna/x"), faults("target/tmp/x"), faults("see crates/home/x")),
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn unfinished_work_is_named() {
+    fn unfinished_work_is_reported() {
         let faults = |line: &str| unfinished_markers(&Source::new("a.rs", line)).len();
         assert_eq!((faults("// TODO: more"), faults("// nothing to do")), (1, 0));
     }

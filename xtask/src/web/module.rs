@@ -1,4 +1,4 @@
-//! From the package `web` to two files that a browser loads: `web.js` and `web_bg.wasm`.
+//! Builds the package `web` into the two files that a browser loads, `web.js` and `web_bg.wasm`.
 
 use super::tool_chain::WebToolChain;
 use crate::program::{capture_output, cargo_command, run_command};
@@ -10,12 +10,12 @@ use std::process::Command;
 /// Builds the module into a folder.
 ///
 /// # Errors
-/// A tool is missing, or fails.
+/// Fails if a tool is missing or fails.
 pub fn build_module(out: &Path) -> Result<(), String> {
     let tool_chain = WebToolChain::find()?;
     let wasm_opt = install_wasm_opt()?;
     let package = project_root().join("crates/web");
-    println!("compiling to WebAssembly, which takes minutes for the first time");
+    println!("compiling to WebAssembly, which takes minutes the first time");
     let compiled = tool_chain.build_module(&package)?;
     let module = out.join("web_bg.wasm");
     if is_current(&module, &compiled) {
@@ -29,24 +29,25 @@ pub fn build_module(out: &Path) -> Result<(), String> {
     fs::rename(&smaller, &module).map_err(|error| format!("{}: {error}", module.display()))
 }
 
-/// Whether the module is newer than the compiled package and than this program.
+/// Returns whether the module is newer than the compiled package and this program.
 fn is_current(module: &Path, compiled: &Path) -> bool {
     let time = |path: &Path| fs::metadata(path).and_then(|metadata| metadata.modified()).ok();
     let sources = [time(compiled), std::env::current_exe().ok().as_deref().and_then(time)];
     time(module).is_some_and(|made| sources.iter().all(|source| source.is_some_and(|at| at < made)))
 }
 
-/// Optimizes for size: the compiler has already optimized the code that must be fast.
+/// Flags that optimize for size, because the compiler has already optimized the code that must be
+/// fast.
 const WASM_OPT_FLAGS: [&str; 1] = ["-Oz"];
 
-/// Writes the JavaScript side of the module.
+/// Writes the JavaScript bindings of the module.
 fn write_bindings(package: &Path, compiled: &Path, out: &Path) -> Result<(), String> {
     let mut bindgen = cargo_command(&["run", "--quiet", "--locked", "--package", "web-bindgen"]);
     bindgen.current_dir(package).env("CARGO_TARGET_DIR", target_folder().join("web-build"));
     run_command(bindgen.arg("--").args([compiled, out]))
 }
 
-/// Installs the pinned `wasm-opt` with npm if it is missing; returns its path.
+/// Installs the pinned `wasm-opt` with npm if it is missing, and returns its path.
 fn install_wasm_opt() -> Result<PathBuf, String> {
     let folder = target_folder().join("web-build/npm");
     create_folder(&folder)?;
@@ -62,9 +63,8 @@ fn install_wasm_opt() -> Result<PathBuf, String> {
     if !is_current || !program.is_file() {
         let mut npm = Command::new("npm");
         npm.current_dir(&folder).args(["ci", "--no-audit", "--no-fund", "--ignore-scripts"]);
-        capture_output(&mut npm).map_err(|error| {
-            format!("`wasm-opt` cannot be had: it is fetched with Node's `npm`\n{error}")
-        })?;
+        capture_output(&mut npm)
+            .map_err(|error| format!("cannot install `wasm-opt` with Node's `npm`\n{error}"))?;
     }
     Ok(program)
 }

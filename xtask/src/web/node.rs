@@ -1,4 +1,4 @@
-//! The engine's WebAssembly in Node: requests and their answers, without a browser.
+//! Runs the engine's WebAssembly in Node, to send it requests without a browser.
 
 use crate::Outcome;
 use crate::program::{capture_output, run_command};
@@ -8,24 +8,24 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A request to the engine, and the name of its answer.
+/// A request to the engine, and the name of its response.
 #[derive(Clone, Debug)]
 pub struct Request {
     pub name: String,
     pub query: String,
 }
 
-/// Answers of the engine, by request name.
+/// Responses from the engine, by request name.
 #[derive(Clone, Debug, Default)]
 pub struct Answers {
     bytes: BTreeMap<String, Vec<u8>>,
 }
 
 impl Answers {
-    /// Queries the module of a site, in Node, after adding some files to it.
+    /// Sends requests to the module of a site, in Node, after adding some files to it.
     ///
     /// # Errors
-    /// Node is missing, or the engine refuses a request.
+    /// Fails if Node is missing or the engine rejects a request.
     pub fn ask(
         site: &Path,
         files: &[(String, PathBuf)],
@@ -49,39 +49,39 @@ impl Answers {
         Ok(Self { bytes })
     }
 
-    /// The bytes of an answer.
+    /// Returns the bytes of a response.
     ///
     /// # Errors
-    /// There was no such request.
+    /// Fails if there was no such request.
     pub fn bytes(&self, name: &str) -> Result<&[u8], String> {
-        self.bytes.get(name).map(Vec::as_slice).ok_or_else(|| format!("`{name}` was not asked"))
+        self.bytes.get(name).map(Vec::as_slice).ok_or_else(|| format!("`{name}` was not requested"))
     }
 }
 
 /// Packs the page of a site into one file next to it, `alberti.html`.
 ///
 /// # Errors
-/// Node is missing, or a part of the page is not where it was.
+/// Fails if Node is missing or a part of the page is not in its expected place.
 pub fn write_single_file(site: &Path) -> Outcome {
     let mut node = Command::new("node");
     node.arg(project_root().join("crates/web/single_file.mjs"));
     run_command(node.arg(site).arg(site.join("alberti.html")))
 }
 
-/// The size of a file after `gzip -9`, as hosts send it.
+/// Returns the size of a file after `gzip -9`, which is how hosts send it.
 ///
 /// # Errors
-/// Node or the file is missing.
+/// Fails if Node or the file is missing.
 pub fn gzip_size(path: &Path) -> Result<usize, String> {
     let script = "const {readFileSync: read} = require('node:fs'); \
         console.log(require('node:zlib').gzipSync(read(process.argv[1]), {level: 9}).length)";
     let text = capture_output(Command::new("node").args(["-e", script]).arg(path))?;
-    text.trim().parse().map_err(|_| format!("Node gives no size of {}", path.display()))
+    text.trim().parse().map_err(|_| format!("Node does not report a size for {}", path.display()))
 }
 
-/// The message that Node is missing, if it is.
+/// Returns a message if Node is missing.
 pub fn missing_node() -> Option<String> {
     let has = |program: &str| Command::new(program).arg("--version").output().is_ok();
     let missing = ["node", "npm"].into_iter().find(|program| !has(program))?;
-    Some(format!("there is no `{missing}`: install Node.js"))
+    Some(format!("`{missing}` is missing: install Node.js"))
 }

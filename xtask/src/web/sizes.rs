@@ -1,19 +1,21 @@
-//! Sizes of the page against their limits.
+//! Checks the size of the page against its limits.
 
 use super::node;
 use crate::Outcome;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The module's bytes, raw and as a host sends it; the goals are 2,500,000 and 950,000.
+/// The maximum size of the module in bytes, raw and as a host sends it. The goals are 2,500,000 and
+/// 950,000.
 const MODULE: [usize; 2] = [2_920_000, 1_222_000];
-/// Bytes of everything that the page loads except the module and models: HTML, styles, scripts.
+/// The maximum size in bytes of everything that the page loads except the module and models: HTML,
+/// styles and scripts.
 const PAGE: usize = 80_000;
 
-/// Prints the sizes.
+/// Prints the sizes and checks the limits.
 ///
 /// # Errors
-/// One is above its limit.
+/// Fails if a size is above its limit.
 pub fn check_sizes(site: &Path) -> Outcome {
     let module = site.join("web_bg.wasm");
     let raw = file_size(&module)?;
@@ -36,7 +38,8 @@ pub fn check_sizes(site: &Path) -> Outcome {
     if names.is_empty() { Ok(()) } else { Err(format!("too large: {}", names.join("; "))) }
 }
 
-/// Files that the page loads before the module: its own files, and the module's JavaScript.
+/// Returns the files that the page loads before the module: its own files and the module's
+/// JavaScript.
 fn page_files(site: &Path) -> Result<Vec<PathBuf>, String> {
     let mut files: Vec<PathBuf> =
         super::page_files()?.iter().filter_map(|path| Some(site.join(path.file_name()?))).collect();

@@ -1,24 +1,23 @@
-//! The tool chain that compiles Rust to WebAssembly: a compiler with the sources of the standard
-//! library.
+//! The tool chain that compiles Rust to WebAssembly, with the sources of the standard library.
 //!
-//! They are compiled with the explorer. Panics without a message, which nobody would read since the
-//! page starts another worker, and sorting in less code take a sixth off the module. The compiled
-//! WebAssembly library that rustup has offers neither.
+//! The standard library is compiled together with the explorer, which makes the module a sixth
+//! smaller: panics have no message, which nobody would read because the page starts another worker,
+//! and sorting takes less code. The precompiled WebAssembly library from rustup offers neither.
 
 use crate::program::capture_output;
 use crate::tool_chain::ToolChain;
 use crate::workspace::target_folder;
 use std::path::{Path, PathBuf};
 
-/// The target of the compiler.
+/// The target triple of the compiler.
 const TARGET: &str = "wasm32-unknown-unknown";
 
-/// Vector instructions are those that every browser has had since 2023; relaxed ones would round
-/// differently on each machine. A panic is a trap.
+/// Every browser has supported these vector instructions since 2023. Relaxed vector instructions
+/// would round differently on different machines. A panic is a trap.
 const COMPILER_FLAGS: [&str; 3] =
     ["-Ctarget-feature=+simd128", "-Zunstable-options", "-Cpanic=immediate-abort"];
 
-/// A compiler for WebAssembly, and a linker.
+/// A compiler and a linker for WebAssembly.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct WebToolChain {
     compiler: ToolChain,
@@ -26,23 +25,23 @@ pub struct WebToolChain {
 }
 
 impl WebToolChain {
-    /// The compiler with the sources of the standard library.
+    /// Finds a compiler with the sources of the standard library, and a linker.
     ///
     /// # Errors
-    /// There is none, or no linker; the message says how to get them.
+    /// Fails if either is missing. The message explains how to install them.
     pub fn find() -> Result<Self, String> {
         let compiler = ToolChain::with_sources()?;
-        // Debian's has no linker; another compiler's works too.
+        // Debian's compiler comes without a linker, but a linker from another compiler works too.
         let own = || find_linker(&ToolChain::own().ok()?.root);
         let linker = find_linker(&compiler.root).or_else(own);
-        let linker = linker.ok_or("there is no `rust-lld`, the linker that comes with rustup")?;
+        let linker = linker.ok_or("`rust-lld` is missing, the linker that comes with rustup")?;
         Ok(Self { compiler, linker })
     }
 
-    /// Compiles the package `web` in the given folder; returns the path of the module.
+    /// Compiles the package `web` in the given folder and returns the path of the module.
     ///
     /// # Errors
-    /// It does not compile.
+    /// Fails if it does not compile.
     pub fn build_module(&self, package: &Path) -> Result<PathBuf, String> {
         let out = target_folder().join("web-build");
         let flags = COMPILER_FLAGS.map(str::to_owned);
@@ -55,7 +54,7 @@ impl WebToolChain {
     }
 }
 
-/// The linker in the folder of a compiler.
+/// Returns the linker in the folder of a compiler, if there is one.
 fn find_linker(root: &Path) -> Option<PathBuf> {
     let platforms = std::fs::read_dir(root.join("lib/rustlib")).ok()?;
     let name = format!("bin/rust-lld{}", std::env::consts::EXE_SUFFIX);
