@@ -1,4 +1,5 @@
-//! The repository's documents as pages: first those in the menu, then everything they link to.
+//! Converts the repository's documents to pages: first the documents in the menu, then everything
+//! they link to.
 
 use crate::Outcome;
 use crate::files::names_in;
@@ -6,7 +7,7 @@ use crate::markdown::{Document, code_html, escape};
 use crate::site::Site;
 use std::path::Path;
 
-/// Documents with a separate name in the menu, before the others.
+/// Documents that come first in the menu, under special names.
 const FIRST: [(&str, &str, &str); 4] = [
     ("README.md", "Alberti", "Start"),
     ("docs/faq.md", "Alberti", "Questions"),
@@ -14,10 +15,10 @@ const FIRST: [(&str, &str, &str); 4] = [
     ("CHANGELOG.md", "Alberti", "Changes"),
 ];
 
-/// Documents that other modules turn into pages.
+/// Documents that other modules convert to pages.
 const ELSEWHERE: [&str; 1] = ["scenes/README.md"];
 
-/// Adds the menu pages that are documents; guides have a separate kind of page.
+/// Adds the menu pages that are documents. Guides are a different kind of page.
 pub fn add_documents(site: &mut Site) -> Outcome {
     let mut listed: Vec<(String, &'static str)> = Vec::new();
     for (path, group, _) in FIRST {
@@ -39,7 +40,7 @@ pub fn add_documents(site: &mut Site) -> Outcome {
             listed.push((path, "Crates"));
         }
     }
-    // All locations must be known before the first link is followed.
+    // All locations must be known before the first link is resolved.
     for (path, _) in &listed {
         let place = place_for(&site.root, path);
         site.place(path, &place);
@@ -60,19 +61,19 @@ fn add_document(site: &mut Site, path: &str, group: Option<&'static str>) -> Out
     if let Some((_, _, title)) = FIRST.iter().find(|(first, ..)| *first == path) {
         (*title).clone_into(&mut document.title);
     } else if let Some(name) = crate_name(path) {
-        // Packages have separate names, two of them identical.
+        // Use folder names as titles, because two packages have the same title.
         name.clone_into(&mut document.title);
     }
     site.add_page(&page, group, document);
     Ok(())
 }
 
-/// The folder of the crate that a document describes.
+/// Returns the folder of the crate that a document describes.
 fn crate_name(path: &str) -> Option<&str> {
     path.strip_prefix("crates/")?.strip_suffix("/README.md")
 }
 
-/// Adds everything that pages link to, directly or indirectly, to the site.
+/// Adds everything that the pages link to, directly or indirectly.
 pub fn add_linked_files(site: &mut Site) -> Outcome {
     while let Some(path) = site.wanted.pop_first() {
         let full = site.root.join(&path);
@@ -92,7 +93,7 @@ pub fn add_linked_files(site: &mut Site) -> Outcome {
     Ok(())
 }
 
-/// A page that lists a folder.
+/// Adds a page that lists a folder.
 fn add_folder(site: &mut Site, path: &str) -> Outcome {
     let names = names_in(&site.root.join(path))?;
     let items: String =
@@ -108,7 +109,7 @@ fn add_source(site: &mut Site, path: &str, content: &str) {
     site.add_page(&page, None, Document { title: path.to_owned(), html, ..Document::default() });
 }
 
-/// The location of a repository file in the site.
+/// Returns the location of a repository file in the site.
 pub fn place_for(root: &Path, path: &str) -> String {
     match path {
         "README.md" => "index.html".into(),
@@ -119,13 +120,13 @@ pub fn place_for(root: &Path, path: &str) -> String {
     }
 }
 
-/// Whether a file is a document of the site. Pages of the book have marks that only the book's own
-/// tool understands: they are shown as written.
+/// Returns whether a file is a document of the site. Book pages are not: they contain marks that
+/// only the book's own tool understands, so they are shown as plain text.
 fn is_document(path: &str) -> bool {
     path.ends_with(".md") && !path.starts_with("book/src/")
 }
 
-/// Whether a file is shown on a page; others are copied as they are.
+/// Returns whether a file is shown on a page. Other files are copied unchanged.
 fn is_shown_as_text(path: &str) -> bool {
     if path.starts_with("book/src/") {
         return true;

@@ -1,4 +1,5 @@
-//! Files and folders, with error messages that name them; paths in the repository as text.
+//! File and folder operations, with error messages that name the path, and repository paths as
+//! strings.
 
 use crate::Outcome;
 use std::fs;
@@ -7,14 +8,14 @@ use std::path::Path;
 /// The file that marks a folder as written by this program.
 const MARK: &str = ".alberti-site";
 
-/// Empties a folder. A folder with files that this program did not write is left as it is.
+/// Empties a folder. Fails if it contains files that this program did not write.
 pub fn empty_folder(folder: &Path) -> Outcome {
     let named = |error: std::io::Error| format!("{}: {error}", folder.display());
     if folder.exists() {
         let is_ours = folder.join(MARK).exists();
         let is_empty = fs::read_dir(folder).map_err(named)?.next().is_none();
         if !is_ours && !is_empty {
-            return Err(format!("{} holds other files: name an empty folder", folder.display()));
+            return Err(format!("{} contains other files: use an empty folder", folder.display()));
         }
         fs::remove_dir_all(folder).map_err(named)?;
     }
@@ -31,7 +32,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Outcome {
     fs::write(path, bytes).map_err(named)
 }
 
-/// Copies a file and creates its new parent folders.
+/// Copies a file and creates the parent folders of the copy.
 pub fn copy(from: &Path, to: &Path) -> Outcome {
     write(to, &fs::read(from).map_err(|error| format!("{}: {error}", from.display()))?)
 }
@@ -41,7 +42,7 @@ pub fn read_text(path: &Path) -> Result<String, String> {
     fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// The names in a folder, sorted.
+/// Returns the names in a folder, sorted.
 pub fn names_in(folder: &Path) -> Result<Vec<String>, String> {
     let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let mut names: Vec<String> =
@@ -50,13 +51,14 @@ pub fn names_in(folder: &Path) -> Result<Vec<String>, String> {
     Ok(names)
 }
 
-/// The folder of a repository path: `docs` for `docs/faq.md`, empty for `README.md`.
+/// Returns the folder of a repository path: `docs` for `docs/faq.md`, an empty string for
+/// `README.md`.
 pub fn folder_of(path: &str) -> &str {
     path.rsplit_once('/').map_or("", |(folder, _)| folder)
 }
 
-/// Resolves a relative path from a folder of the repository, without `.` and `..`; `None` if it
-/// leaves the repository.
+/// Resolves a relative path from a folder of the repository, removing `.` and `..`. Returns `None`
+/// if it leaves the repository.
 pub fn join(folder: &str, relative: &str) -> Option<String> {
     let mut parts: Vec<&str> = folder.split('/').filter(|part| !part.is_empty()).collect();
     for part in relative.split('/') {
@@ -69,7 +71,7 @@ pub fn join(folder: &str, relative: &str) -> Option<String> {
     Some(parts.join("/"))
 }
 
-/// The relative path from one page to another file of the site.
+/// Returns the relative path from a page to another file of the site.
 pub fn relative(from: &str, to: &str) -> String {
     let above: Vec<&str> = folder_of(from).split('/').filter(|part| !part.is_empty()).collect();
     let target: Vec<&str> = to.split('/').collect();
@@ -82,7 +84,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ways_lead_from_page_to_page() {
+    fn relative_paths_lead_from_page_to_page() {
         let table = [
             ("index.html", "style.css", "style.css"),
             ("docs/faq.html", "style.css", "../style.css"),
@@ -96,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn paths_stay_in_the_repository() {
+    fn paths_may_not_leave_the_repository() {
         assert_eq!(join("docs/guide", "../faq.md").as_deref(), Some("docs/faq.md"));
         assert_eq!(join("docs", "./exercises/").as_deref(), Some("docs/exercises"));
         assert_eq!(join("", "../other"), None);

@@ -8,14 +8,14 @@ use crate::site::Site;
 use std::fs;
 use std::path::Path;
 
-/// The page of all scenes.
+/// The path of the page with all scenes.
 pub const PAGE: &str = "gallery/index.html";
 
-/// A scene of the repository with its picture.
+/// A scene from the repository, with its picture.
 pub struct Scene {
     name: String,
     text: String,
-    /// Width and height of the picture.
+    /// The width and height of the picture.
     size: (u32, u32),
 }
 
@@ -32,7 +32,7 @@ impl Scene {
         format!("gallery/{}.png", self.name)
     }
 
-    /// The comment at the beginning of the file.
+    /// Returns the comment at the beginning of the file.
     fn caption(&self) -> String {
         let lines = self.text.lines().map_while(|line| line.trim().strip_prefix("//"));
         lines.map(str::trim).collect::<Vec<_>>().join(" ")
@@ -65,11 +65,11 @@ pub fn render_scenes(site: &Site, program: &Program) -> Result<Vec<Scene>, Strin
     Ok(scenes)
 }
 
-/// Adds the page of all scenes and one for each.
+/// Adds the page with all scenes and a page for each scene.
 pub fn add_gallery(site: &mut Site, scenes: &[Scene]) -> Outcome {
     let mut html = String::from(
-        "<h1 id=\"gallery\">Gallery</h1>\n<p>Every scene of the repository, rendered when this page was made. Each leads to its \
-         file, its command and its models. A scene shows one feature; its first lines say which.</p>\n<div class=\"gallery\">\n",
+        "<h1 id=\"gallery\">Gallery</h1>\n<p>Every scene in the repository, rendered when this page was built. Each links to its \
+         file, its command and its models. A scene shows one feature, which its first lines describe.</p>\n<div class=\"gallery\">\n",
     );
     for scene in scenes {
         let (page, name) = (relative(PAGE, &scene.page()), escape(&scene.name));
@@ -89,7 +89,7 @@ pub fn add_gallery(site: &mut Site, scenes: &[Scene]) -> Outcome {
     scenes.iter().try_for_each(|scene| add_scene(site, scene))
 }
 
-/// The page of one scene.
+/// Adds the page of one scene.
 fn add_scene(site: &mut Site, scene: &Scene) -> Outcome {
     let page = scene.page();
     let (name, source) = (escape(&scene.name), scene.source());
@@ -108,7 +108,7 @@ fn add_scene(site: &mut Site, scene: &Scene) -> Outcome {
     let html = format!(
         "<h1 id=\"{name}\">{name}</h1>\n<p>{}</p>\n<p class=\"picture\">{}</p>\n{}<h2 id=\"file\">File</h2>\n{}\
          <h2 id=\"downloads\">Downloads</h2>\n<ul>\n{downloads}</ul>\n\
-         <p><a href=\"index.html\">All scenes</a> · <a href=\"../reference/scene.html\">All fields of scene files</a></p>\n",
+         <p><a href=\"index.html\">All scenes</a> · <a href=\"../reference/scene.html\">Reference for scene files</a></p>\n",
         escape(&scene.caption()),
         scene.image_html(&page),
         code_html("sh", &format!("alberti render {source}")),
@@ -122,7 +122,7 @@ fn add_scene(site: &mut Site, scene: &Scene) -> Outcome {
     Ok(())
 }
 
-/// The quoted words in a scene that may name files.
+/// Returns the quoted strings in a scene that may be file names.
 fn named_files(text: &str) -> Vec<&str> {
     let mut names: Vec<&str> =
         text.split('"').skip(1).step_by(2).filter(|word| word.contains('.')).collect();
@@ -131,7 +131,7 @@ fn named_files(text: &str) -> Vec<&str> {
     names
 }
 
-/// Width and height of a PNG, from its header.
+/// Reads the width and height of a PNG from its header.
 fn png_size(path: &Path) -> Result<(u32, u32), String> {
     let bytes = fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
     let number = |at: usize| Some(u32::from_be_bytes(bytes.get(at..at + 4)?.try_into().ok()?));

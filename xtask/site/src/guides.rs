@@ -1,12 +1,14 @@
-//! The guides: their commands are run, so that their claims are true and their pictures are new.
+//! Runs the commands in the guides, so that their output is correct and their pictures are current.
 //!
-//! A guide begins in an empty folder with the models that it links to. Its code blocks mean:
+//! The commands run in a folder that initially contains only the models that the guide links to.
+//! Code blocks have these meanings:
 //!
-//! - `sh` is run by the shell, with `alberti` as the program; pictures that it writes are shown
-//!   below it, and a warning is a failure, like an error;
-//! - `text` directly after it is the expected output, where a line `…` matches any lines, and a
-//!   line that ends in `…` matches any ending;
-//! - one with a file name after its language, such as `ron two_views.ron`, becomes that file.
+//! - `sh` is run by the shell, where `alberti` is the program. Pictures that it writes are shown
+//!   below the block. Both errors and warnings are failures.
+//! - `text` directly after an `sh` block is the expected output. A line `…` matches any number of
+//!   lines, and a line that ends in `…` matches any ending.
+//! - A block with a file name after its language, such as `ron two_views.ron`, is written to that
+//!   file.
 //!
 //! All other blocks are only shown.
 
@@ -25,7 +27,7 @@ const FOLDER: &str = "docs/guide";
 /// The maximum number of pictures shown below a block.
 const MOST_PICTURES: usize = 6;
 
-/// The guides, the overview first.
+/// Returns the paths of the guides, the overview first.
 pub fn guide_paths(site: &Site) -> Result<Vec<String>, String> {
     let mut names = site.names_in(FOLDER)?;
     names.retain(|name| name.ends_with(".md"));
@@ -49,7 +51,7 @@ pub fn run_guides(site: &mut Site, program: &Program) -> Outcome {
 
 /// A guide while its commands run.
 struct GuideRun {
-    /// The folder in which they run.
+    /// The folder in which the commands run.
     folder: PathBuf,
     /// Its page in the site.
     page: String,
@@ -68,7 +70,8 @@ impl GuideRun {
         Ok(Self { folder, page: page.to_owned() })
     }
 
-    /// The text with pictures after the blocks that made them.
+    /// Runs the blocks of the text. Returns the text with the pictures inserted after the blocks
+    /// that wrote them.
     fn run_blocks(&self, site: &Site, program: &Program, text: &str) -> Result<String, String> {
         let mut result = String::new();
         let mut printed = None;
@@ -101,14 +104,14 @@ impl GuideRun {
         Ok(result)
     }
 
-    /// All files with their modification times.
+    /// Returns all files with their modification times.
     fn file_times(&self) -> BTreeMap<PathBuf, SystemTime> {
         let mut found = BTreeMap::new();
         list_files(&self.folder, &mut found);
         found
     }
 
-    /// Copies changed pictures into the site; returns the HTML that shows them.
+    /// Copies changed pictures into the site and returns the HTML that shows them.
     fn new_pictures(
         &self,
         site: &Site,
@@ -133,7 +136,7 @@ impl GuideRun {
                 "<figure><img src=\"{source}\" loading=\"lazy\" alt=\"{name}\"><figcaption>{name}</figcaption></figure>\n"
             );
         }
-        // Blank lines around it, so that Markdown takes it as it is.
+        // Markdown passes HTML through unchanged if it is between blank lines.
         Ok(if html.is_empty() { html } else { format!("\n<div class=\"made\">\n{html}</div>\n\n") })
     }
 }
@@ -151,7 +154,7 @@ fn list_files(folder: &Path, found: &mut BTreeMap<PathBuf, SystemTime>) {
     }
 }
 
-/// The models that a guide links to, by path in the repository.
+/// Returns the repository paths of the models that a guide links to.
 fn linked_models(text: &str) -> Vec<&str> {
     let targets = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
     let mut models: Vec<&str> = targets
@@ -163,7 +166,7 @@ fn linked_models(text: &str) -> Vec<&str> {
     models
 }
 
-/// Whether a block printed the expected text.
+/// Checks that a block printed the expected text.
 fn compare(expected: &str, printed: &str) -> Outcome {
     let mut lines = printed.lines().map(str::trim_end);
     let mut may_skip = false;
@@ -178,14 +181,14 @@ fn compare(expected: &str, printed: &str) -> Outcome {
         };
         let found = if may_skip { lines.any(matches) } else { lines.next().is_some_and(matches) };
         if !found {
-            return Err(format!("the guide shows\n{wanted}\nbut the output is\n{printed}"));
+            return Err(format!("the guide expects\n{wanted}\nbut the output is\n{printed}"));
         }
         may_skip = false;
     }
     if may_skip || lines.next().is_none() {
         return Ok(());
     }
-    Err(format!("more is printed than the guide says:\n{printed}"))
+    Err(format!("the output has more lines than the guide expects:\n{printed}"))
 }
 
 #[cfg(test)]
@@ -193,7 +196,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_printed_is_compared_line_by_line() {
+    fn output_is_compared_line_by_line() {
         let printed = "one\ntwo 2.5 ms\nthree\n";
         for right in ["one\ntwo 2.5 ms\nthree\n", "one\ntwo …\nthree", "…\nthree", "one\n…"] {
             assert_eq!(compare(right, printed), Ok(()), "{right}");
@@ -204,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn linked_models_are_brought_along() {
+    fn linked_models_are_found() {
         let text = "[a](../../scenes/models/a.glb), [b](../conventions.md), [a](../../scenes/models/a.glb)";
         assert_eq!(linked_models(text), ["scenes/models/a.glb"]);
     }

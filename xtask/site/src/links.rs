@@ -1,11 +1,11 @@
-//! Checks all links: each leads to a file of the site and to an existing anchor; nothing is loaded
-//! from another host; there are no scripts.
+//! Checks the pages: every link must lead to a file of the site and to an existing anchor, nothing
+//! may be loaded from another host, and there must be no scripts.
 
 use crate::files::{folder_of, join, names_in, read_text};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// The links of a site.
+/// The result of checking a site.
 #[derive(Debug)]
 pub struct LinkReport {
     pages: usize,
@@ -16,7 +16,10 @@ pub struct LinkReport {
 impl std::fmt::Display for LinkReport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self { pages, links, others } = self;
-        write!(f, "{pages} pages, {links} links checked, {others} to other sites not followed")
+        write!(
+            f,
+            "{pages} pages, {links} links checked, {others} links to other sites not followed"
+        )
     }
 }
 
@@ -47,20 +50,21 @@ pub fn check_links(folder: &Path) -> Result<LinkReport, String> {
             let path = path.unwrap_or_default();
             let has_anchor = || anchors.get(&path).is_some_and(|known| known.contains(anchor));
             if !files.contains(&path) || !anchor.is_empty() && !has_anchor() {
-                faults.push(format!("{page}: `{target}` leads nowhere"));
+                faults.push(format!("{page}: `{target}` does not exist"));
             }
         }
     }
     if faults.is_empty() { Ok(report) } else { Err(faults.join("\n")) }
 }
 
-/// The values of an attribute in all tags: text has `<` escaped.
+/// Returns the values of an attribute in all tags. Tags can be found by `<`, because it is escaped
+/// in text.
 fn values<'a>(text: &'a str, start: &'a str) -> impl Iterator<Item = &'a str> {
     let tags = text.split('<').skip(1).filter_map(|rest| rest.split('>').next());
     tags.filter_map(move |tag| tag.split_once(start)?.1.split('"').next())
 }
 
-/// Scripts, and pictures and styles from other hosts.
+/// Finds scripts, and pictures and styles from other hosts.
 fn foreign_parts(page: &str, text: &str) -> Vec<String> {
     let mut faults = Vec::new();
     if text.contains("<script") {
@@ -68,11 +72,11 @@ fn foreign_parts(page: &str, text: &str) -> Vec<String> {
     }
     let tags = text.split('<').filter(|tag| tag.starts_with("img ") || tag.starts_with("link "));
     let foreign = tags.filter(|tag| tag.contains("\"http") || tag.contains("\"//"));
-    faults.extend(foreign.map(|tag| format!("{page}: loaded from elsewhere: <{tag}")));
+    faults.extend(foreign.map(|tag| format!("{page}: loaded from another host: <{tag}")));
     faults
 }
 
-/// Duplicate anchors on a page.
+/// Finds duplicate anchors on a page.
 fn repeated_anchors(page: &str, text: &str) -> Vec<String> {
     let mut seen = BTreeSet::new();
     let twice = values(text, " id=\"").filter(|anchor| !seen.insert(*anchor));
@@ -118,7 +122,7 @@ mod tests {
         ];
         let lost = ["<a href=\"#x\">", "<a href=\"c.html\">", "<a href=\"../../a.html\">"];
         let right = found.iter().all(|text| check(text)) && !lost.iter().any(|text| check(text));
-        std::fs::remove_dir_all(&folder).expect("the folder of the test");
+        std::fs::remove_dir_all(&folder).expect("the test folder");
         assert!(right);
     }
 }

@@ -1,4 +1,4 @@
-//! `alberti-site`: the documentation of the repository as static pages.
+//! `alberti-site`: writes the repository's documentation as static pages.
 //!
 //! ```text
 //!  README, docs/*.md, crates ──► documents ─┐
@@ -7,9 +7,9 @@
 //!  alberti reference ──► reference ─────────┘
 //! ```
 //!
-//! Run by `cargo xtask docs`. Pages need neither scripts nor anything from another host. It fails
-//! if a guide's command fails or prints something else, if a scene cannot be rendered, or if a link
-//! is broken.
+//! `cargo xtask docs` runs it. The pages need no scripts and load nothing from other hosts. The
+//! program fails if a command in a guide fails or prints unexpected output, if a scene cannot be
+//! rendered, or if a link is broken.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program prints")]
 #![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]
 
@@ -29,11 +29,11 @@ use site::Site;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Nothing, or an error message.
+/// The result of an operation: nothing, or an error message.
 type Outcome = Result<(), String>;
 
 const USAGE: &str = "alberti-site ROOT PROGRAM OUT\n\
-    Writes the documentation of the repository ROOT, with pictures by PROGRAM, into the folder OUT.";
+    Writes the documentation of the repository ROOT, with pictures from PROGRAM, to the folder OUT.";
 
 fn main() -> ExitCode {
     let arguments: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();

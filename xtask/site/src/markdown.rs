@@ -1,5 +1,5 @@
-//! Markdown to HTML: headings with GitHub's anchors, tables that scroll separately, code with its
-//! comments set apart, and links replaced by the caller.
+//! Converts Markdown to HTML. Headings have the same anchors as on GitHub, wide tables scroll
+//! horizontally, comments in code are marked up, and the caller replaces link targets.
 
 use pulldown_cmark::{CodeBlockKind, CowStr, Event, HeadingLevel, Options, Parser, Tag, TagEnd};
 use std::collections::BTreeMap;
@@ -15,12 +15,13 @@ pub struct Document {
     pub sections: Vec<(String, String)>,
 }
 
-/// A part of a document: text, or a code block with the words after its fence.
+/// A part of a document: text, or a code block with its info string.
 #[derive(PartialEq, Eq, Debug)]
 pub enum Part {
     /// Markdown between code blocks.
     Text(String),
-    /// A code block: its language and the rest of its fence line, and its text.
+    /// A code block: its info string, which is the language and the rest of the fence line, and its
+    /// text.
     Code(String, String),
 }
 
@@ -28,8 +29,7 @@ fn options() -> Options {
     Options::ENABLE_TABLES | Options::ENABLE_STRIKETHROUGH
 }
 
-/// Translates a document; `link` maps the target of a link or an image in the text to its new
-/// target.
+/// Translates a document. `link` maps the target of a link or an image to its new target.
 pub fn to_html(
     markdown: &str,
     mut link: impl FnMut(&str) -> Result<String, String>,
@@ -80,13 +80,13 @@ impl Document {
     }
 }
 
-/// The events before an end.
+/// Returns the events before an end tag, and consumes the end tag.
 fn take_until<'a>(parser: &mut Parser<'a>, is_end: impl Fn(&TagEnd) -> bool) -> Vec<Event<'a>> {
     let ends = |event: &Event<'_>| matches!(event, Event::End(end) if is_end(end));
     parser.by_ref().take_while(|event| !ends(event)).collect()
 }
 
-/// An event whose link or image target the caller has replaced.
+/// Replaces the target of a link or image event using `link`.
 fn with_target<'a>(
     event: Event<'a>,
     link: &mut impl FnMut(&str) -> Result<String, String>,
@@ -135,7 +135,7 @@ fn heading<'a>(
     Ok(Heading { anchor, text, html })
 }
 
-/// The anchors given so far: a repeated one gets a number.
+/// The anchors used so far. A repeated anchor gets a number.
 #[derive(Default)]
 struct Anchors(BTreeMap<String, usize>);
 
@@ -148,14 +148,15 @@ impl Anchors {
     }
 }
 
-/// The anchor of a heading, as GitHub makes it: letters, digits, `-` and `_`, spaces as `-`.
+/// Returns the anchor of a heading, as on GitHub: letters, digits, `-` and `_` are kept, and spaces
+/// become `-`.
 pub fn slug(text: &str) -> String {
     let kept = text.to_lowercase();
     let kept = kept.chars().filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
     kept.map(|c| if c == ' ' { '-' } else { c }).collect()
 }
 
-/// The text of a file in a code block of the language that its extension names.
+/// Formats code as an HTML code block, with the file name above it if `words` has one.
 pub fn code_html(words: &str, text: &str) -> String {
     let mut words = words.split([' ', ',']);
     let language = words.next().unwrap_or_default();
@@ -171,19 +172,19 @@ pub fn code_html(words: &str, text: &str) -> String {
     )
 }
 
-/// Lines in examples that documentation tests need and readers do not.
+/// Returns whether a line in an example is only for documentation tests, not for readers.
 fn is_hidden_line(line: &str) -> bool {
     line == "#" || line.starts_with("# ")
 }
 
-/// A line of code with its comment in a separate span.
+/// Formats a line of code, with its comment in a separate element.
 fn line_html(language: &str, line: &str) -> String {
     let mark = match language {
         "rust" | "ron" | "json" | "js" => "//",
         "sh" | "toml" | "python" | "yaml" => "# ",
         _ => return escape(line),
     };
-    // Within strings, such as addresses and colors, it is not a comment.
+    // Within strings, such as URLs and colors, the mark does not begin a comment.
     let begins = |at: &usize| *at == 0 || line[..*at].ends_with(' ') && quotes(&line[..*at]);
     match line.match_indices(mark).map(|(at, _)| at).find(begins) {
         Some(at) => format!("{}<i>{}</i>", escape(&line[..at]), escape(&line[at..])),
@@ -191,12 +192,12 @@ fn line_html(language: &str, line: &str) -> String {
     }
 }
 
-/// Whether all quotes are closed.
+/// Returns whether all quotes are closed.
 fn quotes(text: &str) -> bool {
     text.matches('"').count().is_multiple_of(2) && text.matches('\'').count().is_multiple_of(2)
 }
 
-/// Text as HTML, also within attributes.
+/// Escapes text for HTML, including attributes.
 pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
@@ -237,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn headings_have_anchors_and_repeated_ones_numbers() {
+    fn repeated_heading_anchors_get_numbers() {
         let document = html("# A `b` — c, d\n\n## Twice\n\n## Twice\n");
         assert_eq!(document.title, "A b — c, d");
         let anchors: Vec<&str> = document.sections.iter().map(|(at, _)| at.as_str()).collect();
@@ -250,14 +251,14 @@ mod tests {
     }
 
     #[test]
-    fn links_and_images_lead_where_the_caller_says() {
+    fn the_caller_replaces_the_targets_of_links_and_images() {
         let html = html("[a](x.md) ![b](y.png)").html;
         assert!(html.contains("href=\"to/x.md\"") && html.contains("src=\"to/y.png\""), "{html}");
         assert!(to_html("[a](x)", |_| Err("no x".into())).is_err());
     }
 
     #[test]
-    fn code_is_escaped_and_comments_are_apart() {
+    fn code_is_escaped_and_comments_are_marked_up() {
         assert_eq!(line_html("sh", "a <b> '# c' # d"), "a &lt;b&gt; '# c' <i># d</i>");
         assert_eq!(line_html("ron", "(\"http://x\") // y"), "(&quot;http://x&quot;) <i>// y</i>");
         assert!(!code_html("rust", "# hidden\nshown();").contains("hidden"));
@@ -265,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn documents_are_divided_at_code_blocks() {
+    fn documents_are_split_at_code_blocks() {
         let parts = divide("# A\n\n```sh\nx\n```\n\nb\n");
         let [Part::Text(before), Part::Code(words, code), Part::Text(after)] = &parts[..] else {
             panic!("{parts:?}")

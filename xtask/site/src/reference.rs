@@ -1,5 +1,5 @@
-//! The reference, as the program prints it from its declarations: one page per command, one for
-//! scene files, and the manual pages to install.
+//! The reference, which the program prints: a page for each command, a page for scene files, and
+//! manual pages to install.
 
 use crate::Outcome;
 use crate::files::{names_in, relative};
@@ -11,7 +11,7 @@ use std::fs;
 const COMMANDS: &str = "reference/index.html";
 const SCENE: &str = "reference/scene.html";
 
-/// Adds the pages of the reference.
+/// Adds the reference pages.
 pub fn add_reference(site: &mut Site, program: &Program) -> Outcome {
     let text = program.run(&site.root, &["reference", "--format", "markdown"])?;
     let parts = sections(&text);
@@ -19,17 +19,17 @@ pub fn add_reference(site: &mut Site, program: &Program) -> Outcome {
     let commands: Vec<&(String, String)> = parts.iter().filter(is_command).collect();
     let types: Vec<&(String, String)> = parts.iter().filter(|part| !is_command(part)).collect();
     if commands.len() < 5 || types.len() < 20 {
-        return Err("the reference has another form than before: see reference.rs".into());
+        return Err("the format of `alberti reference` has changed: see reference.rs".into());
     }
     let manual = manual_pages(site, program)?;
     let mut list = String::from(
-        "# Commands\n\nAll commands with all their flags, as `alberti COMMAND --help` says them.\n\n",
+        "# Commands\n\nAll commands with all their flags, as printed by `alberti COMMAND --help`.\n\n",
     );
     for (name, body) in &commands {
         let about = body.lines().find(|line| !line.is_empty()).unwrap_or_default();
         list += &format!("- [`{name}`]({}) — {about}\n", relative(COMMANDS, &command_page(name)));
     }
-    list += "\nAs manual pages, to install below `man/man1`: ";
+    list += "\nManual pages to install in `man/man1`: ";
     let links =
         manual.iter().map(|(name, place)| format!("[{name}]({})", relative(COMMANDS, place)));
     list += &(links.collect::<Vec<_>>().join(", ") + ".\n");
@@ -47,17 +47,17 @@ fn command_page(name: &str) -> String {
     format!("reference/{}.html", name.replace(' ', "-"))
 }
 
-/// Second-level headings, each with the text below it.
+/// Returns the second-level headings, each with the text below it.
 fn sections(text: &str) -> Vec<(String, String)> {
     let parts = text.split("\n## ").skip(1);
     let parts = parts.map(|part| part.split_once('\n').unwrap_or((part, "")));
     parts.map(|(name, body)| (name.to_owned(), body.to_owned())).collect()
 }
 
-/// All types of scene files, the types of fields as links.
+/// Returns the document with all types of scene files, in which field types are links.
 fn scene_document(types: &[&(String, String)]) -> Result<Document, String> {
     let mut text = String::from(
-        "# Scene files\n\nAll types of scene files and their fields, as `alberti scene doc` says them.\n",
+        "# Scene files\n\nAll types of scene files and their fields, as printed by `alberti scene doc`.\n",
     );
     let names: Vec<&str> = types.iter().map(|(name, _)| name.as_str()).collect();
     for (name, body) in types {
@@ -69,7 +69,7 @@ fn scene_document(types: &[&(String, String)]) -> Result<Document, String> {
     to_html(&text, |target| Ok(target.into()))
 }
 
-/// The line for a field, such as `` - `camera`: Camera — … ``, with a link to its type.
+/// Adds a link to the type in the line for a field, such as `` - `camera`: Camera — … ``.
 fn with_type_links(line: &str, types: &[&str]) -> String {
     let Some((field, rest)) = line.split_once("`: ") else { return line.into() };
     let Some((kind, about)) = rest.split_once(" — ") else { return line.into() };
@@ -83,7 +83,7 @@ fn with_type_links(line: &str, types: &[&str]) -> String {
     format!("{field}`: {} — {about}", linked.collect::<Vec<_>>().join(" "))
 }
 
-/// Flags with anchors, so that `alberti-render.html#--size` leads to `--size`.
+/// Adds anchors to flags, so that `alberti-render.html#--size` leads to `--size`.
 fn with_flag_anchors(html: &str) -> String {
     let mut parts = html.split("<li><code>");
     let mut text = parts.next().unwrap_or_default().to_owned();
@@ -96,7 +96,7 @@ fn with_flag_anchors(html: &str) -> String {
     text
 }
 
-/// Writes the manual pages into the site; returns the name and path of each.
+/// Writes the manual pages into the site and returns the name and path of each.
 fn manual_pages(site: &Site, program: &Program) -> Result<Vec<(String, String)>, String> {
     let folder = std::path::absolute(site.out.join("man")).map_err(|error| error.to_string())?;
     fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
@@ -110,7 +110,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fields_lead_to_their_types_and_flags_have_anchors() {
+    fn fields_link_to_their_types_and_flags_have_anchors() {
         let line = "- `models`: list of Model — The models.";
         assert_eq!(
             with_type_links(line, &["Model"]),

@@ -1,5 +1,5 @@
-//! The site while it is built: its pages, the location of each repository file in it, and the files
-//! that are still to be copied.
+//! The site under construction: its pages, the location of each repository file in it, and the
+//! files that are yet to be copied.
 
 use crate::files::{self, copy, folder_of, join, relative, write};
 use crate::markdown::{Document, to_html};
@@ -12,7 +12,7 @@ const GROUPS: [&str; 6] = ["Alberti", "Guides", "Reference", "Documents", "Crate
 
 /// A page.
 pub struct Page {
-    /// Its group in the menu; none for pages that others link to.
+    /// Its group in the menu, or `None` if only other pages link to it.
     pub group: Option<&'static str>,
     /// Its content.
     pub document: Document,
@@ -24,18 +24,18 @@ pub struct Site {
     pub root: PathBuf,
     /// The output folder.
     pub out: PathBuf,
-    /// Pages by path in the site.
+    /// The pages, by path in the site.
     pages: BTreeMap<String, Page>,
     /// The pages in the menu, in order.
     menu: Vec<String>,
     /// The locations of repository files in the site.
     places: BTreeMap<String, String>,
-    /// Repository files that pages link to and that are not yet copied.
+    /// Repository files that pages link to and that have not been copied yet.
     pub wanted: BTreeSet<String>,
 }
 
 impl Site {
-    /// A site without pages.
+    /// Creates a site without pages.
     pub fn new(root: &Path, out: &Path) -> Self {
         Self {
             root: root.to_owned(),
@@ -57,12 +57,12 @@ impl Site {
         self.places.insert(source.to_owned(), path.to_owned());
     }
 
-    /// The location of a repository file, if it has one.
+    /// Returns the location of a repository file, if it has one.
     pub fn place_of(&self, source: &str) -> Option<&str> {
         self.places.get(source).map(String::as_str)
     }
 
-    /// Copies a repository file, once.
+    /// Copies a repository file unless it has already been copied, and returns its location.
     pub fn copy_file(&mut self, source: &str) -> Result<String, String> {
         let place = format!("files/{source}");
         if self.place_of(source).is_none() {
@@ -72,7 +72,7 @@ impl Site {
         Ok(self.place_of(source).unwrap_or(&place).to_owned())
     }
 
-    /// Adds a page, in the order of the menu if it has a group.
+    /// Adds a page and, if it has a group, appends it to the menu.
     pub fn add_page(&mut self, path: &str, group: Option<&'static str>, document: Document) {
         if group.is_some() {
             self.menu.push(path.to_owned());
@@ -91,7 +91,7 @@ impl Site {
             .map_err(|error| format!("{source}: {error}"))
     }
 
-    /// The target of a link in a document, as seen from the document's page.
+    /// Returns the new target of a link in a document, relative to the document's page.
     fn target(&mut self, source: &str, page: &str, target: &str) -> Result<String, String> {
         if target.contains("://") || target.starts_with("mailto:") || target.starts_with('#') {
             return Ok(target.to_owned());
@@ -126,7 +126,7 @@ impl Site {
         Ok(())
     }
 
-    /// The menu as shown on a page.
+    /// Returns the menu for a page.
     fn menu_html(&self, current: &str) -> String {
         let mut html = String::new();
         for group in GROUPS {
@@ -142,12 +142,12 @@ impl Site {
         html
     }
 
-    /// The names in a repository folder.
+    /// Returns the names in a repository folder.
     pub fn names_in(&self, folder: &str) -> Result<Vec<String>, String> {
         files::names_in(&self.root.join(folder))
     }
 
-    /// The text of a repository file.
+    /// Reads the text of a repository file.
     pub fn read_text(&self, path: &str) -> Result<String, String> {
         files::read_text(&self.root.join(path))
     }

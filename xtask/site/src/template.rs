@@ -1,4 +1,4 @@
-//! The common parts of all pages: the frame, the menu, the style sheet.
+//! The common parts of all pages: the frame, the menu and the style sheet.
 
 use crate::files::relative;
 use crate::markdown::escape;
@@ -7,11 +7,11 @@ use crate::site::Page;
 /// The style sheet of all pages.
 pub const STYLE: &str = include_str!("style.css");
 
-/// The number of sections from which a page has a list of them.
+/// The minimum number of sections for which a page has a list of sections.
 const LISTED_SECTIONS: usize = 3;
 
-/// A whole page. The menu follows the content, so that a reader on a narrow screen begins with the
-/// requested text.
+/// Returns a whole page. The menu follows the content, so that on narrow screens the content comes
+/// first.
 pub fn page_html(path: &str, page: &Page, menu: &str) -> String {
     let document = &page.document;
     let [style, start] = ["style.css", "index.html"].map(|target| relative(path, target));
@@ -51,7 +51,7 @@ pub fn page_html(path: &str, page: &Page, menu: &str) -> String {
     )
 }
 
-/// A page in the menu, marked if it is the current one.
+/// Returns the menu item of a page, marked if it is the current page.
 pub fn menu_item(current: &str, path: &str, title: &str) -> String {
     let mark = if current == path { " aria-current=\"page\"" } else { "" };
     format!("<li><a href=\"{}\"{mark}>{}</a></li>\n", relative(current, path), escape(title))
