@@ -1,4 +1,4 @@
-//! `cargo xtask api`: the public interface of each library against its committed listing.
+//! `cargo xtask api`: compares the public interface of each library with its committed listing.
 //!
 //! ```text
 //! api [--bless]

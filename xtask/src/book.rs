@@ -1,4 +1,5 @@
-//! `cargo xtask book`: the book in English and Chinese, target/book/en and target/book/zh.
+//! `cargo xtask book`: builds the book in English and Chinese, in target/book/en and
+//! target/book/zh.
 //!
 //! ```text
 //! book                    build both editions

@@ -60,7 +60,7 @@ pub fn run_conformance(arguments: &[String]) -> Outcome {
         println!("{}", coverage_summary(&tests, marks.as_ref()));
         return Ok(());
     }
-    Err(format!("{} faults\n  {}", faults.len(), faults.join("\n  ")))
+    Err(format!("{} problems\n  {}", faults.len(), faults.join("\n  ")))
 }
 
 /// Finds items without a test in a complete crate that is responsible for them.

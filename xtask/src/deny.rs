@@ -65,7 +65,7 @@ pub fn run_deny(arguments: &[String]) -> Outcome {
         print_compiler(&floor)?;
         return run_cargo_deny();
     }
-    Err(format!("{} faults\n  {}", faults.len(), faults.join("\n  ")))
+    Err(format!("{} problems\n  {}", faults.len(), faults.join("\n  ")))
 }
 
 /// A package from outside this project.

@@ -47,7 +47,7 @@ pub fn run_determinism(arguments: &[String]) -> Outcome {
     compare_outputs(&drawn)
 }
 
-/// Compares the explorer's pictures in WebAssembly with the release build's.
+/// Compares the explorer's WebAssembly pictures with pictures from the release build.
 pub fn compare_web_pictures() -> Outcome {
     web::compare_web(&Program::build(Build::Release)?)
 }

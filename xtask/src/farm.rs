@@ -45,7 +45,7 @@ struct Farm {
     pictures: usize,
     /// The time of a picture, as a multiple of the measured one.
     slowness: f64,
-    /// The mean time between two node failures; 0 if none fails.
+    /// The mean time between failures of a node, in hours; 0 means that nodes do not fail.
     hours_to_death: u64,
     /// Whether a shard resumes after a failure instead of starting over.
     continues: bool,
@@ -233,7 +233,8 @@ mod tests {
         };
         let (never, often) = (farm(0).run(&times), farm(1).run(&times));
         let anew = Farm { continues: false, ..farm(1) }.run(&times);
-        // Two shards take a node seven hours; a node fails every hour and then waits seven minutes.
+        // Two shards occupy a node for seven hours. A node fails every hour and then waits for
+        // seven minutes.
         assert!(never < often && often < never * 3 / 2, "{never} {often}");
         assert!(anew > often * 2, "{often} {anew}");
     }

@@ -124,7 +124,7 @@ const COMMANDS: &[Command] = &[
     Command {
         name: "strangers",
         arguments: "[--time]",
-        about: "Build the programs of tests/strangers against packed crates and run them; --time compares with peers",
+        about: "Build the programs in tests/strangers against packed crates and run them; --time compares with peers",
         run: strangers::run_strangers,
     },
     Command {

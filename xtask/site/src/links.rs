@@ -100,7 +100,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn scripts_and_foreign_pictures_are_found() {
+    fn scripts_and_pictures_from_other_hosts_are_found() {
         let faults = |text: &str| {
             foreign_parts("a.html", text).len() + repeated_anchors("a.html", text).len()
         };

@@ -17,7 +17,7 @@ use std::path::Path;
 
 /// Returns the listing of a crate, given the folder with its pages.
 ///
-/// Pages of removed items stay in the folder, so the list of all items decides which exist.
+/// Pages of removed items remain in the folder, so the list of all items decides which exist.
 pub fn crate_listing(folder: &Path) -> Result<String, String> {
     let all = read_text(&folder.join("all.html"))?;
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
@@ -103,7 +103,7 @@ fn headers(html: &str, with_methods: bool) -> Vec<String> {
         let text = plain_text(code).split_whitespace().collect::<Vec<_>>().join(" ");
         (with_methods || !is_method).then(|| if is_method { format!("    {text}") } else { text })
     };
-    // Derived, and meaningless to callers.
+    // These are derived and mean nothing to callers.
     starts.filter_map(header).filter(|text| !text.contains("StructuralPartialEq")).collect()
 }
 
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn items_are_named_by_their_pages() {
+    fn item_names_are_derived_from_their_pages() {
         let name = |page: &str| item_name("homog", page);
         assert_eq!(name("ray/struct.Ray.html").as_deref(), Some("homog::ray::Ray"));
         assert_eq!(name("fn.remap.html").as_deref(), Some("homog::remap"));

@@ -1,4 +1,5 @@
-//! `cargo xtask bench compare REV`: the current program against the program of another commit.
+//! `cargo xtask bench compare REV`: compares the current program with the program of another
+//! commit.
 //!
 //! ```text
 //! cargo xtask bench compare main~20 --quick

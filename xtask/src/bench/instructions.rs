@@ -2,7 +2,7 @@
 //!
 //! Times vary; instruction counts from callgrind do not: the same program always gives the same
 //! count. Valgrind presents the same plain processor with AVX2 to every program, even if the real
-//! one has wider instructions. `tests/bench/instructions.txt` holds the counts, each with the
+//! one has wider instructions. `tests/bench/instructions.txt` contains the counts, each with the
 //! reason for its last change. A count that has risen by more than 3 % fails until it is stored
 //! with a reason:
 //!
@@ -32,7 +32,7 @@ const SCENES: [&str; 3] = ["teapot", "floor", "panes"];
 /// arguments of `crates/raster/examples/workload.rs`.
 const SAMPLES: [(&str, &str); 2] = [("raster-1", "1"), ("raster-4", "4")];
 
-/// Counts instructions and compares them with the table, or updates named rows.
+/// Counts instructions and compares them with the table, or updates the named rows.
 pub fn run_instructions(arguments: &[String]) -> Outcome {
     let request = Request::parse_request(arguments)?;
     if let Some(reason) = missing_tool() {

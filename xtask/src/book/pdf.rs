@@ -1,4 +1,4 @@
-//! PDFs of the editions: `print.html` printed by Chromium.
+//! Prints the editions to PDF: Chromium prints the `print.html` of each.
 
 use crate::Outcome;
 use crate::browser::CHROMIUM;

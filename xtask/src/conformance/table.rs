@@ -70,7 +70,7 @@ fn file_entry(path: &str, names: &[&str]) -> String {
     format!("[{shown}](../{path}): {}", names.join(", "))
 }
 
-/// Whether a crate has a test that names the item.
+/// Returns whether a crate has a test that names the item.
 pub fn has_test(item: &Item, owner: &str, tests: &[Test]) -> bool {
     tests.iter().any(|test| test.owner() == owner && test.ids.contains(&item.id))
 }

@@ -1,4 +1,4 @@
-//! Other compiler targets, and the output of the program compiled for them.
+//! Compares the program's output between compiler targets.
 //!
 //! The program is compiled for each target and runs the same commands as this machine's release
 //! build, in an emulator if the processor is different. It must write the same bytes.

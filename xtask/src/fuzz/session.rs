@@ -202,7 +202,7 @@ fn last_lines(log: &str) -> String {
 const LAST_LINES: usize = 30;
 
 impl SessionReport {
-    /// The column headings in the table of reports.
+    /// The column headings of the table of reports.
     pub const HEADING: &str =
         "target       CPU min  executions   per s    edges  features  corpus  crashes";
 }

@@ -12,7 +12,7 @@ use std::time::Instant;
 
 /// A test step.
 pub struct Step {
-    /// The name by which the command line selects it.
+    /// The name that selects it on the command line.
     pub name: String,
     /// Its description in the list of steps.
     pub about: String,
@@ -58,7 +58,7 @@ pub enum Action {
 
 /// The result of a step.
 pub struct StepReport {
-    /// The name by which the command line selects it.
+    /// The name that selects it on the command line.
     pub name: String,
     /// The wall-clock time in seconds.
     pub seconds: f64,

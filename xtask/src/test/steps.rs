@@ -78,7 +78,7 @@ fn build_documentation() -> Outcome {
     compile(|| run_visibly(cargo.env("RUSTDOCFLAGS", "-D warnings")))
 }
 
-/// The suites of the first tier, the slowest first.
+/// Returns the suites of the first tier, the slowest first.
 fn suite_steps() -> Vec<Step> {
     let suite = |name, about: &str| Step::new(name, about, Action::Suite(name)).shared();
     vec![
@@ -118,7 +118,7 @@ fn suite_steps() -> Vec<Step> {
     ]
 }
 
-/// Quick tests of the page and of Python, which need other tool chains.
+/// Returns quick tests of the page and of Python, which need other tool chains.
 fn interface_steps() -> Vec<Step> {
     vec![
         Step::built_in("page", "the explorer's page in a browser: the first lesson", || {
@@ -132,7 +132,7 @@ fn interface_steps() -> Vec<Step> {
     ]
 }
 
-/// The second tier: other machines, and the release files.
+/// Returns the second-tier steps for other machines and for the release files.
 fn release_steps() -> Vec<Step> {
     vec![
         Step::built_in(
@@ -171,7 +171,7 @@ fn release_steps() -> Vec<Step> {
     ]
 }
 
-/// The second tier: full tests that need other tool chains.
+/// Returns the second-tier steps with full tests, many of which need other tool chains.
 fn later_steps() -> Vec<Step> {
     let suite = |step, suite, about: &str| Step::new(step, about, Action::Suite(suite)).shared();
     vec![
@@ -227,7 +227,7 @@ fn later_steps() -> Vec<Step> {
     ]
 }
 
-/// The second tier: other kinds of builds.
+/// Returns the second-tier steps for other kinds of builds.
 fn build_variant_steps() -> Vec<Step> {
     let maths: String = NO_STD.iter().map(|name| format!(" --package alberti-{name}")).collect();
     vec![

@@ -15,8 +15,8 @@ const LEFT: f64 = 190.0;
 const RIGHT: f64 = 800.0;
 const BAR: f64 = 16.0;
 const HEADING: f64 = 34.0;
-/// The scale extends to this ratio and its inverse; longer bars are cut there and labeled with
-/// their number.
+/// The scale extends to this ratio and its inverse; longer bars are cut off there and labeled with
+/// their value.
 const GREATEST: f64 = 16.0;
 
 const GRAY: &str = "#9a9a9a";

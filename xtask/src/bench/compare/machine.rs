@@ -89,7 +89,7 @@ pub mod tests {
     }
 
     #[test]
-    fn processors_have_a_model() {
+    fn processor_models_are_parsed() {
         let cpuinfo = "processor\t: 0\nmodel name\t: Some Processor @ 2 GHz\nmodel\t: 1\n";
         assert_eq!(processor_model(cpuinfo), "Some Processor @ 2 GHz");
         assert_eq!(processor_model(""), "unknown processor");

@@ -13,7 +13,7 @@ const FRAME_SIZE: &str = "640x360";
 /// The size of batch pictures.
 const THUMBNAIL_SIZE: &str = "256x256";
 
-/// All styles except `shaded`, to which they are compared.
+/// All styles except `shaded`, with which they are compared.
 const STYLES: [&str; 16] = [
     "flat",
     "gouraud",
@@ -85,7 +85,7 @@ impl Group {
     }
 }
 
-/// A call of the program: a command with its arguments, without the output.
+/// A call of the program: a command and its arguments, without the output path.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Call {
     /// `render`, `animate` or `batch`.

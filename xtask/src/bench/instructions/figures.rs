@@ -14,7 +14,7 @@ pub struct InstructionCount {
     pub reason: String,
 }
 
-/// All stored counts, in the order of the file.
+/// All stored counts, in file order.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct CountTable {
     /// The compiler that built the counted program; empty if nothing is stored yet.
