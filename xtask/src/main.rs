@@ -3,7 +3,7 @@
 //! Each command is a module; this file is the table of commands. It does not depend on the crates
 //! that it drives, so that `cargo xtask` builds in seconds and works even when they do not compile.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program prints")]
-#![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]
+#![allow(unreachable_pub, reason = "in a program, `pub` means used by another file")]
 
 mod api;
 mod bench;

@@ -11,7 +11,7 @@
 //! program fails if a command in a guide fails or prints unexpected output, if a scene cannot be
 //! rendered, or if a link is broken.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program prints")]
-#![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]
+#![allow(unreachable_pub, reason = "in a program, `pub` means used by another file")]
 
 mod documents;
 mod files;

@@ -92,7 +92,7 @@ fn model_seeds() -> Vec<PackedModel> {
     asset_paths(&["glb", "gltf"]).iter().filter_map(|path| PackedModel::read_model(path)).collect()
 }
 
-/// Returns the contents of these files.
+/// Returns the contents of the files from [`asset_paths`].
 fn files_with_endings(endings: &[&str]) -> Vec<Vec<u8>> {
     asset_paths(endings).iter().filter_map(|path| fs::read(path).ok()).collect()
 }

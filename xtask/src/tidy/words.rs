@@ -24,7 +24,7 @@ pub fn module_docs(source: &Source) -> Vec<Violation> {
     {
         return Vec::new();
     }
-    vec![Violation::new(&source.path, "begin the file with `//!` and explain what it is and why")]
+    vec![Violation::new(&source.path, "begin the file with `//!` and explain its purpose")]
 }
 
 /// Finds markers of unfinished work.

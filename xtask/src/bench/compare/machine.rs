@@ -37,7 +37,7 @@ impl Machine {
         })
     }
 
-    /// Returns this as a JSON object.
+    /// Converts this to a JSON object.
     pub fn to_json(&self) -> Value {
         let Self { old, new, processor, cores, compiler, date } = self;
         json!({
@@ -52,7 +52,7 @@ pub fn processor() -> String {
     processor_model(&read_text(Path::new("/proc/cpuinfo")).unwrap_or_default())
 }
 
-/// `rustc --version`.
+/// Returns the output of `rustc --version`.
 pub fn compiler() -> String {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let output = Command::new(rustc).arg("--version").current_dir(project_root()).output();

@@ -22,7 +22,7 @@ pub enum Addition {
 }
 
 impl Addition {
-    /// Returns its name in file names.
+    /// Returns its name, for file names.
     fn name(self) -> &'static str {
         match self {
             Self::Transmission => "transmission",

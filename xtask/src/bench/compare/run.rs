@@ -154,7 +154,7 @@ mod tests {
         let names: Vec<&str> = figures.iter().map(|(name, _)| name.as_str()).collect();
         assert_eq!(names, ["read", "mip chains", "pixels", "encode", "all", "drawing"]);
         assert_eq!(figures[1].1, 7.38);
-        assert!((figures[5].1 - 207.38).abs() < 1e-9, "all without read and encode");
+        assert!((figures[5].1 - 207.38).abs() < 1e-9, "the sum without read and encode");
         assert!(parse_timings("error: unexpected argument '--timings'").is_empty());
     }
 

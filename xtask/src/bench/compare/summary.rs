@@ -22,27 +22,27 @@ impl VariantSummary<'_> {
         self.measurements.iter().any(|measurement| measurement.new.off.is_some())
     }
 
-    /// Returns the ratio new/old of a figure.
+    /// Returns the new/old ratio of a figure.
     pub fn new_over_old_of(&self, figure: &str) -> Option<Spread> {
         self.spread(|m| pairwise_ratios(&m.new.on, &m.old.on, figure))
     }
 
-    /// Returns the ratio new/old of the variant's main figure.
+    /// Returns the new/old ratio of the variant's main figure.
     pub fn new_over_old(&self) -> Option<Spread> {
         self.new_over_old_of(self.figure)
     }
 
-    /// Returns the ratio new/old of the peak memory.
+    /// Returns the new/old ratio of the peak memory.
     pub fn memory_ratio(&self) -> Option<Spread> {
         self.new_over_old_of(PEAK_MEMORY)
     }
 
-    /// Returns the ratio of the main figure with and without the feature, in the old program.
+    /// Returns the on/off ratio of the main figure in the old program.
     pub fn old_on_over_off(&self) -> Option<Spread> {
         self.spread(|measurement| self.on_over_off(&measurement.old))
     }
 
-    /// Returns the ratio of the main figure with and without the feature, in the new program.
+    /// Returns the on/off ratio of the main figure in the new program.
     pub fn new_on_over_off(&self) -> Option<Spread> {
         self.spread(|measurement| self.on_over_off(&measurement.new))
     }

@@ -45,7 +45,7 @@ const FEATURES: [Feature; 3] = [
 
 /// Features of a light that is added to the model.
 const LIGHT_FEATURES: [(Addition, Feature); 3] = [
-    (Addition::Sun, ("shadows of a sun", &["--shadows", "on"], &["--shadows", "off"])),
+    (Addition::Sun, ("sun shadows", &["--shadows", "on"], &["--shadows", "off"])),
     (
         Addition::Sun,
         (
@@ -54,7 +54,7 @@ const LIGHT_FEATURES: [(Addition, Feature); 3] = [
             &["--shadows", "on", "--ground", "none"],
         ),
     ),
-    (Addition::Spot, ("shadows of a spot", &["--shadows", "on"], &["--shadows", "off"])),
+    (Addition::Spot, ("spot light shadows", &["--shadows", "on"], &["--shadows", "off"])),
 ];
 
 /// Material extensions that are added to all materials.
