@@ -1,8 +1,8 @@
 //! `cargo xtask determinism`: tests that a scene renders to the same bytes on every machine.
 //!
 //! Renders every scene with the release build, with one thread and with several, and with the debug
-//! build. `--wide` adds a build whose compiler may use AVX2 and fused multiply-add, which is where
-//! floating-point sums would diverge first. It needs a processor with these instructions.
+//! build. `--wide` adds a build that may use AVX2 and fused multiply-add, because floating-point
+//! sums would diverge there first. It needs a processor with these instructions.
 //! `determinism/web.rs` compares the explorer's pictures in WebAssembly.
 //!
 //! `--targets` compares other processors, C libraries, compilers and optimizations instead

@@ -115,7 +115,7 @@ fn death_table(times: &PictureTimes) -> String {
     text
 }
 
-/// Returns a table of the number of requests per second to the file system.
+/// Returns a table of file system requests per second.
 fn request_table(rate: f64) -> String {
     let mut text =
         "| cores | one file per picture | `--tar 1000` |\n| ---: | ---: | ---: |\n".to_owned();

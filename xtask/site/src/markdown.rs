@@ -20,8 +20,7 @@ pub struct Document {
 pub enum Part {
     /// Markdown between code blocks.
     Text(String),
-    /// A code block: its info string, which is the language and the rest of the fence line, and its
-    /// text.
+    /// A code block: its info string (the language and the rest of the fence line) and its text.
     Code(String, String),
 }
 

@@ -1,5 +1,5 @@
-//! The reference, which the program prints: a page for each command, a page for scene files, and
-//! manual pages to install.
+//! The reference, generated from the program's output: a page for each command, a page for scene
+//! files, and manual pages to install.
 
 use crate::Outcome;
 use crate::files::{names_in, relative};

@@ -10,7 +10,8 @@
 //!     impl Clone for PixelRect
 //! ```
 //! Rustdoc can write this as JSON, but only with the nightly compiler. Its pages exist after every
-//! documentation build. Automatic and blanket implementations follow from the rest and are omitted.
+//! documentation build. Automatic and blanket implementations are omitted, because they can be
+//! derived from the rest.
 
 use crate::workspace::read_text;
 use std::path::Path;

@@ -80,7 +80,7 @@ fn lines_that(sources: &[Source], is_bad: impl Fn(&str) -> bool, message: &str) 
     violations
 }
 
-/// Returns no violations if there are at most `left`, the number of known ones that remain.
+/// Returns no violations if there are at most `left`, the number of known violations that remain.
 fn beyond_budget(violations: Vec<Violation>, left: usize) -> Vec<Violation> {
     if violations.len() <= left { Vec::new() } else { violations }
 }

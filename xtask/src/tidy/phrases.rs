@@ -117,7 +117,7 @@ pub fn phrases(files: &[(String, String)]) -> Vec<Violation> {
     too_many.collect()
 }
 
-/// Returns whether the sentences in a file are English text of this project.
+/// Returns whether a file contains English text of this project.
 fn is_counted(path: &str) -> bool {
     let is_text = [".rs", ".md", ".py", ".pyi", ".tsv"].iter().any(|ending| path.ends_with(ending));
     is_text && !path.starts_with("docs/api/") && !path.starts_with("xtask/src/tidy/")
