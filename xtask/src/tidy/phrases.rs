@@ -24,7 +24,7 @@ const FAMILIES: &[Family] = &[
     Family {
         phrases: &["of its own", "of their own", "of one's own", "of your own"],
         exceptions: &[],
-        most: 16,
+        most: 4,
         rule: "drop `of its own`, or say separate, custom, individual",
     },
     Family {
@@ -36,25 +36,25 @@ const FAMILIES: &[Family] = &[
     Family {
         phrases: &["what is", "what follows", "what comes", "what came", "what else"],
         exceptions: &[],
-        most: 78,
+        most: 33,
         rule: "name the thing: background, result, rest of the file",
     },
     Family {
         phrases: &["whoever", "whatever", "whichever", "wherever"],
         exceptions: &[],
-        most: 35,
+        most: 20,
         rule: "write you, if, any, every, or the imperative",
     },
     Family {
         phrases: &["that of", "those of"],
         exceptions: &[],
-        most: 42,
+        most: 20,
         rule: "repeat the noun, or use a verb",
     },
     Family {
         phrases: &["stands", "stand", "lies", "lie", "in the place of"],
         exceptions: &[],
-        most: 95,
+        most: 26,
         rule: "write is, appears, is listed, instead of, represents",
     },
     Family {
@@ -69,19 +69,19 @@ const FAMILIES: &[Family] = &[
             "are named",
         ],
         exceptions: &[],
-        most: 21,
+        most: 7,
         rule: "write reported, specified, required, expected",
     },
     Family {
         phrases: &["alone", "nothing but", "but for"],
         exceptions: &[],
-        most: 74,
+        most: 54,
         rule: "put `only` before the word it limits; write `except for`",
     },
     Family {
         phrases: &["so many", "so much", "as far as", "one a line"],
         exceptions: &[],
-        most: 15,
+        most: 8,
         rule: "write at most, up to, per",
     },
     Family {
@@ -94,13 +94,13 @@ const FAMILIES: &[Family] = &[
             "make of",
         ],
         exceptions: &[],
-        most: 47,
+        most: 6,
         rule: "write in front of, after, too, maps to, becomes",
     },
     Family {
         phrases: &["mend", "mended", "mends", "reckon", "upright"],
         exceptions: &[],
-        most: 91,
+        most: 4,
         rule: "write fix, compute, vertical",
     },
 ];
