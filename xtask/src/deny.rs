@@ -3,8 +3,8 @@
 //!
 //! It checks licenses, sources, duplicate versions and `rust-version` with `cargo metadata`, for
 //! the workspace and the other shipped packages. `cargo deny` reads the same file and runs too if
-//! it is installed. It is not required, because building it takes longer than all tests here. Only
-//! `cargo deny` checks advisories, which need its database.
+//! it is installed. It is not required, because building it takes longer than all tests here.
+//! Advisories are not checked, because they need the network.
 
 mod license;
 mod policy;
@@ -199,7 +199,7 @@ fn is_offline(error: &str) -> bool {
 /// Checks the policy with `cargo deny`, if it is installed.
 fn run_cargo_deny() -> Outcome {
     if run_command(&mut cargo_command(&["deny", "--version"])).is_err() {
-        println!("cargo-deny is not installed, so advisories are not checked");
+        println!("cargo-deny is not installed, so its checks are skipped");
         return Ok(());
     }
     run_command(&mut cargo_command(&["deny", "check", "licenses", "bans", "sources"]))
