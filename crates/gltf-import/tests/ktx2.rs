@@ -25,7 +25,7 @@ fn images_match_the_reference_transcoder() {
         assert_eq!((image.width, image.height), (7, 5), "{name}");
         assert_eq!(image.rgba.as_flattened(), texels, "{name}");
         let message = decode_image(file, 34).expect_err("one texel too many");
-        assert_eq!(message, "the image has 7 x 5 texels, more than 34 in total");
+        assert_eq!(message, "the image has 7 x 5 texels; the limit is 34");
     }
 }
 
