@@ -33,7 +33,7 @@ pub struct Program {
 }
 
 impl Program {
-    /// Builds the program and returns its path.
+    /// Builds the program and returns a handle to it.
     pub fn build(build: Build) -> Result<Self, String> {
         let mut cargo = cargo_command(&["build", "--quiet", "--bin", "alberti"]);
         let mut folder = target_folder();
