@@ -57,7 +57,7 @@ pub fn animation_cases() -> Vec<Case> {
     let matrix = "/animations/0/channels/0/target/node node 2 has a matrix, which cannot be animated; \
                   the channel is skipped";
     let node = whole.clone().with_value("/animations/0/channels/0/target/node", json!(2));
-    cases.push(Case::from_document("animation: of a matrix", &node, warns(matrix)));
+    cases.push(Case::from_document("animation: target node has a matrix", &node, warns(matrix)));
     let few = "/animations/0/samplers/0/output wrong number of values: 6 values for 2 keys; \
                the channel is skipped";
     let cubic = whole.with_value("/animations/0/samplers/0/interpolation", json!("CUBICSPLINE"));

@@ -4,7 +4,7 @@ use crate::sandbox::Sandbox;
 use std::time::{Duration, Instant};
 
 #[test]
-fn jpeg_and_webp_have_the_picture_size_and_repeatable_bytes() {
+fn jpeg_and_webp_have_the_requested_size_and_do_not_depend_on_threads() {
     let sandbox = Sandbox::new("picture_formats");
     sandbox.copy_model("crate.glb");
     let bytes = |name: &str| std::fs::read(sandbox.path_of(name)).expect("a picture");
@@ -63,8 +63,8 @@ fn a_watched_picture_is_rendered_again_when_its_model_changes() {
     let second = wait_for_change(&sandbox, &first);
     sandbox.write_file("scene.ron", "Scene(models: [(path: \"crate.glb\")], style: Normals)");
     wait_for_change(&sandbox, &second);
-    child.kill().expect("its end");
-    child.wait().expect("its end");
+    child.kill().expect("the process can be killed");
+    child.wait().expect("the process exits");
 }
 
 /// Waits until the bytes of the picture differ from the previous ones, and returns them.
@@ -121,7 +121,7 @@ fn a_label_has_lines_greek_letters_and_a_halo() {
 }
 
 #[test]
-fn point_size_can_be_set_and_passes_can_be_openexr() {
+fn point_size_can_be_set_and_passes_can_be_written_as_openexr() {
     let sandbox = Sandbox::new("points_and_exr");
     sandbox.write_file("dots.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\n");
     let covered = |size: &str| {

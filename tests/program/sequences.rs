@@ -87,7 +87,7 @@ fn a_turntable_is_the_same_animated_png_with_any_number_of_threads() {
         );
         frames.push(bytes.clone());
     }
-    assert!(frames.windows(2).all(|pair| pair[0] != pair[1]), "it turns");
+    assert!(frames.windows(2).all(|pair| pair[0] != pair[1]), "consecutive frames must differ");
     let run =
         sandbox.run(&["animate", "crate.glb", "-o", "t.gif", "--frames", "4", "--size", "32x32"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
@@ -129,7 +129,8 @@ fn invalid_sequences_are_rejected() {
     }
 }
 
-/// `--time` renders the still of a camera path that `animate` shows at that time.
+/// With a camera path, `render --time` gives the same picture as the frame of `animate` at that
+/// time.
 #[test]
 fn a_still_of_a_camera_path_matches_the_frame_at_its_time() {
     let sandbox = Sandbox::new("camera_path_still");

@@ -88,7 +88,7 @@ pub fn list_lessons(site: &Path) -> Result<Vec<Value>, String> {
     let request = Request { name: "lessons.json".into(), query: "what=lessons".into() };
     let answers = Answers::ask(site, &[], &[request])?;
     let mut answer: Value = serde_json::from_slice(answers.bytes("lessons.json")?)
-        .map_err(|error| format!("the lessons of the engine: {error}"))?;
+        .map_err(|error| format!("cannot parse the engine's list of lessons: {error}"))?;
     match answer["lessons"].take() {
         Value::Array(lessons) => Ok(lessons),
         _ => Err("the engine lists no lessons".to_owned()),

@@ -38,7 +38,8 @@ struct DepthArgs {
     /// Depth of the near and the far plane; swapped for the reversed curve
     #[arg(long, value_name = "RANGE", default_value = "zero-one")]
     range: DepthRangeArg,
-    /// Distances in the table, separated by commas [default: 16 from near to far, in equal ratios]
+    /// Distances in the table, separated by commas [default: 16 from near to far, logarithmically
+    /// spaced]
     #[arg(long, value_name = "DISTANCES", value_delimiter = ',', allow_hyphen_values = true)]
     distances: Vec<f64>,
     /// Spacing of the plot's distance axis
@@ -120,7 +121,7 @@ pub(crate) fn run(args: &CurveArgs) -> Result<(), CliError> {
 
 /// Writes the table or the plot, depending on the output's extension.
 ///
-/// An unknown extension is reported with the list of all seven, not only the plot formats.
+/// For an unknown extension, the error lists every extension, not only the plot formats.
 fn write_output(
     output: &Path,
     table: &DepthTable,
@@ -140,7 +141,7 @@ fn write_output(
     write_page(output, &table.to_page(rows, distances))
 }
 
-/// Reports planes that define no projection, such as a near plane behind the eye, as wrong usage.
+/// Reports planes that define no projection, such as a near plane behind the eye, as a usage error.
 fn projection_error(error: projection::ProjectionError) -> CliError {
     CliError::Usage(error.to_string())
 }

@@ -135,8 +135,8 @@ impl ProgressCounter {
 
     /// Counts one finished job; can be called from any thread.
     ///
-    /// The last job erases the line. Two threads may write at once; each write is one call, so
-    /// lines replace each other completely, and at worst an outdated count remains for one job.
+    /// The last job erases the line. Two threads may write at once. Each line is written in one
+    /// call, so lines never mix; at worst, an outdated count stays until the next job finishes.
     pub(crate) fn increment(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         if !self.is_visible {

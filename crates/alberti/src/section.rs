@@ -7,8 +7,8 @@ use scene_file::file::{SceneFile, SectionFile};
 pub(crate) struct SectionArgs {
     /// Cut the models in a line drawing open at a plane; repeatable
     ///
-    /// x=0.5 removes everything with a larger x, -x=0.5 everything with a smaller x. Six numbers
-    /// are a point on the plane and the direction to remove, such as 0,1,0,1,0,1.
+    /// x=0.5 removes everything with a larger x, -x=0.5 everything with a smaller x. Six numbers,
+    /// such as 0,1,0,1,0,1, are a point on the plane and the direction to remove.
     #[arg(
         help_heading = "Lines",
         long = "section",

@@ -46,7 +46,7 @@ impl std::fmt::Debug for ProgressDisplay {
 pub(super) struct RunProgress {
     state: Arc<Mutex<ProgressState>>,
     begin: Instant,
-    /// The file of `--metrics`.
+    /// The `--metrics` file.
     metrics: Option<Arc<MetricsFile>>,
     /// The thread that writes, and the channel that ends it.
     display: Option<(Sender<()>, JoinHandle<()>)>,
@@ -184,13 +184,14 @@ impl DisplayLoop {
     }
 }
 
-/// The number of jobs per second, over the last minutes.
+/// The number of jobs per second over the last one or two minutes.
 ///
-/// It covers the last one or two minutes, so that a large first model does not dominate for long.
+/// The period is short so that a large first model does not dominate for long.
 /// Jobs that were up to date do not count.
 #[derive(Default)]
 struct JobRate {
-    /// Time in seconds and jobs of this run at the last two marks.
+    /// For each of the last two marks, the time in seconds and the jobs done in this run until
+    /// then.
     marks: [(f64, u64); 2],
 }
 
@@ -198,7 +199,7 @@ impl JobRate {
     /// The time between two marks in seconds.
     const MARK_SECONDS: f64 = 60.0;
 
-    /// Returns the rate now, or `None` if nothing is done yet.
+    /// Returns the current rate, or `None` if nothing is done yet.
     fn measure(&mut self, elapsed: f64, worked: u64) -> Option<f64> {
         if elapsed - self.marks[1].0 >= Self::MARK_SECONDS {
             self.marks = [self.marks[1], (elapsed, worked)];
@@ -263,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn the_rate_covers_the_last_minutes() {
+    fn the_rate_covers_only_the_last_two_minutes() {
         let mut rate = JobRate::default();
         // One job per second for 5 minutes, then ten per second.
         for second in 1..=300_u32 {

@@ -26,11 +26,11 @@ fn main() {
     println!("the rail in clip space   {}", show(ahead));
     println!("                      to {}\n", show(behind));
 
-    println!("divided without clipping: the floor rises to the right, into the sky");
+    println!("divided without clipping: the rail appears to rise to the right, above the horizon");
     if let (Some(p), Some(q)) = (ahead.divide(), behind.divide()) {
         draw(p, q);
     }
-    println!("clipped first: the floor comes toward the viewer and leaves the picture");
+    println!("clipped first: the rail comes toward the viewer and leaves the picture");
     let Some(visible) = clip_segment(ahead, behind, &Volume::CHAPTER) else {
         println!("nothing is visible");
         return;

@@ -5,7 +5,7 @@
 //!         └─ ascii ──┘
 //! ```
 //!
-//! In many files both forms begin with `solid`, so they are distinguished by the file length. By
+//! Files of either form may begin with `solid`, so they are distinguished by the file length. By
 //! convention z points up and lengths are in millimeters. The normals in the file are not read,
 //! because they are flat face normals, and often 0 or wrong.
 //!
@@ -128,7 +128,7 @@ fn build_model(solids: Vec<Solid>, crease_degrees: f64) -> Model {
 const HEADER_BYTES: usize = 84;
 /// Number of bytes per triangle in a binary file: the normal, three corners and the attribute.
 const TRIANGLE_BYTES: usize = 50;
-/// Number of bytes that are searched for features of only one of the two forms.
+/// Number of bytes at the start of a file that are searched for signs of the text form.
 const PREFIX_BYTES: usize = 4 << 10;
 
 /// Returns whether the content of a file is certainly STL. `text` is its beginning as UTF-8.
@@ -144,13 +144,14 @@ fn declared_triangles(bytes: &[u8]) -> Option<usize> {
 
 /// Returns whether the length of a file matches its declared number of triangles exactly.
 ///
-/// A text file cannot have such a length, because its four characters would encode more than 500
-/// million triangles.
+/// A text file cannot match: the four characters at the position of the count would encode more
+/// than 500 million triangles.
 fn has_binary_length(bytes: &[u8]) -> bool {
     binary_length(bytes) == Some(bytes.len())
 }
 
-/// Returns the length of a binary file that begins with these bytes, or `None` if they are too few.
+/// Returns the length of a binary file that begins with these bytes, or `None` if there are too
+/// few.
 fn binary_length(bytes: &[u8]) -> Option<usize> {
     declared_triangles(bytes)?.checked_mul(TRIANGLE_BYTES)?.checked_add(HEADER_BYTES)
 }
@@ -174,7 +175,7 @@ fn starts_with(text: &[u8], word: &[u8]) -> bool {
     text.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
 }
 
-/// Returns the error for a file that ends too early. In lenient mode, the existing part is read.
+/// Returns the error for a file that ends too early. In lenient mode, the available part is read.
 fn truncated(location: &str, message: String) -> Diagnostic {
     let help = "the file is truncated: copy or export it again";
     Diagnostic::error(codes::INVALID_DATA, location, message, help)

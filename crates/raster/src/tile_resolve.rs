@@ -90,8 +90,8 @@ struct TargetRow<'a, P> {
 }
 
 impl<S: Surface> TileResolve<'_, S> {
-    /// Writes the tile into its band: the rows of the frame in its row of tiles, filled with the
-    /// background.
+    /// Writes the tile into its band, the rows of the frame that its row of tiles covers. The band
+    /// must already be filled with the background.
     ///
     /// Layers are sorted by pixel, row by row, so each row takes its layers from the front of the
     /// list.

@@ -42,7 +42,7 @@ pub fn format_source(file: &str, text: &str) -> Result<String, SceneErrors> {
     if parse_scene(file, &page).is_ok_and(|again| again == scene) {
         return Ok(page);
     }
-    // No text is known to get here, but if one does, the user's file must not be damaged.
+    // No known text reaches this point, but if one does, the user's file must not be damaged.
     let message = "this file cannot be formatted without changing its meaning".to_owned();
     let error =
         SceneError { file: file.into(), source: text.into(), span: 0..0, message, help: None };
@@ -75,8 +75,8 @@ fn write_items(page: &mut String, items: &[FormatItem], indent: usize, comma: &s
     }
 }
 
-/// Writes an element that begins on the line at byte `line` of the page, followed by `behind` more
-/// columns.
+/// Writes an element to the output line that starts at byte offset `line` of `page`. After the
+/// element, `behind` more columns follow on its last line.
 ///
 /// Width is counted in characters, not bytes. Groups are tried from the outside in: the outermost
 /// group that does not fit is broken, then its items are tried.

@@ -38,7 +38,8 @@ struct LoadedModels<'a> {
     bytes: u64,
 }
 
-/// The memory for arrays that an importer may create and drop, however little is left.
+/// Extra memory that an importer may use for temporary arrays, even if the budget is nearly used
+/// up.
 const SCRATCH_BYTES: u64 = 1 << 20;
 
 impl<'a> LoadedModels<'a> {
@@ -63,7 +64,7 @@ impl<'a> LoadedModels<'a> {
         if let Some(loaded) = alike.iter().find(is_same) {
             return Ok(Arc::clone(&loaded.model));
         }
-        // What earlier models left of the limits; importers also count some arrays that they drop.
+        // The limits that remain after the earlier models. Importers also count temporary arrays.
         let (mut rest, limits) = (options.clone(), &options.import.limits);
         let left = limits.scene_bytes.saturating_sub(self.bytes);
         let with_scratch = left.saturating_mul(2).saturating_add(SCRATCH_BYTES);

@@ -31,8 +31,8 @@ pub fn srgb_to_linear_table() -> &'static [f32; 256] {
     TABLE.get_or_init(|| std::array::from_fn(|code| srgb_to_linear(code as f64 / 255.0) as f32))
 }
 
-/// The bits of the smallest light that the encoder distinguishes from 0: 2⁻¹³, which is less than
-/// half of the linear light of code 1.
+/// The bits of the smallest linear value that the encoder distinguishes from 0: 2⁻¹³, which is less
+/// than half of the linear light of code 1.
 const MIN_LIGHT_BITS: u32 = 0x3900_0000;
 
 /// Encodes linear light as the nearest 8-bit sRGB code, using a table with 2048 steps.
@@ -48,7 +48,7 @@ const MIN_LIGHT_BITS: u32 = 0x3900_0000;
 /// the threshold on.
 #[derive(Debug)]
 pub struct SrgbEncoder {
-    /// The code and the carry to the next code, for each step from the smallest light to 1.
+    /// The code and the carry to the next code, for each step from the smallest value to 1.
     step_table: Box<[u32; 2048]>,
 }
 
@@ -79,8 +79,8 @@ impl SrgbEncoder {
         self.encode_to_code(light) as u8
     }
 
-    /// Returns the code as a number. It has no branches, so loops over it become vector
-    /// instructions.
+    /// Returns the code as a `u32`. This function has no branches, so loops that call it are
+    /// vectorized.
     #[inline(always)]
     fn encode_to_code(&self, light: f32) -> u32 {
         let least = f32::from_bits(MIN_LIGHT_BITS);
@@ -140,7 +140,7 @@ impl Encode<[u8; 4]> for &SrgbEncoder {
 }
 
 /// Returns for each code the smallest linear light for which it is the nearest code. The first
-/// entry is below all light.
+/// entry is `f32::MIN`, so every value reaches at least code 0.
 fn code_thresholds() -> [f32; 256] {
     let threshold = |code: usize| srgb_to_linear((code as f64 - 0.5) / 255.0) as f32;
     std::array::from_fn(|code| if code == 0 { f32::MIN } else { threshold(code) })

@@ -89,7 +89,7 @@ impl SceneLoader {
     }
 }
 
-/// Opens a scene file and replaces its models `{input}` with the input.
+/// Opens a scene file and replaces each model whose path is `{input}` with the input.
 ///
 /// The user named the input, so it may be anywhere; other models must be below the scene's folder.
 fn open_scene_around(

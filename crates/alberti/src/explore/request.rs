@@ -104,7 +104,12 @@ fn check_origin(headers: &[(String, &str)], port: u16) -> Result<(), Response<'s
     };
     match values("host")[..] {
         [host] if is_own(host) => {}
-        _ => return Err(Response::text(421, "This server answers only under its own address.")),
+        _ => {
+            return Err(Response::text(
+                421,
+                "This server only answers requests sent to its own address.",
+            ));
+        }
     }
     let is_own_origin = |origin: &&str| origin.strip_prefix("http://").is_some_and(is_own);
     let is_own_site = |site: &&str| matches!(*site, "same-origin" | "none");

@@ -177,8 +177,8 @@ impl clap::FromArgMatches for BuildArgs {
 
 impl clap::Args for BuildArgs {
     fn augment_args(command: Command) -> Command {
-        let heading = "Matrix from parameters; several are multiplied, and the rightmost is \
-                       applied first";
+        let heading = "Matrix from parameters (when several are given, they are multiplied; the \
+                       rightmost is applied first)";
         let arg = |flag: &BuilderFlag| {
             Arg::new(flag.name)
                 .long(flag.name)
@@ -331,7 +331,8 @@ impl BuildArgs {
         (!self.calls.is_empty()).then(|| self.build_product(options))
     }
 
-    /// Rejects numbers next to a flag that builds a matrix: a list with a space, or a second matrix.
+    /// Rejects numbers next to a flag that builds a matrix: a list with a space, or a second
+    /// matrix.
     pub(super) fn check_alone(&self, numbers: &[String]) -> Result<(), CliError> {
         let (Some((at, list)), false) = (self.calls.last(), numbers.is_empty()) else {
             return Ok(());

@@ -1,10 +1,10 @@
 //! Line drawings of scenes with lines that can be computed by hand.
 //!
-//! All pictures have 800 × 800 pixels. In picture units of 100 pixels, the origin is in the middle
+//! All pictures are 800 × 800 pixels. In picture units of 100 pixels, the origin is in the middle
 //! and y points up; X and Y in the comments are in these units.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "tests fail by panics")]
-#![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests fail by panicking")]
+#![allow(unreachable_pub, reason = "no other crate can use the modules of a test program")]
 
 mod edges;
 mod nearly_touching;

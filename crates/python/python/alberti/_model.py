@@ -74,8 +74,8 @@ class Model:
             limits: Limits on sizes, by name; see :func:`load`.
 
         Raises:
-            AlbertiError: For wrong shapes, dtypes, indices out of range, NaN, or more than the
-                limits allow; ``pointer`` names the argument and the element.
+            AlbertiError: For wrong shapes or dtypes, out-of-range indices, NaN, or data that
+                exceeds the limits; ``pointer`` names the argument and the element.
 
         >>> triangle = Model.from_arrays([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
         >>> triangle.triangle_count
@@ -195,7 +195,7 @@ class Scene(Model):
         try:
             placed = [np.eye(4)] * len(models) if poses is None else list(poses)  # type: ignore[arg-type]
         except TypeError:
-            message = f"is {poses!r}, expected a matrix (4, 4) for each model"
+            message = f"is {poses!r}, expected a (4, 4) matrix for each model"
             raise AlbertiError(message, pointer="poses") from None
         if len(placed) != len(models):
             message = f"{len(placed)} for {len(models)} models"
@@ -283,7 +283,7 @@ def load_scene(
         AlbertiError: If the scene has mistakes; the message locates each of them.
     """
     if (path is None) == (text is None):
-        raise AlbertiError("expected either a path or a text", pointer="path")
+        raise AlbertiError("expected exactly one of path and text", pointer="path")
     place = os.fspath(folder if path is None else path)
     return _warned(Scene(_native.load_scene(place, text, {"limits": limits})))
 

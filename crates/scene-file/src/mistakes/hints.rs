@@ -203,7 +203,7 @@ fn a_missing_list_does_not_hide_the_mistakes_in_its_element() {
     assert_eq!(
         told,
         [
-            "`models`: expected a list, found values in brackets",
+            "`models`: expected a list, found values in parentheses (…)",
             "unexpected field `position` in `Model`"
         ]
     );

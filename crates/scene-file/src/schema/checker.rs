@@ -169,8 +169,8 @@ impl<'a> Checker<'a> {
             }
             NodeKind::String(_) => "a string".to_owned(),
             NodeKind::Group(Group { name: Some(name), .. }) => format!("`{}(…)`", name.name),
-            NodeKind::Group(Group { open: '[', .. }) => "a list in square brackets".to_owned(),
-            NodeKind::Group(_) => "values in brackets".to_owned(),
+            NodeKind::Group(Group { open: '[', .. }) => "a list […]".to_owned(),
+            NodeKind::Group(_) => "values in parentheses (…)".to_owned(),
             _ => "something else".to_owned(),
         }
     }

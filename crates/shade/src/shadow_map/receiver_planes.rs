@@ -15,9 +15,9 @@ pub(crate) struct ReceiverPlanes<const N: usize> {
     pub(super) x: Lanes<N>,
     pub(super) y: Lanes<N>,
     pub(super) depth: Lanes<N>,
-    /// The growth of depth per texel, by column and row.
+    /// The change in depth per texel, along columns and rows.
     pub(super) slope: [Lanes<N>; 2],
-    /// The minimum difference of depth for a blocker.
+    /// The minimum difference in depth at which a surface counts as a blocker.
     pub(super) bias: Lanes<N>,
     /// The lanes that are on the map and not behind the light.
     pub(crate) is_on_map: Mask<N>,
@@ -29,9 +29,9 @@ pub(crate) struct ReceiverPlane {
     pub(super) x: f32,
     pub(super) y: f32,
     pub(crate) depth: f32,
-    /// The growth of depth per texel, by column and row.
+    /// The change in depth per texel, along columns and rows.
     pub(super) slope: [f32; 2],
-    /// The minimum difference of depth for a blocker.
+    /// The minimum difference in depth at which a surface counts as a blocker.
     pub(super) bias: f32,
 }
 

@@ -10,9 +10,10 @@ use viewport::DrawingScale;
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct ViewPlace {
     /// The center of the view, in millimeters from the upper left corner of the paper, or `None` to
-    /// place it according to the projection angle or in free space.
+    /// place it according to the projection angle or in an empty area.
     pub at: Option<DVec2>,
-    /// The scale. `None` means the sheet's scale, or a smaller scale in free space if necessary.
+    /// The scale. `None` means the sheet's scale. A view that is placed in an empty area may get a
+    /// smaller scale so that it fits.
     pub scale: Option<DrawingScale>,
     /// The text below the view. `None` means no text, or the letter and scale for views that have
     /// them.
@@ -84,7 +85,7 @@ pub enum ViewRequest {
         /// The half that is cut.
         side: ViewSide,
     },
-    /// A view that is cut around a point, within a freehand line (ISO 128-3, 5.6).
+    /// A view with a local section around a point, bounded by a freehand line (ISO 128-3, 5.6).
     LocalSection {
         /// The view.
         of: NamedView,
@@ -127,7 +128,7 @@ impl ViewRequest {
             Self::Auxiliary { .. } => "auxiliary view".to_owned(),
             Self::HalfSection { of, .. } => format!("half section of the {of} view"),
             Self::LocalSection { of, .. } => format!("local section of the {of} view"),
-            Self::Broken { of: Some(of), .. } => format!("break of the {of} view"),
+            Self::Broken { of: Some(of), .. } => format!("break in the {of} view"),
             Self::Broken { of: None, .. } => "break".to_owned(),
         }
     }

@@ -12,7 +12,7 @@ pub(super) static CLIPPED_SEGMENT: Exercise = Exercise {
     number: 18,
     title: words("Clipping a segment", "裁剪线段"),
     question: words(
-        "In clip space a segment goes from a = (−3, 0, 0, 1) to b = (5, 1, 0, 3), as a + t (b − a). The volume is −w ≤ x, y, z ≤ w. Find t0 and t1 between which the segment is inside.",
+        "In clip space a segment goes from a = (−3, 0, 0, 1) to b = (5, 1, 0, 3), as a + t (b − a). The volume is −w ≤ x, y, z ≤ w. Find the values t0 and t1 between which the segment is inside the volume.",
         "裁剪空间中的线段从 a = (−3, 0, 0, 1) 到 b = (5, 1, 0, 3)，写成 a + t (b − a)。视见体为 −w ≤ x, y, z ≤ w。线段从哪个 t0 到哪个 t1 在其内部？",
     ),
     hints: &[
