@@ -1,4 +1,4 @@
-//! Small glTF documents for tests: JSON and one buffer, both of which tests may change freely.
+//! Small glTF documents for tests: JSON and one buffer. Tests may change both freely.
 
 #![allow(clippy::missing_panics_doc, reason = "a test that misuses its own document should stop")]
 
@@ -174,7 +174,7 @@ impl Document {
         }
     }
 
-    /// Animates a factor of the material, the light and a texture, and a weight
+    /// Animates a property of the material, one of the light, one of a texture, and a morph weight
     /// (KHR_animation_pointer).
     fn animate_by_pointers(&mut self) {
         let one = json!({"componentType": 5126, "type": "SCALAR", "count": 2});

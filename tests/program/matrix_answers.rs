@@ -1,4 +1,4 @@
-//! Answers of `alberti matrix` and `alberti explain` to a teacher's questions: Direct3D
+//! The answers that `alberti matrix` and `alberti explain` give to a teacher's questions: Direct3D
 //! conventions, rigid matrices, signs, and command lines that are almost correct.
 
 use crate::sandbox::Sandbox;

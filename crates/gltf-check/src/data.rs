@@ -380,7 +380,7 @@ impl RuleScan<'_> {
                 say(&codes::ACCESSOR_NON_CLAMPED, first, &"values are not in [0, 1]");
             }
             ElementRule::Indices { vertices, .. } => {
-                let what = format_args!("indices are out of range: there are {vertices} vertices");
+                let what = format_args!("with {vertices} vertices, indices are out of range");
                 say(&codes::ACCESSOR_INDEX_OOB, first, &what);
                 let what = "indices have the primitive restart value";
                 say(&codes::ACCESSOR_INDEX_PRIMITIVE_RESTART, second, &what);

@@ -49,7 +49,7 @@ pub(super) fn check_container(bytes: &[u8], diagnostics: &Diagnostics) -> Contai
     reader.parts
 }
 
-/// Reports and skips a byte order mark, with which JSON must not start (glTF 2.0 §2.7).
+/// Reports a leading byte order mark, which glTF forbids in JSON (glTF 2.0 §2.7).
 fn check_byte_order_mark(json: &[u8], diagnostics: &Diagnostics) {
     if json.starts_with(b"\xEF\xBB\xBF") {
         diagnostics.add(&codes::INVALID_JSON, "", "the JSON starts with a byte order mark");

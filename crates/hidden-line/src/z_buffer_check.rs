@@ -3,8 +3,7 @@
 //! The two share the welded surface and the stages up to clip space, but nothing after that. The
 //! z-buffer rounds to a grid, samples coverage and stores a depth for each pixel; the drawing
 //! intersects lines with faces. Where a segment is drawn as visible, the z-buffer must show, within
-//! half a pixel, something that is not in front of it: the face at the edge, a face behind it, or
-//! nothing.
+//! half a pixel, the face at the edge, a face behind it, or the background.
 //!
 //! ```text
 //!   drawing       ●───────●───────●   points half a pixel apart
@@ -107,7 +106,7 @@ struct ZBufferImage {
     planes: Vec<FacePlane>,
     /// The transform from drawing points with depth to world space.
     to_world: DMat4,
-    /// The distance below which a point counts as in a plane, in world units.
+    /// The distance, in world units, below which a point is considered to be in a plane.
     touching: f64,
 }
 

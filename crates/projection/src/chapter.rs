@@ -3,7 +3,7 @@
 //!
 //! Here `n` and `f` are *z coordinates*, not distances: the camera looks along −z, so 0 > n > f.
 //! Near maps to +1 and far to −1. After P and M_per, a visible point has w = z < 0. For clipping,
-//! use [`m_per_positive`], the same map with the sign of w flipped (PE-3), which is
+//! use [`m_per_positive`] (PE-3), the same map with the sign of w flipped. It follows
 //! [`Convention::CHAPTER`].
 //!
 //! ```
@@ -58,7 +58,7 @@ pub fn p_inverse(n: f64, f: f64) -> Result<Projective<View, View>, ProjectionErr
     Ok(Projective::from_raw(check_representable(from_rows(rows), "depth range")?))
 }
 
-/// Returns the inverse of [`p`] times nf, without fractions: the same projective map (exercise 6,
+/// Returns nf · P⁻¹, which contains no fractions. It is the same projective map as P⁻¹ (exercise 6,
 /// M14).
 ///
 /// # Errors

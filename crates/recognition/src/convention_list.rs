@@ -1,4 +1,4 @@
-//! Convention list: the conventions in which a matrix is tried, with their rarity.
+//! Convention list: the conventions that are tried for a matrix, each with its rarity.
 
 use homog::NdcY;
 use projection::Convention;
@@ -33,7 +33,7 @@ pub(crate) const CONVENTIONS: [(Convention, u32); 16] = [
 /// that look along +z with y up.
 ///
 /// A view space that looks along +z with y down is a right-handed view space rotated about x, so
-/// the same product is also a product that looks along −z.
+/// the same matrix product can also be read with a view space that looks along −z.
 pub(crate) fn placed_conventions() -> impl Iterator<Item = (Convention, u32)> {
     CONVENTIONS
         .into_iter()

@@ -19,8 +19,8 @@ pub trait Peer {
     /// Returns the name in reports.
     fn name(&self) -> String;
 
-    /// Returns whether its picture can be compared with ours, which needs the same colors and one
-    /// sample per pixel.
+    /// Returns whether its picture can be compared with ours. The comparison requires the same
+    /// colors and one sample per pixel.
     fn is_comparable(&self) -> bool;
 
     /// Draws one frame from the buffers, including the clear but not the readback. This is the

@@ -68,7 +68,7 @@ fn values<'a>(text: &'a str, start: &'a str) -> impl Iterator<Item = &'a str> {
 fn foreign_parts(page: &str, text: &str) -> Vec<String> {
     let mut faults = Vec::new();
     if text.contains("<script") {
-        faults.push(format!("{page}: a script"));
+        faults.push(format!("{page}: contains a script, which is not allowed"));
     }
     let tags = text.split('<').filter(|tag| tag.starts_with("img ") || tag.starts_with("link "));
     let foreign = tags.filter(|tag| tag.contains("\"http") || tag.contains("\"//"));

@@ -1,7 +1,7 @@
 //! Page files: one for each page, all written or none.
 //!
 //! ```text
-//!   out.svg          out.svg of one page, out-1.svg, out-2.svg … of several
+//!   out.svg          out.svg for one page; out-1.svg, out-2.svg … for several
 //!   out_{page}.svg   out_1.svg, out_2.svg …
 //! ```
 
@@ -73,7 +73,7 @@ impl PageNames {
     }
 }
 
-/// Writes files; none appears under its name before all are written.
+/// Writes files. None appears under its final name until all have been written.
 ///
 /// # Errors
 /// If a file cannot be written; existing files with these names are then unchanged.

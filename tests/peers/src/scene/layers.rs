@@ -1,4 +1,4 @@
-//! Full-screen layers, one behind the other, for the cost of overdraw.
+//! Full-screen layers, one behind another, for measuring the cost of overdraw.
 
 use super::{Lens, Part, SIZE, Scene, Texture, Vertex};
 use camera::Camera;
@@ -14,8 +14,8 @@ pub enum Order {
     FrontToBack,
 }
 
-/// Returns `count` layers, each with two triangles and one color, some with a texture of 256 × 256
-/// texels.
+/// Returns `count` layers, each with two triangles and one color. If `textured` is set, each also
+/// has a texture of 256 × 256 texels.
 pub fn layers(
     name: &'static str,
     count: usize,
@@ -32,8 +32,8 @@ pub fn layers(
         for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
             // The layers are slightly tilted, so that depth must be interpolated.
             let z = -(away as f32) - 0.2 * x;
-            // There is one texel per pixel, with a slight offset, so that all four texels around a
-            // pixel count.
+            // There is about one texel per pixel, slightly offset, so that all four surrounding
+            // texels contribute to each pixel.
             let uv = [x * 0.97 * width / 256.0, y * 0.97 * height / 256.0];
             vertices.push(Vertex { position: [x, y, z], normal: [0.0, 0.0, 1.0], uv });
         }

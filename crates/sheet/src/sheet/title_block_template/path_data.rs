@@ -3,7 +3,7 @@
 use super::TemplateError;
 use glam::DVec2;
 
-/// The largest coordinate in millimeters, which is far beyond any paper.
+/// The largest coordinate in millimeters, far larger than any sheet of paper.
 const MAX_COORDINATE: f64 = 1e5;
 
 /// Points, and whether the line through the points is closed.
@@ -90,8 +90,10 @@ pub(super) fn parse_path(
             }
         }
         let mut number = || {
-            let found = words.next();
-            let (word, at) = found.unwrap_or(("the end", start + text.len()));
+            let Some((word, at)) = words.next() else {
+                let end = start + text.len();
+                return Err(TemplateError::at(source, end, "missing number at the end".to_owned()));
+            };
             parse_number(word).ok_or_else(|| {
                 TemplateError::at(source, at, format!("missing number before `{word}`"))
             })
