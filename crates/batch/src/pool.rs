@@ -152,8 +152,8 @@ impl BatchRun<'_> {
             if let Some(signal) = end.interruption() {
                 return Err(RunStop::Signal(signal));
             }
-            // Earlier jobs may have corrupted the worker, and whoever killed it may be killing all
-            // processes.
+            // The job may not be at fault: an earlier job may have corrupted the worker, or the
+            // system may be killing all processes.
             let is_doubtful = (!is_fresh && end != WorkerEnd::TimedOut) || end.is_killed();
             if is_doubtful && doubted != Some(open.len()) {
                 doubted = Some(open.len());

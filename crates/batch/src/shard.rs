@@ -56,8 +56,8 @@ impl Shard {
 
 /// The jobs of one shard, balanced by the bytes of their inputs.
 ///
-/// Each job goes to the shard with the fewest bytes so far, and to the first of them in case of a
-/// tie. Large models are often neighbors in a folder, and one of them may be as large as a thousand
+/// Each job is assigned to the shard with the fewest bytes so far; ties go to the first shard.
+/// Large models are often neighbors in a folder, and one of them may be as large as a thousand
 /// others. Each machine counts the jobs of all shards, so the shards need not communicate.
 #[derive(Clone, Debug)]
 pub(super) struct ShardBalance {

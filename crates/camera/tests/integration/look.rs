@@ -90,7 +90,7 @@ fn misprint_m11_a_translation_without_the_diagonal_one_is_singular() {
     assert_eq!(camera.translation().then(camera.rotation()), camera.world_to_view());
 }
 
-/// Some notes say that the camera looks "from the −z axis". In fact it is at the origin of its own
+/// Some notes say that the camera looks "from the −z axis". In fact it is at the origin of camera
 /// space and looks along −z, so its target is on the −z axis.
 #[test]
 fn misprint_m11b_the_camera_looks_along_minus_z_and_is_at_the_origin() {
