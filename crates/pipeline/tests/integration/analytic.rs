@@ -164,12 +164,12 @@ fn matte_white_does_not_clip_in_default_light_with_or_without_shadows() {
             brightest = brightest.max(most);
         }
     }
-    // The README states the brightness of matte white in the studio.
-    let readme = include_str!("../../../../README.md");
-    let told =
-        readme.split_once("matte white reaches at most ").expect("the sentence about the studio").1;
-    let told: f64 = told.split_once(' ').expect("a word").0.parse().expect("a number");
-    assert_eq!(brightest, encode_srgb(told).round() as u8, "the README says {told}");
+    // The FAQ states the brightness of matte white in the studio.
+    let faq = include_str!("../../../../docs/faq.md");
+    let stated =
+        faq.split_once("matte white reaches at most ").expect("the sentence about the studio").1;
+    let stated: f64 = stated.split_once(' ').expect("a word").0.parse().expect("a number");
+    assert_eq!(brightest, encode_srgb(stated).round() as u8, "the FAQ says {stated}");
 }
 
 #[test]
