@@ -1,7 +1,7 @@
-//! Lists the pages of the book as modules whose documentation is their Rust code.
+//! Generates a module for each page of the book, whose documentation contains the page's Rust code.
 //!
-//! All other lines are left empty, so that a failure names the line of the page: figures, formulas
-//! and outputs are blocks that rustdoc would warn about.
+//! All other lines are empty, so a failing doctest reports the line number in the page. Figures,
+//! formulas and outputs are omitted because rustdoc would warn about their blocks.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -10,29 +10,29 @@ use std::{env, fs};
 fn main() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../src");
     println!("cargo:rerun-if-changed={}", folder.display());
-    let out = env::var_os("OUT_DIR").expect("Cargo names the folder");
+    let out = env::var_os("OUT_DIR").expect("Cargo sets OUT_DIR");
     let out = Path::new(&out);
-    let files = fs::read_dir(&folder).expect("the pages of the book").flatten();
+    let files = fs::read_dir(&folder).expect("the folder of the pages is readable").flatten();
     let mut names: Vec<String> = files
         .filter_map(|entry| entry.file_name().to_str()?.strip_suffix(".md").map(str::to_owned))
         .collect();
     names.sort();
     let mut modules = String::new();
     for name in names {
-        let text = fs::read_to_string(folder.join(format!("{name}.md"))).expect("a page");
+        let text = fs::read_to_string(folder.join(format!("{name}.md"))).expect("a readable page");
         let code = out.join(format!("{name}.md"));
-        fs::write(&code, rust_lines(&text)).expect("the folder can be written to");
-        // Writing to a text does not fail.
+        fs::write(&code, rust_lines(&text)).expect("OUT_DIR is writable");
+        // Writing to a string cannot fail.
         let _ = writeln!(
             modules,
             "#[doc = include_str!({code:?})]\nmod {} {{}}",
             name.replace('-', "_").to_lowercase()
         );
     }
-    fs::write(out.join("pages.rs"), modules).expect("the folder can be written to");
+    fs::write(out.join("pages.rs"), modules).expect("OUT_DIR is writable");
 }
 
-/// A page with nothing but its title, where rustdoc begins to count lines, and its blocks of Rust.
+/// Blanks all lines of a page except the Rust blocks and the title, where rustdoc starts counting.
 fn rust_lines(page: &str) -> String {
     let mut is_rust = false;
     let mut out = String::new();

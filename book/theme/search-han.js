@@ -1,13 +1,13 @@
-// Search in Chinese. The index that mdBook writes takes the text between blanks for a word, and drops Han letters when it trims
-// words. Where the page is Chinese its documents are indexed again when the search is first opened: Latin words as they are, and
-// runs of Han letters as their pairs. So 透视除法 finds every page with 透视, 视除 and 除法.
+// Search in Chinese. mdBook's index treats text between spaces as a word, and drops Han characters when it trims words. On
+// Chinese pages, the documents are therefore indexed again when the search is first opened: Latin words unchanged, and runs
+// of Han characters as overlapping pairs. So 透视除法 finds every page with 透视, 视除 and 除法.
 'use strict';
 
 (function searchHan() {
   const HAN = /[\u3400-\u9fff\uf900-\ufaff]/;
   const WORDS = /[\u3400-\u9fff\uf900-\ufaff]+|[\p{L}\p{N}_]+/gu;
 
-  /** The terms of a text: Latin words in lower case, Han in pairs; a single letter is a term. */
+  /** Returns the terms of a text: lower-case Latin words, pairs of Han characters, and isolated Han characters. */
   function tokenize(text) {
     const terms = [];
     for (const [word] of String(text ?? '').toLowerCase().matchAll(WORDS)) {
@@ -17,7 +17,7 @@
     return terms;
   }
 
-  /** An index of the same documents by these terms. */
+  /** Builds an index of the same documents from the terms that `tokenize` returns. */
   function rebuild(elasticlunr, dump) {
     elasticlunr.tokenizer = tokenize;
     const index = new elasticlunr.Index();
@@ -27,7 +27,7 @@
     return index;
   }
 
-  /** The part of a text around the first term that is found, with all terms emphasized. */
+  /** Returns the part of a text around the first occurrence of a term. */
   function teaser(text, terms) {
     const plain = text.toLowerCase();
     const places = terms.map((term) => plain.indexOf(term)).filter((at) => at >= 0);
@@ -41,7 +41,7 @@
       if (dump.documentStore === undefined) return load(dump);
       const index = rebuild(elasticlunr, dump);
       const search = index.search.bind(index);
-      // The teaser of mdBook counts words between blanks: it gets a short text, with blanks around the words that were sought.
+      // mdBook's teaser counts words between spaces, so pass it a short text with spaces around the search terms.
       index.search = (query, options) => {
         const words = query.toLowerCase().split(/\s+/).filter((word) => word !== '');
         return search(query, options).map((found) => {
@@ -62,7 +62,7 @@
     '.print-button': ['title', '打印'],
   };
 
-  /** Says in Chinese what mdBook says only in English. */
+  /** Translates the labels that mdBook provides only in English. */
   function translateInterface() {
     for (const [selector, [name, value]] of Object.entries(TEXTS)) {
       document.querySelector(selector)?.closest('a, button, label, input')?.setAttribute(name, value);
@@ -73,13 +73,13 @@
       if (count) header.innerText = count[1] === 'No' ? '没有找到。' : `找到 ${count[1]} 处：`;
     };
     if (!header) return;
-    // A link with `?search=` may have its results before this script runs.
+    // With `?search=` in the address, results may appear before this script runs.
     countInChinese();
     new MutationObserver(countInChinese).observe(header, { childList: true });
   }
 
   if (!document.documentElement.lang.startsWith('zh')) return;
-  // The page loads this twice: in its head, since the search begins to load its index as soon as it is there, and at its end.
+  // The page loads this script twice: in its head, because the search starts to load its index immediately, and at its end.
   if (document.body) {
     translateInterface();
     return;

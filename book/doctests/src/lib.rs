@@ -1,6 +1,6 @@
-//! The Rust code of the book's pages as doctests: a module for each page, by its name.
+//! The Rust code of the book's pages as doctests, in a module named after each page.
 //!
-//! `cargo xtask test book` runs them. Formulas, figures and outputs are blocks in other languages, which rustdoc passes over.
+//! `cargo xtask test book` runs them. `build.rs` generates the modules.
 
 #[cfg(doctest)]
 mod book_pages {

@@ -14,7 +14,7 @@ pub struct Arguments {
     out: Option<PathBuf>,
     program: Option<PathBuf>,
     is_partial: bool,
-    /// The only language.
+    /// The only language to build or check, if specified.
     pub language: Option<String>,
     /// The minimum coverage in percent.
     pub least: Option<f64>,
@@ -46,7 +46,7 @@ impl Arguments {
         Ok(out)
     }
 
-    /// The folders and the program of an edition.
+    /// Returns the folders and the program of an edition.
     pub fn edition(&self) -> Result<Edition> {
         let book = self.book.clone().unwrap_or("book".into());
         let root = self.project.clone().unwrap_or(".".into());

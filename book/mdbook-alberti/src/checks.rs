@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 const PAGE_LIMIT: u64 = 400_000;
 
 /// The error for a link to a missing file.
-const NO_FILE: &str = "there is no such file";
+const NO_FILE: &str = "the file does not exist";
 
 /// The page that lists every misprint.
 const MISPRINTS: &str = "printed-wrong";
@@ -104,7 +104,7 @@ fn unnamed_misprints(topics: &Topics, pages: &[Page]) -> Vec<String> {
     let misprints = topics.ids().filter(|id| id.starts_with('M'));
     misprints
         .filter(|id| !named.contains(id))
-        .map(|id| format!("{MISPRINTS}.md: {id} is not named"))
+        .map(|id| format!("{MISPRINTS}.md: {id} is missing"))
         .collect()
 }
 
@@ -144,7 +144,7 @@ fn edition_faults(folder: &Path, edition: &Edition) -> Result<Vec<String>> {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if size > PAGE_LIMIT {
             faults.push(format!(
-                "{}: {size} bytes with its figures, {PAGE_LIMIT} allowed",
+                "{}: {size} bytes with its figures; the limit is {PAGE_LIMIT}",
                 path.display()
             ));
         }
@@ -160,7 +160,7 @@ fn edition_faults(folder: &Path, edition: &Edition) -> Result<Vec<String>> {
     for (path, html) in &pages {
         for link in attributes(html, &["href", "src"]) {
             links += 1;
-            // In a partial build, links to the other pages are broken.
+            // In a partial build, links to missing pages are not reported.
             let is_left_out = edition.is_partial
                 && link.split('#').next().is_some_and(|file| file.ends_with(".html"));
             if let Some(fault) = link_fault(path, link, &pages, &mut cache)
@@ -234,7 +234,7 @@ fn link_fault(
         read.as_ref()
     })?;
     let is_there = attributes(html, &["id"]).any(|id| id == anchor);
-    (!is_there).then_some("there is no such anchor")
+    (!is_there).then_some("the anchor does not exist")
 }
 
 /// Resolves `..` in a path.

@@ -188,7 +188,7 @@ fn run_limited(command: &mut Command) -> Result<Vec<u8>, String> {
             break status;
         }
         if start.elapsed() > LIMIT {
-            // It may have exited in the meantime.
+            // This fails if the command has just exited, which does no harm.
             let _ = child.kill();
             let _ = child.wait();
             return Err(format!("the command took more than {} s", LIMIT.as_secs()));
@@ -206,7 +206,7 @@ fn run_limited(command: &mut Command) -> Result<Vec<u8>, String> {
 fn read_all(mut stream: Box<dyn std::io::Read + Send>) -> std::thread::JoinHandle<Vec<u8>> {
     std::thread::spawn(move || {
         let mut bytes = Vec::new();
-        // The output read so far is shown.
+        // If reading fails, the output read so far is used.
         let _ = stream.read_to_end(&mut bytes);
         bytes
     })

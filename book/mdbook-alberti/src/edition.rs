@@ -32,7 +32,7 @@ pub struct Edition {
 }
 
 impl Edition {
-    /// Reads the table of contents, without missing pages if these are allowed.
+    /// Reads the table of contents. A partial edition omits missing pages.
     pub fn summary(&self) -> Result<Summary> {
         let own = self.source.join("SUMMARY.md");
         let path = if own.is_file() { own } else { self.book.join("src/SUMMARY.md") };
@@ -74,7 +74,7 @@ impl Edition {
         let config = self.config(language, &out)?;
         let mut book = MDBook::load_with_config_and_summary(&self.book, config, self.summary()?)?;
         let figures: Arc<Mutex<BTreeSet<PathBuf>>> = Arc::default();
-        // Replaces the command of the same name.
+        // This replaces the preprocessor command of the same name in `book.toml`.
         book.with_preprocessor(Alberti {
             program: self.program.clone(),
             root: self.root.clone(),

@@ -1,4 +1,4 @@
-//! A page: replaces its marks by what they represent.
+//! A page: replaces its marks with the HTML that they represent.
 
 use crate::command::{Job, Kind};
 use crate::figure::{Figure, FigureMark, escape_attribute};
@@ -122,7 +122,7 @@ impl Renderer<'_> {
         }
     }
 
-    /// Renders a fenced block as a line of HTML; `None` if it is not a mark.
+    /// Renders a fenced block as a line of HTML, or returns `None` if it is not a mark.
     fn block(&self, fence: &Fence) -> Result<Option<String>, String> {
         match fence.kind() {
             "alberti" => self.figure(fence).map(Some),

@@ -32,8 +32,8 @@ pub struct Alberti {
 }
 
 impl Alberti {
-    /// Creates the preprocessor as mdBook runs it: folders at their default locations, the program
-    /// from the variable `ALBERTI`.
+    /// Creates the preprocessor as mdBook runs it, with the default folders and the program in the
+    /// environment variable `ALBERTI`.
     pub fn by_place(context: &PreprocessorContext) -> Self {
         let root = context.root.parent().unwrap_or(Path::new(".")).to_owned();
         Self {

@@ -10,7 +10,7 @@ use std::path::Path;
 /// The element in which mdBook puts the chapters.
 const CHAPTERS: &str = "<main>";
 
-/// Adds both to the printed page of an edition.
+/// Adds the title and the table of contents to the printed page of an edition.
 pub fn add_contents(out: &Path, language: Language) -> Result<()> {
     let path = out.join("print.html");
     let html = fs::read_to_string(&path).with_context(|| path.display().to_string())?;

@@ -12,7 +12,7 @@ use polib::po_file;
 use pulldown_cmark::{Event, Tag, TagEnd};
 use std::path::Path;
 
-/// Reads a catalog, which is empty if the file is missing.
+/// Reads a catalog, or returns an empty one if the file is missing.
 pub fn read_catalog(path: &Path) -> Result<Catalog, String> {
     if !path.exists() {
         return Ok(Catalog::new(CatalogMetadata::new()));
@@ -72,8 +72,8 @@ pub fn translate_line(text: &str, catalog: &Catalog) -> String {
     find_translation(catalog, text).unwrap_or(text).to_owned()
 }
 
-/// Returns the messages of a page that need a translation, in order and without duplicates: no
-/// code, and nothing without a word.
+/// Returns the messages of a page that need a translation, in order and without duplicates. Code
+/// and messages without words are omitted.
 pub fn messages(text: &str) -> Result<Vec<String>, String> {
     let marks = Marks::read(text);
     let is_code = |line: usize| {
