@@ -31,7 +31,7 @@ def draw(model: Path, picture: Path, size: int) -> str | None:
     except alberti.AlbertiError as error:
         return f"{model}: {error}"
     picture.parent.mkdir(parents=True, exist_ok=True)
-    # Two attempts at one task may run at the same time, on two nodes.
+    # Two attempts at one task may run at once on two nodes, so their partial files need different names.
     part = picture.with_name(f".{picture.name}.{socket.gethostname()}.{os.getpid()}.part")
     part.write_bytes(frame.png())
     os.replace(part, picture)

@@ -1,4 +1,4 @@
-//! Plain bearing: a shaft in its housing, closed solids that fit each other, for section views.
+//! A plain bearing for section views: a shaft in its housing, as closed solids that fit together.
 
 use crate::document::Document;
 use crate::mesh::{Mesh, sharp_outline};

@@ -104,7 +104,7 @@ impl Document {
         MaterialId(self.materials.len() - 1)
     }
 
-    /// Adds a material given by its glTF members, except for the name.
+    /// Adds a material with a name and other glTF members.
     pub fn add_finish(&mut self, name: &str, mut material: Value) -> MaterialId {
         material["name"] = json!(name);
         self.materials.push(material);

@@ -32,7 +32,7 @@ mod tower;
 mod vase;
 mod wood;
 
-/// The size limit of a model file in bytes, so that a clone stays small.
+/// The size limit of a model file in bytes, which keeps clones small.
 pub const MAX_BYTES: usize = 300_000;
 
 /// Returns the file name and bytes of every model.

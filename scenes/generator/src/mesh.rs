@@ -10,13 +10,13 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 /// `positions`.
 #[derive(Clone, Default, Debug)]
 pub struct Mesh {
-    /// In meters, y up.
+    /// Positions in meters, with y up.
     pub positions: Vec<DVec3>,
-    /// Unit length.
+    /// Normals of unit length.
     pub normals: Vec<DVec3>,
     /// Texture coordinates, v down as in glTF.
     pub uvs: Vec<DVec2>,
-    /// Linear light, 0 to 1.
+    /// Colors in linear light, 0 to 1.
     pub colors: Vec<[f64; 3]>,
     /// Vertex indices of the triangles, or of other primitives if the document uses the mesh for
     /// them.
@@ -52,8 +52,8 @@ impl Mesh {
     }
 
     /// Adds two triangles for each cell of a grid of `columns` by `rows` vertices, stored row by
-    /// row from index `first`. The front is the side from which rows run to the right and follow
-    /// each other upward.
+    /// row from index `first`. The front is the side from which each row runs to the right and
+    /// the next row is above it.
     pub fn add_grid_triangles(&mut self, first: u32, columns: u32, rows: u32) {
         for row in 0..rows - 1 {
             for column in 0..columns - 1 {

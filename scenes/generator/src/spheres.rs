@@ -1,4 +1,4 @@
-//! Seven equal spheres in a row: one mesh, seven nodes.
+//! Seven identical spheres in a row: one mesh, seven nodes.
 
 use crate::document::Document;
 use crate::mesh::Mesh;

@@ -8,7 +8,7 @@ use crate::teapot_patches::{Part, teapot_parts};
 use glam::{DVec3, dvec2, dvec3};
 use serde_json::json;
 
-/// Steps along each side of a patch, which makes forty around the pot.
+/// The number of steps along each side of a patch, which gives forty steps around the pot.
 const PATCH_STEPS: u32 = 10;
 
 pub(crate) fn teapot() -> Document {
@@ -36,7 +36,7 @@ fn tessellate_part(part: &Part) -> Mesh {
     mesh
 }
 
-/// The radius of the table top, and of its part inside the darker rim.
+/// The radius of the table top, and the radius inside its darker rim.
 const TABLE_RADIUS: f64 = 4.2;
 const TABLE_RIM: f64 = 4.05;
 

@@ -54,7 +54,7 @@ fn grain_color(light: [f64; 3], dark: [f64; 3], along: u32, across: u32, shade: 
     mix_colors(light, dark, shade + (streak - 0.5) * 0.3)
 }
 
-/// Returns value noise from 0 to 1, an integer hash of the position.
+/// Returns value noise from 0 to 1, computed with an integer hash of the position.
 fn value_noise(x: u32, y: u32) -> f64 {
     let mut hash = x.wrapping_mul(0x9e37_79b1) ^ y.wrapping_mul(0x85eb_ca77);
     hash = (hash ^ (hash >> 15)).wrapping_mul(0x2c1b_3c6d);
