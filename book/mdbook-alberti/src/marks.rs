@@ -151,8 +151,8 @@ impl Marks {
         marks
     }
 
-    /// Returns the ids of the headings: those in the source, or else those that mdBook derives from
-    /// the text.
+    /// Returns the ids of the headings: the id in the source, if any, otherwise the id that mdBook
+    /// derives from the text.
     pub fn heading_ids(&self) -> Vec<String> {
         let mut used: Vec<String> = Vec::new();
         for heading in &self.headings {

@@ -36,7 +36,7 @@ pub fn message_faults(msgid: &str, msgstr: &str) -> Vec<String> {
         text.starts_with(['_', '*']) && !text.starts_with("**") && text.ends_with(['_', '*'])
     };
     if is_caption(msgid) != is_caption(msgstr) {
-        faults.push("only a caption may be emphasized as a whole, and a caption must be".into());
+        faults.push("captions, and only captions, must be emphasized as a whole".into());
     }
     faults.extend(han_faults(&translated.text));
     faults

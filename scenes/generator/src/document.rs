@@ -79,7 +79,7 @@ impl Document {
         )
     }
 
-    /// Adds a transparent material with alpha mode BLEND whose two faces are both drawn.
+    /// Adds a transparent, double-sided material with alpha mode BLEND.
     pub fn add_glass(&mut self, name: &str, color: Color, alpha: f64) -> MaterialId {
         let [r, g, b] = color.linear();
         self.add_surface(

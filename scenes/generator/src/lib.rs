@@ -62,7 +62,7 @@ pub fn all_models() -> Result<Vec<(&'static str, Vec<u8>)>, String> {
     Ok(documents.into_iter().map(|(name, document)| (name, document.into_glb())).collect())
 }
 
-/// Compiles the example of the README.
+/// Compiles the example in the README.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
