@@ -30,7 +30,7 @@ const MAX_TRIANGLES: usize = 60_000;
 /// with 1,900 parts takes seven minutes, as long as all the others together.
 const MANY_PARTS: usize = 500;
 
-/// The diagonal to which every model is scaled, in millimeters: the original sizes differ by a
+/// The diagonal to which every model is scaled, in millimeters. Original sizes differ by up to a
 /// factor of a million.
 const DIAGONAL: f64 = 700.0;
 
@@ -87,7 +87,7 @@ fn check_model(path: &Path, most: usize) -> Result<Option<String>, String> {
     }
     if parts > most {
         let name = path.file_name().unwrap_or_default().display();
-        println!("{name} has {parts} parts, which only the step assemblies-all draws");
+        println!("{name} has {parts} parts; only the step assemblies-all draws it");
         return Ok(None);
     }
     if parts > nodes {

@@ -106,8 +106,8 @@ fn test_cluster(folder: &Path) -> Result<Tally, String> {
     Ok(tally)
 }
 
-/// The maximum share of the processors that other programs may use while times are compared, so
-/// that they do not slow the nodes.
+/// The maximum share of the processors that other programs may use. Above it, times are not
+/// compared.
 const MAX_LOAD: f64 = 0.25;
 
 /// Returns the share of the processors in use during a second in which this test does nothing.
@@ -182,7 +182,7 @@ fn disturb(
     Ok(time)
 }
 
-/// Runs a command to its end and returns its output.
+/// Runs a command until it exits, and returns its output.
 ///
 /// # Errors
 /// If it does not start or fails, with its output.

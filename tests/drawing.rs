@@ -172,7 +172,7 @@ fn measure_agreement(
         Ok::<_, String>((agreement, drawing))
     };
     let (removed, drawing) = agreement(&DrawOptions::hidden_edges_removed())?;
-    // The comparison itself must be able to fail, as it does if hidden edges are drawn as visible.
+    // The comparison must be able to fail: it must reject hidden edges that are drawn as visible.
     if kind == ViewKind::Perspective && direction == 0 {
         let (all, _) = agreement(&DrawOptions {
             hidden_edges: HiddenEdges::Ignored,

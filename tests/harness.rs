@@ -142,7 +142,7 @@ pub fn is_thorough() -> bool {
     std::env::var_os("THOROUGH").is_some()
 }
 
-/// Returns a tenth of some items, each equally likely.
+/// Returns a random tenth of the items. Each item is equally likely.
 fn choose_tenth<T>(seed: u64, items: Vec<T>) -> Vec<T> {
     let is_chosen = |index: u64| {
         // splitmix64

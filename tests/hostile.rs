@@ -29,7 +29,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-/// The memory limit of the whole run at any time.
+/// The memory that the process may use at any time.
 const MAX_MEMORY_MIB: u64 = 200;
 
 /// The time limit of a case, generous enough for a busy machine.
@@ -69,7 +69,8 @@ fn write_files(folder: &Path) -> std::io::Result<usize> {
     Ok(count)
 }
 
-/// Runs all selected cases. Each is checked and loaded from memory, and some from a file first.
+/// Runs all selected cases. Each is checked and loaded from memory; some are first loaded from a
+/// file.
 fn run_groups(folder: &Path, arguments: &Arguments) -> Result<Tally, String> {
     let (mut tally, mut extremes) = (Tally::default(), Extremes::default());
     for (group, cases) in case_groups() {

@@ -1,6 +1,6 @@
 //! Checks a user's first impression: every model without a scene has light and contrast in every
 //! style, and its default picture is neither overexposed nor underexposed. Ambient occlusion leaves
-//! no dots. No style loses a model, and every style respects alpha.
+//! no dark dots. Models are visible in every style, and every style respects alpha.
 //!
 //! Uses the scene models and, if it exists, the folder `$ASSETS` or `shared/assets` next to the
 //! repository. Scene pictures do not reveal such defects, because scenes have their own lights.
@@ -115,8 +115,8 @@ fn judge_models(models: &[PathBuf], arguments: &Arguments) -> Tally {
     tally
 }
 
-/// Returns the defects in a model's pictures, or none if the model cannot be drawn, which other
-/// tests cover.
+/// Returns the defects in a model's pictures. A model that cannot be drawn has none, because other
+/// tests cover it.
 fn judge_model(model: &Path) -> Vec<String> {
     let name = model_name(model);
     let mut faults = occlusion::find_dots(model, &name);

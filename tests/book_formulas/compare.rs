@@ -87,7 +87,7 @@ pub fn find_faults(formula: &Formula, counts: &mut Counts) -> Vec<Fault> {
     faults
 }
 
-/// Returns the errors in a row, which depend on all its checks together.
+/// Returns the errors in a row, considering all its checks together.
 fn test_row(
     row: &Statement,
     number: usize,

@@ -70,7 +70,7 @@ pub fn evaluate(expression: &Expression, scope: &dyn Scope) -> Result<Value, Str
     if value.is_finite() { Ok(value) } else { Err("a value is not finite".to_owned()) }
 }
 
-/// In the body of a sum, the value of the index replaces it in subscripts.
+/// In the body of a sum, an index in a subscript is replaced by its value.
 struct IndexedScope<'a> {
     outer: &'a dyn Scope,
     index: &'a str,

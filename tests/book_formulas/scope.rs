@@ -1,5 +1,4 @@
-//! A check line with its values, which give a formula's names their meaning, and the crates'
-//! results.
+//! A check line with the values of its names and the crates' results, for evaluating a formula.
 
 use crate::book_formulas::check_line::{Check, Given, Reference};
 use crate::book_formulas::evaluate::Scope;
@@ -76,7 +75,7 @@ impl PreparedCheck {
         Ok(())
     }
 
-    /// Returns a name whose value the formula did not use, once it has been evaluated.
+    /// Returns a name whose value was not used when the formula was evaluated.
     pub fn unused_name(&self) -> Option<&Name> {
         let used = self.used.borrow();
         let uses_extras = self.extras.keys().any(|name| used.contains(name));

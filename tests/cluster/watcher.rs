@@ -57,7 +57,7 @@ impl Watcher {
         self.count.load(Ordering::Relaxed)
     }
 
-    /// Ends the watch.
+    /// Stops watching and returns the observations.
     pub fn stop(self) -> Result<Seen, String> {
         self.is_over.store(true, Ordering::Relaxed);
         self.thread.join().map_err(|_| "the watcher panicked".to_owned())

@@ -171,7 +171,8 @@ fn value_cases() -> Vec<Case> {
     cases
 }
 
-/// Returns cases with accessors without bytes, whose zeros must be limited in number.
+/// Returns cases with accessors that are read as zeros because they have no data. The number of
+/// zeros must be limited.
 fn zero_cases() -> Vec<Case> {
     let case = |count: u64, expected: Expected| {
         let mut document = Document::single_triangle().without_value("/accessors/0/bufferView");

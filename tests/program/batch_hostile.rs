@@ -16,14 +16,14 @@ fn run_in_time(sandbox: &Sandbox, arguments: &[&str]) -> RunResult {
     let mut child = sandbox.start(arguments);
     drop(child.stdin.take());
     let begin = Instant::now();
-    while child.try_wait().expect("its state").is_none() {
+    while child.try_wait().expect("the process has a state").is_none() {
         if begin.elapsed() > Duration::from_secs(60) {
             let _ = child.kill();
             panic!("the program hangs: {arguments:?}");
         }
         std::thread::sleep(Duration::from_millis(20));
     }
-    RunResult::of(child.wait_with_output().expect("its output"))
+    RunResult::of(child.wait_with_output().expect("the process exits"))
 }
 
 fn crate_sandbox(name: &str) -> Sandbox {

@@ -125,7 +125,7 @@ fn sheets_show_cuts_in_the_view_that_faces_them() {
     let along = layers["cut-lines"].iter().find(|line| line[0][1] == line[1][1]).expect("a line");
     assert_near(along[0][1] - low[1], 10.0);
     assert_near((along[1][0] - along[0][0]).abs(), 108.0);
-    // The hatching is spaced according to the style at any scale: 2 mm, perpendicular to the lines.
+    // The hatch spacing follows the style at any scale: 2 mm, perpendicular to the lines.
     let mut at: Vec<f64> =
         layers["front-visible-hatching"].iter().map(|line| line[0][0] + line[0][1]).collect();
     at.sort_by(f64::total_cmp);

@@ -58,7 +58,7 @@ pub const ENTRIES: &[Entry] = &[
     }),
 ];
 
-/// Returns the map of a space to itself whose rows are the value of a name.
+/// Returns the map from a space to itself whose matrix is the value of a name.
 pub fn projective(v: &Inputs<'_>, name: &str) -> Result<Projective<World, World>, String> {
     Ok(Projective::from_rows(v.matrix(name)?.to_square()?))
 }
