@@ -50,8 +50,7 @@ impl Sample {
         self
     }
 
-    /// States a different rendering outcome: `drawn`, `blank`, or part of the reason for a
-    /// rejection.
+    /// Sets a different rendering outcome: `drawn`, `blank`, or part of the reason for a rejection.
     fn expect(mut self, outcome: &str) -> Self {
         self.row.expected = Some(outcome.to_owned());
         self

@@ -102,7 +102,7 @@ fn pdf_text_is_found_by_another_reader() {
 }
 
 #[test]
-fn a_custom_title_block_is_read_or_its_mistake_shown() {
+fn a_custom_title_block_is_read_or_its_mistake_is_shown() {
     let sandbox = Sandbox::new("sheet_block");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     write_scene(&sandbox, "scene.ron", "title: \"Box\", title_block: \"block.svg\"");

@@ -1,5 +1,5 @@
-//! Flags without effect on a picture are reported; warnings about things that the picture would not
-//! show are not.
+//! Flags without effect on a picture are reported. Warnings about things that the picture does not
+//! show are omitted.
 
 use crate::sandbox::Sandbox;
 

@@ -18,8 +18,7 @@ use tracer::{Camera, Shape, Surface, World};
 
 /// The width and height of the pictures.
 const SIZE: (u32, u32) = (320, 240);
-/// The number of segments around the spheres, whose outline is within a hundredth of a pixel of a
-/// circle.
+/// The number of segments around the spheres. Their outline is within 0.01 pixels of a circle.
 const SEGMENTS: u32 = 192;
 
 /// Computes all references and writes them to a folder, with the models below `models`.

@@ -1,4 +1,4 @@
-//! Makes millions of random calls of every fallible function: nothing may panic, and finite input
+//! Makes millions of random calls to every fallible function: nothing may panic, and finite input
 //! must give finite output.
 //!
 //! `cargo xtask soak [--calls N] [--seed S] [NAME…]` runs it in release mode; arguments select

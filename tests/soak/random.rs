@@ -97,7 +97,7 @@ impl Random {
         self.bits.next() >> 63 == 1
     }
 
-    /// Returns any 32 bits, or half of the time a small number.
+    /// Returns arbitrary 32 bits or, half of the time, a small number.
     pub fn count(&mut self) -> u32 {
         let bits = self.bits.next();
         let count = (bits >> 32) as u32;
