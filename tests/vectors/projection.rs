@@ -46,7 +46,7 @@ fn builder_convention(builder: &str) -> Convention {
     }
 }
 
-/// Returns the matrix that the named builder makes, and the closed-form inverse.
+/// Returns the matrix from the named builder, and its closed-form inverse.
 pub fn build_projection(case: &Value) -> Result<BuiltMatrices, String> {
     let builder = text_field(case, "builder")?;
     if builder.starts_with("perspective") {

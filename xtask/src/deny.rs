@@ -171,8 +171,8 @@ fn floors_of_packages(floor: &str) -> Result<Vec<String>, String> {
     Ok(faults)
 }
 
-/// Reports whether the tests run with the oldest supported compiler. Only then is its support
-/// tested.
+/// Reports whether the tests run with the oldest supported compiler. Only then is support for that
+/// compiler tested.
 fn print_compiler(floor: &str) -> Outcome {
     let compiler = std::env::var_os("RUSTC").unwrap_or("rustc".into());
     let text = capture_output(Command::new(compiler).arg("--version").current_dir(project_root()))?;

@@ -82,7 +82,7 @@ impl Session {
             }
             if report.crashes.is_empty() {
                 return Err(format!(
-                    "{name} ended unexpectedly; see {}",
+                    "{name} exited unexpectedly; see {}",
                     relative_path(&jobs[0].log)
                 ));
             }
@@ -99,7 +99,7 @@ impl Session {
         let mut command = Command::new(&self.program);
         command.args(["-timeout=30", "-rss_limit_mb=2048", "-print_final_stats=1"]);
         if self.is_talkative {
-            // Hide the messages of the program under test. The fuzzer's own still appear.
+            // Hide the messages of the program under test. The fuzzer's own messages still appear.
             command.arg("-close_fd_mask=3");
         }
         command.arg(format!("-artifact_prefix={}/", folder("artifacts").display()));

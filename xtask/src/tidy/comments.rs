@@ -57,7 +57,7 @@ fn unlisted_ids(sources: &[Source], list: &str) -> Vec<Violation> {
     violations
 }
 
-/// Returns the ids in a text: two to five letters or digits, a hyphen and a number.
+/// Returns the ids in text: two to five letters or digits, a hyphen and a number.
 fn formula_ids(text: &str) -> impl Iterator<Item = &str> {
     let words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '-' && c != '_');
     words.filter(|word| {
