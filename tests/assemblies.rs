@@ -1,4 +1,4 @@
-//! Assembly sheets: parts are counted, pages are legible, exploded parts do not overlap.
+//! Checks assembly sheets: parts are counted, pages are legible, and exploded parts do not overlap.
 //!
 //! Uses the models in `$ASSETS`, or in `shared/assets` next to the repository, that have several
 //! nodes with meshes. Arguments that are not flags select models by part of their path.
@@ -26,8 +26,8 @@ use viewport::Paper;
 /// Models with more triangles are skipped; the benchmarks draw them.
 const MAX_TRIANGLES: usize = 60_000;
 
-/// Models with more parts are excluded from samples and drawn only on the smaller paper: a model
-/// with 1,900 parts takes seven minutes, as long as all the others together.
+/// Models with more parts are excluded from the sample and drawn only on the smaller paper. A model
+/// with 1,900 parts takes seven minutes, as long as all other models together.
 const MANY_PARTS: usize = 500;
 
 /// The diagonal to which every model is scaled, in millimeters. Original sizes differ by up to a

@@ -22,10 +22,10 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use views::{DIRECTIONS, ViewKind, build_scene};
 
-/// The fraction of the visible length on which they may disagree.
+/// The fraction of the visible length on which a drawing and its z-buffer image may disagree.
 const MAX_DISAGREEMENT: f64 = 0.002;
 
-/// Models that may disagree more, with the reason.
+/// Models whose drawings may disagree more, with the reason.
 const EXCEPTIONS: &[(&str, f64, &str)] = &[(
     "ship-light-draco/model.gltf",
     0.005,

@@ -35,7 +35,7 @@ const MAX_MEMORY_MIB: u64 = 200;
 /// The time limit of a case, generous enough for a busy machine.
 const TIME_LIMIT: Duration = Duration::from_secs(10);
 
-/// The extremes of a run, with their case names.
+/// The slowest case of a run and the largest memory use, with the names of the cases.
 #[derive(Default)]
 struct Extremes {
     slowest: (Duration, String),
@@ -107,7 +107,7 @@ fn run_groups(folder: &Path, arguments: &Arguments) -> Result<Tally, String> {
     Ok(tally)
 }
 
-/// Builds the cases of a group.
+/// A function that builds the cases of a group.
 type Cases = fn() -> Vec<Case>;
 
 fn case_groups() -> [(&'static str, Cases); 12] {

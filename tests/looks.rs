@@ -218,14 +218,14 @@ fn model_name(model: &Path) -> String {
     named.unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// Returns the glTF files in a folder, by name.
+/// Returns the glTF files in a folder, sorted by name.
 fn list_models(folder: &Path) -> Result<Vec<PathBuf>, String> {
     let mut files = list_folder(folder)?;
     files.retain(|path| path.extension().is_some_and(|ending| ending == "glb" || ending == "gltf"));
     Ok(files)
 }
 
-/// Returns the contents of a folder, by name.
+/// Returns the contents of a folder, sorted by name.
 fn list_folder(folder: &Path) -> Result<Vec<PathBuf>, String> {
     let in_folder = |error: std::io::Error| format!("{}: {error}", folder.display());
     let entries = std::fs::read_dir(folder).map_err(in_folder)?;

@@ -1,4 +1,4 @@
-//! Computing outcodes for arrays of points, with and without projecting them.
+//! Benchmarks that compute outcodes for arrays of points, with and without projecting them.
 
 use crate::measure::Variant;
 use crate::scene::{Blocks, model_to_clip, position};

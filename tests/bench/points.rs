@@ -1,4 +1,4 @@
-//! Transforming arrays of points.
+//! Benchmarks that transform arrays of points.
 
 use crate::measure::Variant;
 use crate::scene::{Blocks, model_points, model_to_clip, model_to_world};

@@ -1,4 +1,4 @@
-//! Clipping of mesh triangles.
+//! Benchmarks that clip mesh triangles.
 
 use crate::measure::Variant;
 use crate::scene::{POINT_COUNT, coordinate};

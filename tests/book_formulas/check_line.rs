@@ -55,7 +55,7 @@ impl Reference {
             [row, column] if row < rows && column < columns => {
                 Ok(Value::number(value.at(row, column)))
             }
-            _ => Err(format!("{} has no such entry in {}", self.name, value.describe())),
+            _ => Err(format!("`{}` is {}, which has no such entry", self.name, value.describe())),
         }
     }
 }

@@ -11,7 +11,7 @@ use crate::book_formulas::token::{Token, TokenKind, tokenize};
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// Results differ by at most this fraction of the largest entry.
+/// Results may differ by at most this fraction of the largest entry.
 const TOLERANCE: f64 = 1e-12;
 /// A damaged formula must differ by more than this, so that a rounding error does not count as a
 /// detected change.

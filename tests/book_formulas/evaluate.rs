@@ -1,4 +1,4 @@
-//! Evaluation of expressions.
+//! Evaluates expressions.
 
 use crate::book_formulas::expression::{Expression, Function, ProductSign};
 use crate::book_formulas::name::Name;
@@ -10,8 +10,7 @@ use homog::{Affine, Vector, World};
 
 /// The values of names.
 pub trait Scope {
-    /// # Errors
-    /// If the name has no value.
+    /// Returns the value of a name, or an error if it has none.
     fn value_of(&self, name: &Name) -> Result<Value, String>;
 }
 
@@ -39,6 +38,8 @@ fn evaluate_tokens(tokens: &[Token], scope: &dyn Scope) -> Result<Value, String>
     evaluate(&parse_expression(tokens)?, scope)
 }
 
+/// Evaluates an expression.
+///
 /// # Errors
 /// If a name has no value, shapes do not match, or a result is not finite.
 pub fn evaluate(expression: &Expression, scope: &dyn Scope) -> Result<Value, String> {

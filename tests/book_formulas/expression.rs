@@ -1,4 +1,4 @@
-//! Expressions as trees.
+//! Expression trees.
 
 use crate::book_formulas::name::Name;
 

@@ -16,7 +16,7 @@ pub struct PreparedCheck {
     values: BTreeMap<Name, Value>,
     /// The values that the crates supply.
     extras: BTreeMap<Name, Value>,
-    /// The names whose values are needed by an entry that another name refers to.
+    /// The names that refer to other entries, each with its entry, which may need further values.
     behind: BTreeMap<Name, &'static Entry>,
     target: Reference,
     used: RefCell<BTreeSet<Name>>,

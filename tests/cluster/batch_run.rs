@@ -41,7 +41,7 @@ impl BatchRun {
         own.into_iter().chain(FLAGS.map(str::to_owned)).collect()
     }
 
-    /// Returns the program with those arguments.
+    /// Returns a command that runs the program with those arguments.
     fn batch(&self) -> Command {
         let mut command = Command::new(&self.program);
         command.arg("batch").args(self.arguments());

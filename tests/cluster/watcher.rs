@@ -22,7 +22,7 @@ pub struct Seen {
     pub faults: Vec<String>,
 }
 
-/// The thread that watches.
+/// A thread that watches a folder.
 pub struct Watcher {
     thread: JoinHandle<Seen>,
     count: Arc<AtomicUsize>,
@@ -64,7 +64,7 @@ impl Watcher {
     }
 }
 
-/// The state of the thread.
+/// The state of the watching thread.
 struct FolderWatch {
     folder: PathBuf,
     expected: Pictures,

@@ -1,4 +1,4 @@
-//! Wrong counts, offsets, lengths and strides.
+//! Accessors and views with wrong counts, offsets, lengths and strides.
 
 use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::{Document, float_bytes};

@@ -1,4 +1,4 @@
-//! `alberti batch`.
+//! Tests `alberti batch`.
 
 use crate::sandbox::Sandbox;
 use serde_json::Value;

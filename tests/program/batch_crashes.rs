@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant, SystemTime};
 
-/// Eighteen small models; `BATCH` renders them.
+/// Returns a sandbox with eighteen small models, which `BATCH` renders.
 fn crash_sandbox(name: &str) -> Sandbox {
     let sandbox = Sandbox::new(name);
     for model in ["crate.glb", "panes.glb", "house.glb"] {
@@ -179,7 +179,7 @@ fn kill_often(name: &str, kills: usize, flags: &[&str]) {
     }
 }
 
-/// The number of times a batch is killed.
+/// Returns the number of times a batch is killed.
 fn kill_count() -> usize {
     let text = std::env::var("ALBERTI_BATCH_KILLS").ok();
     text.map_or(12, |text| text.parse().expect("ALBERTI_BATCH_KILLS is a number"))

@@ -8,7 +8,7 @@ use serde_json::Value;
 use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
-/// A list of three jobs: the second takes minutes, and the others are short.
+/// Returns a sandbox with a list of three jobs: the second takes minutes, and the others are short.
 fn slow_sandbox(name: &str) -> Sandbox {
     let sandbox = batch_sandbox(name);
     sandbox.write_file(

@@ -1,4 +1,4 @@
-//! `alberti explain`.
+//! Tests `alberti explain`.
 
 use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;

@@ -26,7 +26,7 @@ fn run(sandbox: &Sandbox, arguments: &[&str]) -> RunResult {
     run
 }
 
-/// A document of a triangle in which a hostile name replaces one word in capitals.
+/// Returns the glTF of a triangle in which a hostile name replaces `place`, a word in capitals.
 fn model_with(place: &str) -> String {
     let buffer =
         "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";

@@ -1,4 +1,4 @@
-//! Several views in one picture, backgrounds, copies and changed materials, camera paths.
+//! Several views in one picture, backgrounds, copies, changed materials and camera paths.
 
 use crate::sandbox::Sandbox;
 use crate::vector_files::{PagePoint, parse_svg};

@@ -1,11 +1,11 @@
-//! `alberti animate`.
+//! Tests `alberti animate`.
 
 use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
 use serde_json::json;
 use std::process::{Command, Stdio};
 
-/// A red square that moves two units to the right within a second.
+/// Writes a model with a red square that moves two units to the right within a second.
 fn write_moving_model(sandbox: &Sandbox) {
     let mut document = GltfBuilder::square();
     let times = document.add_floats("SCALAR", &[0.0, 1.0]);

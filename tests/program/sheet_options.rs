@@ -6,7 +6,7 @@ use crate::sandbox::Sandbox;
 use alberti_tests::skip::report_skip;
 use std::process::Command;
 
-/// Draws a sheet of a box of 100 × 50 × 30 mm with these fields.
+/// Writes a scene whose sheet shows a box of 100 × 50 × 30 mm and has these fields.
 fn write_scene(sandbox: &Sandbox, name: &str, fields: &str) {
     let text = format!("Scene(models: [(path: \"box.gltf\")], sheet: Sheet({fields}))");
     sandbox.write_file(name, text);

@@ -37,7 +37,7 @@ pub fn write_references(folder: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Returns the scenes by name.
+/// Returns the scenes with their names.
 fn worlds() -> Vec<(&'static str, World)> {
     let gray = [0.5; 3];
     let gold = [1.0, 0.76, 0.33];

@@ -133,7 +133,7 @@ pub fn all_calls(folder: &Path) -> Result<Vec<Call>, String> {
     Ok(calls)
 }
 
-/// Calls that each cover a special case.
+/// Returns calls that each cover a special case.
 fn other_calls() -> Vec<Call> {
     let mut calls: Vec<Call> = [
         ("render", "render crate.glb --json -o a.svg"),

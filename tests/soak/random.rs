@@ -190,7 +190,7 @@ fn signed(size: f64, bits: u64) -> f64 {
     if bits & 16 == 0 { size } else { -size }
 }
 
-/// Types that are made of numbers.
+/// Methods that create values made of several numbers.
 impl Random {
     pub fn point<S: Space>(&mut self) -> Point<S> {
         Point::from(self.numbers())

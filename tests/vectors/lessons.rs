@@ -1,5 +1,5 @@
-//! The exercises in the chapter and the misprints in the sources. The result must be the correct
-//! form and must differ from the printed form.
+//! Runners for the exercises in the chapter and the misprints in the sources. The result must be
+//! the correct form and must differ from the printed form.
 
 use crate::vectors::Runner;
 use crate::vectors::chain::check_lookat;

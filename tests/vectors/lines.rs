@@ -1,4 +1,4 @@
-//! Hidden intervals of edges (HL-1).
+//! Runners for hidden intervals of edges (HL-1).
 
 use crate::vectors::Runner;
 use crate::vectors::numbers::{parse_array, parse_number, parse_numbers, zip_arrays};

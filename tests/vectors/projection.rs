@@ -1,4 +1,5 @@
-//! Projection matrices, fields of view and depth (OR-1 to LW-3, D3D-1 to IV-1, FOV-1, ZP-1).
+//! Runners for projection matrices, fields of view and depth (OR-1 to LW-3, D3D-1 to IV-1, FOV-1,
+//! ZP-1).
 
 use crate::vectors::Runner;
 use crate::vectors::numbers::{

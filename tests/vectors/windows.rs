@@ -1,4 +1,5 @@
-//! Windows, viewports, grids and depth ranges (LI-1, WI-2, WI-3, VP-1 to VP-4, WV-1 to WV-4, DP-1).
+//! Runners for windows, viewports, grids and depth ranges (LI-1, WI-2, WI-3, VP-1 to VP-4, WV-1 to
+//! WV-4, DP-1).
 
 use crate::vectors::Runner;
 use crate::vectors::numbers::{

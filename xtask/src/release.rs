@@ -4,7 +4,7 @@
 //! ```text
 //! release OUT               write everything for users to an empty folder
 //! release --check           do a dry run: build everything twice, in two folders, and test it
-//! release --deb [PROGRAM]   pack the release build or PROGRAM for Debian, and try the package
+//! release --deb [PROGRAM]   pack the release build or PROGRAM for Debian, and test the package
 //! release --crates          pack the crates for the registry without building them
 //! ```
 //! Nothing is published; `RELEASING.md` explains how to do that. The command needs the Debian tools

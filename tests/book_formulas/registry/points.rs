@@ -1,4 +1,4 @@
-//! Points, maps and linear remapping (HO-1 to HO-5, LI-1, WI-2, WI-3).
+//! Registry entries for points, maps and linear remapping (HO-1 to HO-5, LI-1, WI-2, WI-3).
 
 use super::Entry;
 use super::inputs::{Answer, Inputs, give};

@@ -4,7 +4,7 @@ use crate::glb;
 use serde_json::{Value, json};
 use std::sync::LazyLock;
 
-/// splitmix64.
+/// A splitmix64 generator.
 struct Random(u64);
 
 impl Random {

@@ -194,7 +194,7 @@ pub fn bounds(count: usize) -> Result<Vec<Series>, String> {
 
 /// The gain from a second thread in a scene.
 pub struct Threads {
-    /// The owner of the frame: only the crate, or the whole program.
+    /// The renderer: `raster` (only the crate) or `render` (the whole pipeline).
     pub peer: &'static str,
     /// The scene's name.
     pub scene: &'static str,

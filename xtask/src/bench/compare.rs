@@ -59,10 +59,10 @@ use std::path::{Path, PathBuf};
 
 const USAGE: &str = "bench compare REV [--models DIR|NAME…] [--runs N] [--quick] [--out FOLDER]";
 
-/// The number of rounds and, below, of frames in the turntable.
+/// The number of rounds, and the number of frames in the turntable.
 const RUNS: usize = 5;
 const FRAMES: usize = 120;
-/// Both numbers with `--quick`.
+/// The two numbers with `--quick`.
 const QUICK_RUNS: usize = 3;
 const QUICK_FRAMES: usize = 12;
 

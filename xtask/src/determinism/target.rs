@@ -1,4 +1,4 @@
-//! A target, with the way to compile the program for it and to run it on this machine.
+//! Targets: how the program is compiled for each of them and run on this machine.
 
 use crate::program::capture_output;
 use crate::tool_chain::ToolChain;

@@ -133,7 +133,7 @@ impl Session {
 }
 
 impl FuzzJob {
-    /// Updates the time for which it has run, and whether it has ended.
+    /// Updates the process's running time, and whether it has exited.
     fn update_peak(&mut self) -> Result<(), String> {
         // If the system does not report the CPU time, use the clock.
         self.time =
