@@ -1,7 +1,7 @@
 //! Checks assembly sheets: parts are counted, pages are legible, and exploded parts do not overlap.
 //!
 //! Uses the models in `$ASSETS`, or in `shared/assets` next to the repository, that have several
-//! nodes with meshes. Arguments that are not flags select models by part of their path.
+//! nodes with meshes. Arguments that are not flags select models whose paths contain them.
 
 #[path = "../crates/sheet/tests/integration/balloons.rs"]
 mod balloons;

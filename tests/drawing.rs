@@ -4,7 +4,7 @@
 //! Uses the scene models and, if it exists, the listed models in `$ASSETS` or in `shared/assets`
 //! next to the repository. Each is drawn from six directions in perspective, isometric and cavalier
 //! projection. Random scenes over all projections follow (`random.rs`). Arguments that are not
-//! flags select models by part of their path; a path below the folder's `models` selects a model
+//! flags select models whose paths contain them; a path below the folder's `models` selects a model
 //! that is not listed.
 
 mod bits;

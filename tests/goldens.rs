@@ -5,7 +5,7 @@
 //! nothing. If they differ, the new picture and a map of the differences are saved as
 //! `NAME.actual.png` and `NAME.diff.png` in the goldens folder. `cargo xtask golden --bless NAME`
 //! accepts a picture as the new golden after someone has looked at it. Arguments that are not flags
-//! select scenes by part of their name.
+//! select scenes whose names contain them.
 
 mod picture;
 

@@ -3,7 +3,7 @@
 //! For any content, loading and checking must return without a panic, in bounded time and memory. A
 //! returned model, from strict or lenient import, must keep every promise of its documentation. A
 //! case states the expected outcome if the message matters. Arguments that are not flags select
-//! cases by part of their name; `--write DIR` writes all files without loading them.
+//! cases whose names contain them; `--write DIR` writes all files without loading them.
 
 mod accessors;
 mod animations;

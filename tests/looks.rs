@@ -4,7 +4,7 @@
 //!
 //! Uses the scene models and, if it exists, the folder `$ASSETS` or `shared/assets` next to the
 //! repository. Scene pictures do not reveal such defects, because scenes have their own lights.
-//! Arguments that are not flags select models by part of their name.
+//! Arguments that are not flags select models whose names contain them.
 
 mod films;
 mod leaves;

@@ -6,7 +6,7 @@
 //! Each `NAME.json` specifies the camera, lights and time of `NAME.png`. The real program renders
 //! the same scene, and the two pictures are scored. `NAME.png` in the printed folder shows our
 //! picture, the reference and the difference side by side. The limits are in `limits.rs`. Arguments
-//! that are not flags select pictures by part of their name.
+//! that are not flags select pictures whose names contain them.
 
 mod analytic;
 mod limits;

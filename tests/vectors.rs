@@ -2,7 +2,7 @@
 //!
 //! The files and a description of their format are in `tests/vectors/data`; `$VECTORS` selects
 //! another folder. A file without a runner is a failure, so that no file is skipped silently.
-//! Arguments that are not flags select files by part of their name.
+//! Arguments that are not flags select files whose names contain them.
 //!
 //! A runner tests one case: `fn(in, out) -> Result<(), String>`, where the error describes the
 //! difference. Cases whose exact answer depends on a tie are marked `"fragile": true`: they run,

@@ -1,7 +1,7 @@
 //! The speed of bulk operations, compared with plain loops over glam's matrices.
 //!
-//! `cargo xtask bench [NAME…]` runs it optimized; arguments select benchmarks by part of their
-//! name. Every benchmark does one job in several variants, which take turns. The output is the time
+//! `cargo xtask bench [NAME…]` runs it optimized; arguments select benchmarks whose names contain
+//! them. Every benchmark does one job in several variants, which take turns. The output is the time
 //! of each variant as a multiple of the first variant's time in the same turn: the median of all
 //! turns, and the range that contains 80% of the turns. A busy or slow machine slows all variants
 //! equally. No result counts as a failure.

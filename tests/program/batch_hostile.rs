@@ -67,7 +67,7 @@ fn lines_with_the_same_output_are_refused() {
 }
 
 #[test]
-fn duplicates_in_a_long_list_are_found_in_little_memory() {
+fn duplicates_in_a_long_list_are_found_with_little_memory() {
     let sandbox = crate_sandbox("batch_long_list");
     let line = |at: u32| format!("{{\"input\":\"none.glb\",\"output\":\"{at}.png\"}}\n");
     let mut list: String = (0..20_000).map(line).collect();

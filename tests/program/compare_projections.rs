@@ -54,7 +54,7 @@ fn oblique_boxes_have_textbook_sizes() {
 }
 
 #[test]
-fn every_format_shows_the_same() {
+fn every_format_shows_the_same_content() {
     let sandbox = Sandbox::new("compare_formats");
     write_box(&sandbox, "box", [4.0, 3.0, 2.0]);
     let flags = ["--projections", "cavalier,two-point,cavalier", "--size", "200x150"];

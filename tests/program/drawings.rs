@@ -64,7 +64,7 @@ pub(crate) fn assert_near(actual: f64, expected: f64) {
 }
 
 #[test]
-fn a_hundred_millimeters_measure_a_hundred_at_one_to_one() {
+fn lengths_are_exact_at_scale_one_to_one() {
     let sandbox = Sandbox::new("hundred");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let flags = ["--scale", "1:1", "--no-dimensions", "--axonometric", "none"];

@@ -149,7 +149,7 @@ fn a_scene_is_explored_unchanged() {
 }
 
 #[test]
-fn request_errors_are_answers() {
+fn request_errors_are_answered() {
     let sandbox = Sandbox::new("explore_errors");
     let server = Server::start(&sandbox, &[]);
     let (code, error) = server.get("/compute?v=1&what=state&naer=2");

@@ -6,7 +6,7 @@ use crate::vector_files::{Layers, PagePoint, layer_bounds, parse_svg};
 
 /// The layers of a cut box of 100 × 50 × 30 mm.
 #[test]
-fn sections_cut_drawings_open() {
+fn sections_cut_through_models_in_drawings() {
     let sandbox = Sandbox::new("sections");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let layers = |flags: &[&str]| {

@@ -141,7 +141,7 @@ fn a_custom_title_block_is_read_or_its_mistake_is_shown() {
 }
 
 #[test]
-fn invalid_numbers_are_mistakes() {
+fn invalid_numbers_are_reported() {
     let sandbox = Sandbox::new("sheet_numbers");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     for (fields, told) in [

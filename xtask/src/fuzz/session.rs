@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn this_process_has_used_less_than_an_hour() {
+    fn this_process_has_used_less_than_an_hour_of_cpu_time() {
         let time = processor_time(std::process::id());
         assert!(time.is_none_or(|time| time < Duration::from_secs(3600)), "{time:?}");
     }

@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn docs_begin_with_the_thing_itself() {
+    fn docs_must_not_open_with_a_reference_to_another_item() {
         let count = |line: &str| {
             empty_openings(&source(&line.repeat(EMPTY_OPENINGS_LEFT + 1))).len()
                 / (EMPTY_OPENINGS_LEFT + 1)
