@@ -11,7 +11,7 @@
 //! the job script. Everything stops when the test stops, however it ends. If Slurm is not installed
 //! or the test may not create namespaces, the step is reported as skipped; `.ci/run` installs Slurm
 //! if it can. `CLUSTER_RUNS=3` repeats the disturbed run. The time is compared with an undisturbed
-//! run, unless other programs use the processors meanwhile.
+//! run, unless other programs are using the processors.
 
 mod batch_run;
 mod checks;

@@ -79,7 +79,7 @@ impl Node {
     pub fn kill_processes(&mut self) -> Result<usize, String> {
         self.is_dead = true;
         let mut count = 0;
-        // Processes started meanwhile die in the next round.
+        // Processes that start during this round are killed in the next.
         loop {
             let processes = self.processes();
             if processes.is_empty() {

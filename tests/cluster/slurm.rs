@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 /// The number of nodes.
 pub const NODES: usize = 3;
-/// The time without an answer after which the controller gives up on a node: `SlurmdTimeout`.
+/// The time without a response after which the controller gives up on a node: `SlurmdTimeout`.
 const NODE_TIMEOUT: Duration = Duration::from_secs(5);
 /// The time that a job waits before it restarts after losing its node: `cred_expire`.
 const REQUEUE_DELAY: Duration = Duration::from_secs(5);

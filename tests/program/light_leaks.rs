@@ -3,10 +3,10 @@
 //! except for one pixel in a hundred. The test is reported as skipped if `shared/assets` is
 //! missing.
 //!
-//! Each pixel's position and normal come from the passes. From there, one ray is cast toward the sun and
-//! eight more around it, four texels of the shadow map apart. If all nine are blocked by something
-//! other than the surface itself, filtering the map cannot let light in. If none is blocked,
-//! filtering cannot keep light out.
+//! Each pixel's position and normal come from the passes. From there, one ray is cast toward the
+//! sun, and eight more around it, four texels of the shadow map apart. If all nine are blocked by
+//! something other than the surface itself, filtering the map cannot let light in. If none is
+//! blocked, filtering cannot keep light out.
 
 use crate::asset_models::asset_path;
 use glam::DVec3;

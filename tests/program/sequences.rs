@@ -129,7 +129,7 @@ fn invalid_sequences_are_rejected() {
     }
 }
 
-/// With a camera path, `render --time` gives the same picture as the frame of `animate` at that
+/// With a camera path, `render --time` produces the same picture as the frame of `animate` at that
 /// time.
 #[test]
 fn a_still_of_a_camera_path_matches_the_frame_at_its_time() {

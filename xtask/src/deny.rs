@@ -3,7 +3,7 @@
 //!
 //! It checks licenses, sources, duplicate versions and `rust-version` with `cargo metadata`, for
 //! the workspace and the other shipped packages. `cargo deny` reads the same file and runs too if
-//! it is installed. It is not required, because building it takes longer than all tests here.
+//! it is installed. It is not required, because building it takes longer than running all tests.
 //! Advisories are not checked, because they need the network.
 
 mod license;

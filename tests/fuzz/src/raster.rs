@@ -1,5 +1,5 @@
-//! Arbitrary triangles, lines and points, which must give the same picture whether drawn whole, in
-//! two parts or at any SIMD level.
+//! Arbitrary triangles, lines and points, which must produce the same picture whether drawn whole,
+//! in two parts or at any SIMD level.
 
 use crate::numbers::Numbers;
 use homog::{PixelRect, Point};
