@@ -1,8 +1,8 @@
 // Tests the explorer in a real browser: `node main.mjs PROGRAM [FOLDER|--first]`.
 //
-// PROGRAM is `alberti`, which computes on its server; FOLDER is the output of `cargo xtask web`,
-// which computes in WebAssembly. `--first` tests only the first lesson. Prints one line per test;
-// the exit code is 1 if a test failed.
+// PROGRAM is `alberti`, which computes on its server; FOLDER is the output of `cargo xtask web`, which computes in WebAssembly.
+// `--first` tests only the first lesson.
+// Prints one line per test; the exit code is 1 if a test failed.
 
 import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
@@ -193,8 +193,7 @@ async function testPage(browser, server, engine) {
     await page.mouse.click(box.x + box.width * 0.5, box.y + box.height * 0.6);
     await page.waitForFunction(() => location.hash.includes('pin='));
     await explorer.settled();
-    // The lesson counts y from the bottom, as OpenGL does. The mouse position is rounded to a pixel
-    // of the larger displayed picture.
+    // The lesson counts y from the bottom, as OpenGL does. The mouse position is rounded to a pixel of the larger picture on the page.
     const [x, y] = await explorer.coordinates('screen');
     assert(Math.abs(x - 320) <= 2.5 && Math.abs(400 - y - 240) <= 2.5, `${x}, ${y}`);
     const w = (await explorer.coordinates('clip'))[3];

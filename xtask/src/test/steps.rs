@@ -108,7 +108,7 @@ fn suite_steps() -> Vec<Step> {
         ),
         suite(
             "corpus",
-            "valid, unusual and broken glTF files are rendered, or rejected with a reason",
+            "valid, unusual and broken glTF files are rendered or rejected with a reason",
         ),
         suite("looks", "pictures are not black, empty or unlit"),
         suite("references", "pictures against ray-traced references, with the glTF formulas"),
