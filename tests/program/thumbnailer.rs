@@ -223,6 +223,6 @@ fn the_system_kills_a_thumbnailer_that_needs_more_memory() {
     let flags = ["--size", "4096", "--max-memory-bytes", "64MiB"];
     let child = sandbox.start(&[&["thumbnailer", "crate.glb", "out.png"], &flags[..]].concat());
     let output = child.wait_with_output().expect("the program ends");
-    assert!(!output.status.success(), "the pixels alone take 64 MiB");
+    assert!(!output.status.success(), "the pixels by themselves take 64 MiB");
     assert_eq!(sandbox.file_names(), ["crate.glb"]);
 }
