@@ -1,7 +1,7 @@
-//! Assembly sheets: parts are counted, pages are legible, exploded parts do not overlap.
+//! Checks assembly sheets: parts are counted, pages are legible, and exploded parts do not overlap.
 //!
 //! Uses the models in `$ASSETS`, or in `shared/assets` next to the repository, that have several
-//! nodes with meshes. Arguments that are not flags select models by part of their path.
+//! nodes with meshes. Arguments that are not flags select models whose paths contain them.
 
 #[path = "../crates/sheet/tests/integration/balloons.rs"]
 mod balloons;
@@ -26,11 +26,11 @@ use viewport::Paper;
 /// Models with more triangles are skipped; the benchmarks draw them.
 const MAX_TRIANGLES: usize = 60_000;
 
-/// Models with more parts are excluded from samples and drawn only on the smaller paper: a model
-/// with 1,900 parts takes seven minutes, as long as all the others together.
+/// Models with more parts are excluded from the sample and drawn only on the smaller paper. A model
+/// with 1,900 parts takes seven minutes, as long as all other models together.
 const MANY_PARTS: usize = 500;
 
-/// The diagonal to which every model is scaled, in millimeters: the original sizes differ by a
+/// The diagonal to which every model is scaled, in millimeters. Original sizes differ by up to a
 /// factor of a million.
 const DIAGONAL: f64 = 700.0;
 
@@ -87,7 +87,7 @@ fn check_model(path: &Path, most: usize) -> Result<Option<String>, String> {
     }
     if parts > most {
         let name = path.file_name().unwrap_or_default().display();
-        println!("{name} has {parts} parts, which only the step assemblies-all draws");
+        println!("{name} has {parts} parts; only the step assemblies-all draws it");
         return Ok(None);
     }
     if parts > nodes {

@@ -6,7 +6,7 @@
 //! `validator_error_codes` lists the codes of the validator's errors. If it is empty, the check
 //! must find no errors; otherwise it must find these errors and locate each by a JSON pointer.
 //! [`expected`] lists intended differences. Broken files are also loaded leniently. Arguments that
-//! are not flags select files by part of their path; `--all` prints every diagnostic.
+//! are not flags select files whose paths contain them; `--all` prints every diagnostic.
 
 mod expected;
 mod lenient;

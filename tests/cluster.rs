@@ -11,7 +11,7 @@
 //! the job script. Everything stops when the test stops, however it ends. If Slurm is not installed
 //! or the test may not create namespaces, the step is reported as skipped; `.ci/run` installs Slurm
 //! if it can. `CLUSTER_RUNS=3` repeats the disturbed run. The time is compared with an undisturbed
-//! run, unless other programs use the processors meanwhile.
+//! run, unless other programs are using the processors.
 
 mod batch_run;
 mod checks;
@@ -106,8 +106,8 @@ fn test_cluster(folder: &Path) -> Result<Tally, String> {
     Ok(tally)
 }
 
-/// The maximum share of the processors that other programs may use while times are compared, so
-/// that they do not slow the nodes.
+/// The maximum share of the processors that other programs may use. Above it, times are not
+/// compared.
 const MAX_LOAD: f64 = 0.25;
 
 /// Returns the share of the processors in use during a second in which this test does nothing.
@@ -182,7 +182,7 @@ fn disturb(
     Ok(time)
 }
 
-/// Runs a command to its end and returns its output.
+/// Runs a command until it exits, and returns its output.
 ///
 /// # Errors
 /// If it does not start or fails, with its output.

@@ -7,7 +7,7 @@
 //! separate process, two at a time, within thirty seconds. Two outcomes are allowed: exit code 0
 //! and a PNG of the right size, or exit code 1, a message that names the file and the reason, and
 //! no PNG. Triangle counts of files under `models` must match the manifest. Arguments that are not
-//! flags select files by part of their path.
+//! flags select files whose paths contain them.
 
 mod expected;
 mod program;

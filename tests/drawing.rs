@@ -4,7 +4,7 @@
 //! Uses the scene models and, if it exists, the listed models in `$ASSETS` or in `shared/assets`
 //! next to the repository. Each is drawn from six directions in perspective, isometric and cavalier
 //! projection. Random scenes over all projections follow (`random.rs`). Arguments that are not
-//! flags select models by part of their path; a path below the folder's `models` selects a model
+//! flags select models whose paths contain them; a path below the folder's `models` selects a model
 //! that is not listed.
 
 mod bits;
@@ -22,10 +22,10 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use views::{DIRECTIONS, ViewKind, build_scene};
 
-/// The fraction of the visible length on which they may disagree.
+/// The fraction of the visible length on which a drawing and its z-buffer image may disagree.
 const MAX_DISAGREEMENT: f64 = 0.002;
 
-/// Models that may disagree more, with the reason.
+/// Models whose drawings may disagree more, with the reason.
 const EXCEPTIONS: &[(&str, f64, &str)] = &[(
     "ship-light-draco/model.gltf",
     0.005,
@@ -172,7 +172,7 @@ fn measure_agreement(
         Ok::<_, String>((agreement, drawing))
     };
     let (removed, drawing) = agreement(&DrawOptions::hidden_edges_removed())?;
-    // The comparison itself must be able to fail, as it does if hidden edges are drawn as visible.
+    // The comparison must be able to fail: it must reject hidden edges that are drawn as visible.
     if kind == ViewKind::Perspective && direction == 0 {
         let (all, _) = agreement(&DrawOptions {
             hidden_edges: HiddenEdges::Ignored,

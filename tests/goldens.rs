@@ -5,7 +5,7 @@
 //! nothing. If they differ, the new picture and a map of the differences are saved as
 //! `NAME.actual.png` and `NAME.diff.png` in the goldens folder. `cargo xtask golden --bless NAME`
 //! accepts a picture as the new golden after someone has looked at it. Arguments that are not flags
-//! select scenes by part of their name.
+//! select scenes whose names contain them.
 
 mod picture;
 
@@ -27,7 +27,7 @@ pub fn run() -> ExitCode {
     })
 }
 
-/// Returns the scenes by name. `cargo xtask tidy` finds goldens without a scene.
+/// Returns the names of the scenes. `cargo xtask tidy` finds goldens without a scene.
 fn scene_names() -> Result<Vec<String>, String> {
     let entries =
         fs::read_dir(project_root().join("scenes")).map_err(|error| format!("scenes: {error}"))?;

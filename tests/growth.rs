@@ -23,7 +23,7 @@ const LEAST_MEMORY: u64 = 4 << 20;
 /// A path through the program.
 struct Workload {
     name: &'static str,
-    /// The input file of the program, and its text for a size.
+    /// The name of the input file, and the function that generates its text for a size.
     file: &'static str,
     text: fn(usize) -> String,
     /// The smallest size.
@@ -231,7 +231,7 @@ fn random_numbers() -> impl FnMut() -> f64 {
     }
 }
 
-/// Returns random triangles, each a tenth of the whole in size.
+/// Returns random triangles, each a tenth of the size of the whole.
 fn soup(count: usize) -> String {
     let mut next = random_numbers();
     let mut text = "solid soup\n".to_owned();

@@ -1,7 +1,7 @@
 //! The harness of the table-driven test programs: arguments, folders, a tally and the exit code.
 //!
 //! The cases of a table-driven suite are files found at run time. All suites behave alike.
-//! Arguments that are not flags select cases by part of their name, as in `cargo test`. A failed
+//! Arguments that are not flags select cases whose names contain them, as in `cargo test`. A failed
 //! case prints a line that begins with `FAILED`. Parts that cannot be tested are reported as
 //! skipped (see `skip.rs`). The last line shows the counts.
 
@@ -142,7 +142,7 @@ pub fn is_thorough() -> bool {
     std::env::var_os("THOROUGH").is_some()
 }
 
-/// Returns a tenth of some items, each equally likely.
+/// Returns a random tenth of the items. Each item is equally likely.
 fn choose_tenth<T>(seed: u64, items: Vec<T>) -> Vec<T> {
     let is_chosen = |index: u64| {
         // splitmix64

@@ -3,7 +3,7 @@
 //! For any content, loading and checking must return without a panic, in bounded time and memory. A
 //! returned model, from strict or lenient import, must keep every promise of its documentation. A
 //! case states the expected outcome if the message matters. Arguments that are not flags select
-//! cases by part of their name; `--write DIR` writes all files without loading them.
+//! cases whose names contain them; `--write DIR` writes all files without loading them.
 
 mod accessors;
 mod animations;
@@ -29,13 +29,13 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-/// The memory limit of the whole run at any time.
+/// The memory that the process may use at any time.
 const MAX_MEMORY_MIB: u64 = 200;
 
 /// The time limit of a case, generous enough for a busy machine.
 const TIME_LIMIT: Duration = Duration::from_secs(10);
 
-/// The extremes of a run, with their case names.
+/// The slowest case of a run and the largest memory use, with the names of the cases.
 #[derive(Default)]
 struct Extremes {
     slowest: (Duration, String),
@@ -69,7 +69,8 @@ fn write_files(folder: &Path) -> std::io::Result<usize> {
     Ok(count)
 }
 
-/// Runs all selected cases. Each is checked and loaded from memory, and some from a file first.
+/// Runs all selected cases. Each is checked and loaded from memory; some are first loaded from a
+/// file.
 fn run_groups(folder: &Path, arguments: &Arguments) -> Result<Tally, String> {
     let (mut tally, mut extremes) = (Tally::default(), Extremes::default());
     for (group, cases) in case_groups() {
@@ -106,7 +107,7 @@ fn run_groups(folder: &Path, arguments: &Arguments) -> Result<Tally, String> {
     Ok(tally)
 }
 
-/// Builds the cases of a group.
+/// A function that builds the cases of a group.
 type Cases = fn() -> Vec<Case>;
 
 fn case_groups() -> [(&'static str, Cases); 12] {

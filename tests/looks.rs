@@ -1,10 +1,10 @@
 //! Checks a user's first impression: every model without a scene has light and contrast in every
 //! style, and its default picture is neither overexposed nor underexposed. Ambient occlusion leaves
-//! no dots. No style loses a model, and every style respects alpha.
+//! no dark dots. Models are visible in every style, and every style respects alpha.
 //!
 //! Uses the scene models and, if it exists, the folder `$ASSETS` or `shared/assets` next to the
 //! repository. Scene pictures do not reveal such defects, because scenes have their own lights.
-//! Arguments that are not flags select models by part of their name.
+//! Arguments that are not flags select models whose names contain them.
 
 mod films;
 mod leaves;
@@ -115,8 +115,8 @@ fn judge_models(models: &[PathBuf], arguments: &Arguments) -> Tally {
     tally
 }
 
-/// Returns the defects in a model's pictures, or none if the model cannot be drawn, which other
-/// tests cover.
+/// Returns the defects in a model's pictures. A model that cannot be drawn has none, because other
+/// tests cover it.
 fn judge_model(model: &Path) -> Vec<String> {
     let name = model_name(model);
     let mut faults = occlusion::find_dots(model, &name);
@@ -218,14 +218,14 @@ fn model_name(model: &Path) -> String {
     named.unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// Returns the glTF files in a folder, by name.
+/// Returns the glTF files in a folder, sorted by name.
 fn list_models(folder: &Path) -> Result<Vec<PathBuf>, String> {
     let mut files = list_folder(folder)?;
     files.retain(|path| path.extension().is_some_and(|ending| ending == "glb" || ending == "gltf"));
     Ok(files)
 }
 
-/// Returns the contents of a folder, by name.
+/// Returns the contents of a folder, sorted by name.
 fn list_folder(folder: &Path) -> Result<Vec<PathBuf>, String> {
     let in_folder = |error: std::io::Error| format!("{}: {error}", folder.display());
     let entries = std::fs::read_dir(folder).map_err(in_folder)?;

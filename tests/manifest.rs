@@ -1,4 +1,4 @@
-//! The manifest of a corpus: a table of model files with the facts to compare.
+//! The manifest of a corpus: a table of model files with their expected properties.
 //!
 //! `MANIFEST.tsv` has one row per file. Columns are separated by tabs and named in the first row.
 //! Only `path` is required; columns that [`Row`] does not have are ignored.

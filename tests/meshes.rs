@@ -5,7 +5,7 @@
 //! `MANIFEST.tsv` begins with a comment (`#`) and lists the results of another reader for each
 //! file: path, origin, triangles (after triangulation), bounds in file coordinates, and the
 //! outcome. The table in [`expected`] lists the files that differ, with the reason. Arguments that
-//! are not flags select files by part of their path.
+//! are not flags select files whose paths contain them.
 
 mod expected;
 

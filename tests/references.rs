@@ -4,9 +4,9 @@
 //! specification. The second set was made with three.js. It is in the folder `$REFERENCES`, or in
 //! `shared/references` next to the repository, with its models below `$ASSETS` or `shared/assets`.
 //! Each `NAME.json` specifies the camera, lights and time of `NAME.png`. The real program renders
-//! the same scene, and the two pictures are scored. `NAME.png` in the printed folder shows ours,
-//! the reference and the difference side by side. The limits are in `limits.rs`. Arguments that are
-//! not flags select pictures by part of their name.
+//! the same scene, and the two pictures are scored. `NAME.png` in the printed folder shows our
+//! picture, the reference and the difference side by side. The limits are in `limits.rs`. Arguments
+//! that are not flags select pictures whose names contain them.
 
 mod analytic;
 mod limits;

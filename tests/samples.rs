@@ -1,4 +1,4 @@
-//! A corpus of small glTF files written by this code: ordinary, odd and broken files, with the
+//! A corpus of small glTF files written by this code: ordinary, unusual and broken files, with the
 //! expected outcome of each.
 //!
 //! The tests `corpus` and `check` run on it in every clone. `models` contains valid files, `bad`
@@ -50,8 +50,7 @@ impl Sample {
         self
     }
 
-    /// States a different rendering outcome: `drawn`, `blank`, or part of the reason for a
-    /// rejection.
+    /// Sets a different rendering outcome: `drawn`, `blank`, or part of the reason for a rejection.
     fn expect(mut self, outcome: &str) -> Self {
         self.row.expected = Some(outcome.to_owned());
         self

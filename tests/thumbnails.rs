@@ -145,8 +145,8 @@ impl ThumbnailService {
     }
 }
 
-/// Queues files and types, and ends after a minute or once the number of thumbnails reaches the
-/// last argument. The service notifies only the requester, which has ended by then.
+/// Queues files and types, and exits after a minute or once the number of thumbnails reaches the
+/// last argument. The service notifies only the requester, which has exited by then.
 const SESSION: &str = r#"
 name=org.freedesktop.thumbnails.Thumbnailer1
 path=/org/freedesktop/thumbnails/Thumbnailer1

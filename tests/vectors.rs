@@ -2,7 +2,7 @@
 //!
 //! The files and a description of their format are in `tests/vectors/data`; `$VECTORS` selects
 //! another folder. A file without a runner is a failure, so that no file is skipped silently.
-//! Arguments that are not flags select files by part of their name.
+//! Arguments that are not flags select files whose names contain them.
 //!
 //! A runner tests one case: `fn(in, out) -> Result<(), String>`, where the error describes the
 //! difference. Cases whose exact answer depends on a tie are marked `"fragile": true`: they run,
@@ -27,7 +27,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Tests the output of one case, given its input.
+/// A function that tests the output of one case, given its input.
 type Runner = fn(&Value, &Value) -> Result<(), String>;
 
 /// The runners, by file name.
@@ -43,7 +43,7 @@ const RUNNERS: &[&[(&str, Runner)]] = &[
     windows::RUNNERS,
 ];
 
-/// The number of failing cases in a file that are printed in full.
+/// The maximum number of failing cases per file that are printed in full.
 const MAX_PRINTED_FAILURES: usize = 5;
 
 pub fn run() -> ExitCode {

@@ -1,10 +1,10 @@
 //! The speed of bulk operations, compared with plain loops over glam's matrices.
 //!
-//! `cargo xtask bench [NAME…]` runs it optimized; arguments select benchmarks by part of their
-//! name. Every benchmark does one job in several ways, which take turns. The output is the time of
-//! each way as a multiple of the first way's time in the same turn: the median of all turns, and
-//! the range that contains eight turns in ten. A busy or slow machine slows all ways equally. No
-//! result counts as a failure.
+//! `cargo xtask bench [NAME…]` runs it optimized; arguments select benchmarks whose names contain
+//! them. Every benchmark does one job in several variants, which take turns. The output is the time
+//! of each variant as a multiple of the first variant's time in the same turn: the median of all
+//! turns, and the range that contains 80% of the turns. A busy or slow machine slows all variants
+//! equally. No result counts as a failure.
 
 #![allow(clippy::print_stdout, reason = "a program writes to standard output")]
 #![allow(unreachable_pub, reason = "modules of a program cannot be used elsewhere")]
@@ -18,7 +18,7 @@ mod triangles;
 use measure::Variant;
 use std::process::ExitCode;
 
-/// A job and the ways to do it, the first of which is the baseline.
+/// A job and the variants that do it. The first variant is the baseline.
 struct Benchmark {
     name: &'static str,
     about: &'static str,
@@ -28,7 +28,7 @@ struct Benchmark {
 const BENCHMARKS: &[Benchmark] = &[
     Benchmark {
         name: "points/cached",
-        about: "100,000 points to clip space, a thousand of them a hundred times",
+        about: "100,000 points to clip space: the same thousand, a hundred times",
         variants: points::to_clip_cached,
     },
     Benchmark {
@@ -38,7 +38,7 @@ const BENCHMARKS: &[Benchmark] = &[
     },
     Benchmark {
         name: "affine/cached",
-        about: "100,000 points to world space, a thousand of them a hundred times",
+        about: "100,000 points to world space: the same thousand, a hundred times",
         variants: points::to_world_cached,
     },
     Benchmark {
@@ -48,7 +48,7 @@ const BENCHMARKS: &[Benchmark] = &[
     },
     Benchmark {
         name: "outcodes/cached",
-        about: "the outcodes of 100,000 points, a thousand of them a hundred times",
+        about: "the outcodes of 100,000 points: the same thousand, a hundred times",
         variants: outcodes::cached_blocks,
     },
     Benchmark {
@@ -58,17 +58,17 @@ const BENCHMARKS: &[Benchmark] = &[
     },
     Benchmark {
         name: "project/cached",
-        about: "100,000 positions in f32 to clip space with outcodes, a thousand a hundred times",
+        about: "100,000 f32 positions to clip space with outcodes: a thousand, a hundred times",
         variants: outcodes::project_cached,
     },
     Benchmark {
         name: "project/uncached",
-        about: "100,000 positions in f32 to clip space with outcodes, each from main memory",
+        about: "100,000 f32 positions to clip space with outcodes, each from main memory",
         variants: outcodes::project_uncached,
     },
     Benchmark {
         name: "triangles/visible",
-        about: "100,000 triangles of a floor, nine in ten of them wholly visible",
+        about: "100,000 triangles of a floor, 90% of them fully visible",
         variants: triangles::mostly_visible,
     },
     Benchmark {

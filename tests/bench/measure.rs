@@ -15,7 +15,7 @@ impl Variant {
     }
 }
 
-/// The time of a way as a multiple of the first way's time.
+/// The time of a variant as a multiple of the first variant's time.
 pub struct TimeRatio {
     name: &'static str,
     median: f64,
@@ -27,7 +27,7 @@ pub struct TimeRatio {
 const WARM_UP: usize = 3;
 const ROUNDS: usize = 101;
 
-/// Runs all ways in turns and compares each with the first.
+/// Runs all variants in turns and compares each with the first.
 pub fn compare_variants(mut ways: Vec<Variant>) -> Vec<TimeRatio> {
     let mut ratios = vec![Vec::with_capacity(ROUNDS); ways.len()];
     for turn in 0..WARM_UP + ROUNDS {
@@ -41,8 +41,8 @@ pub fn compare_variants(mut ways: Vec<Variant>) -> Vec<TimeRatio> {
     ways.iter().zip(ratios).map(|(way, ratios)| TimeRatio::from_samples(way.name, ratios)).collect()
 }
 
-/// Measures one turn. Each turn begins with a different way, so that no way always follows the same
-/// other way.
+/// Measures one turn. Each turn begins with a different variant, so that no variant always runs
+/// after the same other variant.
 fn time_round(ways: &mut [Variant], turn: usize) -> Vec<f64> {
     let mut seconds = vec![0.0; ways.len()];
     for i in 0..ways.len() {

@@ -1,4 +1,4 @@
-//! Outcodes of arrays of points, alone and combined with projection.
+//! Benchmarks that compute outcodes for arrays of points, with and without projecting them.
 
 use crate::measure::Variant;
 use crate::scene::{Blocks, model_to_clip, position};
@@ -86,7 +86,7 @@ impl<Q: Copy + 'static, C: Copy + 'static> Arrays<Q, C> {
         Self { positions, images: vec![image; count], codes: vec![code; count] }
     }
 
-    /// Returns a way that projects each block.
+    /// Returns a variant that projects each block.
     fn outcode_variant(
         mut self,
         name: &'static str,

@@ -1,4 +1,4 @@
-//! Transforming arrays of points.
+//! Benchmarks that transform arrays of points.
 
 use crate::measure::Variant;
 use crate::scene::{Blocks, model_points, model_to_clip, model_to_world};
@@ -22,7 +22,7 @@ pub fn to_world_uncached() -> Vec<Variant> {
     to_world_variants(Blocks::Uncached)
 }
 
-/// Returns a way that transforms each block of `points` into a block of `images`.
+/// Returns a variant that transforms each block of `points` into a block of `images`.
 fn mapping_variant<P: 'static, Q: 'static>(
     name: &'static str,
     blocks: Blocks,

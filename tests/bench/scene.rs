@@ -3,18 +3,20 @@
 use glam::{DMat4, DVec4};
 use homog::{Affine, Clip, Model, Point, Projective, Vector, World};
 
-/// The number of points or triangles that a way processes in one turn.
+/// The number of points or triangles that a variant processes in one turn.
 pub const POINT_COUNT: usize = 100_000;
 
 /// The points of a turn, as blocks to process: one small block that is processed repeatedly and
-/// stays in the L1 cache, or a different large block in each turn, which is no longer in any cache.
+/// stays in the L1 cache, or a different large block in each turn, which has been evicted from
+/// every cache.
 #[derive(Clone, Copy)]
 pub enum Blocks {
     Cached,
     Uncached,
 }
 
-/// Between two uses of a block of 100,000 points, every way runs 12 turns of more than 60 MB each.
+/// Between two uses of a block of 100,000 points, every variant runs 12 turns, each of which
+/// touches more than 60 MB.
 const LARGE_BLOCKS: usize = 12;
 const SMALL_BLOCK: usize = 1_000;
 
@@ -45,7 +47,8 @@ pub fn coordinate(i: usize) -> f64 {
     golden * 2.0 - 1.0
 }
 
-/// Returns the i-th point of a cube in front of the camera; a corner or two are out of sight.
+/// Returns the i-th point of a cube in front of the camera. One or two of its corners are out of
+/// view.
 pub fn position(i: usize) -> [f64; 3] {
     [coordinate(3 * i), coordinate(5 * i + 1), coordinate(7 * i + 2)]
 }

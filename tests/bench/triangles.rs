@@ -1,4 +1,4 @@
-//! Clipping of mesh triangles.
+//! Benchmarks that clip mesh triangles.
 
 use crate::measure::Variant;
 use crate::scene::{POINT_COUNT, coordinate};
@@ -19,8 +19,8 @@ impl Mesh {
     }
 }
 
-/// Returns a square of 2 × 224 × 224 triangles, of which the edge of the picture cuts or hides one
-/// in ten.
+/// Returns a square of 2 × 224 × 224 triangles. A tenth of them cross the edge of the picture or
+/// are outside it.
 fn floor_mesh() -> Mesh {
     const SIDE: usize = 224;
     let at = |i: usize| (i as f64 / SIDE as f64 * 2.0 - 1.0) * 1.05;
@@ -115,7 +115,7 @@ fn variants(mesh: fn() -> Mesh) -> Vec<Variant> {
         }
     });
     let each = mesh();
-    let clip_each = Variant::new("clip_triangle of each, with weights", move || {
+    let clip_each = Variant::new("clip_triangle for each, with weights", move || {
         for &triangle in black_box(&each.triangles) {
             black_box(clip_triangle(each.triangle_points(triangle), &Volume::CHAPTER).vertices());
         }

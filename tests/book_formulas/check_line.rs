@@ -55,7 +55,7 @@ impl Reference {
             [row, column] if row < rows && column < columns => {
                 Ok(Value::number(value.at(row, column)))
             }
-            _ => Err(format!("{} has no such entry in {}", self.name, value.describe())),
+            _ => Err(format!("`{}` is {}, which has no such entry", self.name, value.describe())),
         }
     }
 }
@@ -90,7 +90,7 @@ pub fn parse_check(text: &str) -> Result<Check, String> {
     Ok(Check { row, givens: all, target: Reference::parse(target)? })
 }
 
-/// Splits the text at blanks outside brackets.
+/// Splits the text at spaces outside brackets.
 fn split_words(text: &str) -> Vec<String> {
     let (mut words, mut depth) = (vec![String::new()], 0_i32);
     for letter in text.chars() {

@@ -11,7 +11,7 @@ use crate::book_formulas::token::{Token, TokenKind, tokenize};
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// Results differ by at most this fraction of the largest entry.
+/// Results may differ by at most this fraction of the largest entry.
 const TOLERANCE: f64 = 1e-12;
 /// A damaged formula must differ by more than this, so that a rounding error does not count as a
 /// detected change.
@@ -87,7 +87,7 @@ pub fn find_faults(formula: &Formula, counts: &mut Counts) -> Vec<Fault> {
     faults
 }
 
-/// Returns the errors in a row, which depend on all its checks together.
+/// Returns the errors in a row, considering all its checks together.
 fn test_row(
     row: &Statement,
     number: usize,

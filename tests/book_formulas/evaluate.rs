@@ -1,4 +1,4 @@
-//! Evaluation of expressions.
+//! Evaluates expressions.
 
 use crate::book_formulas::expression::{Expression, Function, ProductSign};
 use crate::book_formulas::name::Name;
@@ -10,8 +10,7 @@ use homog::{Affine, Vector, World};
 
 /// The values of names.
 pub trait Scope {
-    /// # Errors
-    /// If the name has no value.
+    /// Returns the value of a name, or an error if it has none.
     fn value_of(&self, name: &Name) -> Result<Value, String>;
 }
 
@@ -39,6 +38,8 @@ fn evaluate_tokens(tokens: &[Token], scope: &dyn Scope) -> Result<Value, String>
     evaluate(&parse_expression(tokens)?, scope)
 }
 
+/// Evaluates an expression.
+///
 /// # Errors
 /// If a name has no value, shapes do not match, or a result is not finite.
 pub fn evaluate(expression: &Expression, scope: &dyn Scope) -> Result<Value, String> {
@@ -70,7 +71,7 @@ pub fn evaluate(expression: &Expression, scope: &dyn Scope) -> Result<Value, Str
     if value.is_finite() { Ok(value) } else { Err("a value is not finite".to_owned()) }
 }
 
-/// In the body of a sum, the value of the index replaces it in subscripts.
+/// In the body of a sum, an index in a subscript is replaced by its value.
 struct IndexedScope<'a> {
     outer: &'a dyn Scope,
     index: &'a str,

@@ -1,4 +1,4 @@
-//! Expressions as trees.
+//! Expression trees.
 
 use crate::book_formulas::name::Name;
 
@@ -6,7 +6,7 @@ use crate::book_formulas::name::Name;
 pub enum Expression {
     Number(f64),
     Name(Name),
-    /// A name before a parenthesis, which is a function such as `R_x(\beta)` or else a product.
+    /// A name before a parenthesis: a function such as `R_x(\beta)`, or else a product.
     Applied(Name, Vec<Expression>),
     Negative(Box<Expression>),
     Sum(Box<Expression>, Box<Expression>),
@@ -26,7 +26,7 @@ pub enum Expression {
     },
 }
 
-/// The notation of a product, which matters between columns.
+/// The notation of a product. Between columns, it distinguishes dot and cross products.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ProductSign {
     Implicit,

@@ -15,7 +15,7 @@ pub struct Name {
 }
 
 impl Name {
-    /// Creates a plain name: a base and, after `_`, a subscript, then primes.
+    /// Creates a plain name from a base, an optional subscript after `_`, and any primes.
     pub fn plain(text: &str) -> Self {
         let unprimed = text.trim_end_matches('\'');
         let (base, subscript) = unprimed.split_once('_').unwrap_or((unprimed, ""));

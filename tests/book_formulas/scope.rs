@@ -1,5 +1,4 @@
-//! A check line with its values, which give a formula's names their meaning, and the crates'
-//! results.
+//! A check line with the values of its names and the crates' results, for evaluating a formula.
 
 use crate::book_formulas::check_line::{Check, Given, Reference};
 use crate::book_formulas::evaluate::Scope;
@@ -17,7 +16,7 @@ pub struct PreparedCheck {
     values: BTreeMap<Name, Value>,
     /// The values that the crates supply.
     extras: BTreeMap<Name, Value>,
-    /// The names whose values are needed by an entry that another name refers to.
+    /// The names that refer to other entries, each with its entry, which may need further values.
     behind: BTreeMap<Name, &'static Entry>,
     target: Reference,
     used: RefCell<BTreeSet<Name>>,
@@ -76,7 +75,7 @@ impl PreparedCheck {
         Ok(())
     }
 
-    /// Returns a name whose value the formula did not use, once it has been evaluated.
+    /// Returns a name whose value was not used when the formula was evaluated.
     pub fn unused_name(&self) -> Option<&Name> {
         let used = self.used.borrow();
         let uses_extras = self.extras.keys().any(|name| used.contains(name));

@@ -8,8 +8,8 @@ pub enum Statement {
     /// The members of an equation, or the whole row if it has no relation. Each has the checked
     /// value, except that the first may be the left side, which in most equations is only a name.
     Values { members: Vec<Vec<Token>>, has_left_side: bool },
-    /// Members, and between them `true` for ≤ and `false` for ≥. The value is the margin of each
-    /// relation: the larger side minus the smaller side.
+    /// The members, and the relations between them: `true` for ≤ and `false` for ≥. The value is
+    /// the margin of each relation: the larger side minus the smaller side.
     Inequality(Vec<Vec<Token>>, Vec<bool>),
 }
 

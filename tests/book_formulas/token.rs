@@ -52,7 +52,7 @@ const LAYOUT: [&str; 19] = [
 
 const SYMBOLS: &str = "+-*/^_()[]{}|,.&=<>:'";
 
-/// Splits a block into tokens, without its layout. An error is a line and a message.
+/// Splits a block into tokens and drops layout commands. An error is a line number and a message.
 pub fn tokenize(latex: &str) -> Result<Vec<Token>, (usize, String)> {
     let mut tokens = Vec::new();
     for (line, text) in latex.lines().enumerate() {

@@ -110,7 +110,7 @@ impl Value {
         self.plus(&other.map(|entry| -entry))
     }
 
-    /// Returns the product of matrices, in which a number multiplies each entry.
+    /// Returns the matrix product. A number multiplies each entry.
     pub fn times(&self, other: &Self) -> Result<Self, String> {
         match (self.to_number(), other.to_number()) {
             (Ok(number), _) => Ok(other.map(|entry| number * entry)),
@@ -252,8 +252,8 @@ impl Value {
         self.entries.iter().all(|entry| entry.is_finite())
     }
 
-    /// Returns whether the shapes are the same and no entry differs by more than `relative` of the
-    /// largest.
+    /// Returns whether the shapes are the same and no entry differs by more than `relative` times
+    /// the largest.
     pub fn is_close(&self, expected: &Self, relative: f64) -> bool {
         let largest = expected.entries.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
         let limit = relative * if largest > 0.0 { largest } else { 1.0 };

@@ -28,7 +28,7 @@ export async function startProgram(program, args) {
   const child = spawn(program, ['explore', ...args], { cwd: path.join(ROOT, 'scenes/models'), stdio: ['ignore', 'pipe', 'ignore'] });
   const address = await new Promise((resolve, reject) => {
     child.stdout.once('data', (line) => resolve(String(line).trim()));
-    child.once('exit', () => reject(new Error('the server has ended')));
+    child.once('exit', () => reject(new Error('the server exited')));
   });
   return { address, stop: () => child.kill('SIGINT') };
 }
@@ -69,7 +69,7 @@ export class Explorer {
   constructor(page, address) {
     this.page = page;
     this.address = address;
-    /** Things that a page must not do: write to the console, fail, or contact another host. */
+    /** Events that a page must not cause: console output, errors, and requests to other hosts. */
     this.faults = [];
     page.on('console', (message) => this.faults.push(`console: ${message.text()}`));
     page.on('pageerror', (error) => this.faults.push(`error: ${error.message}`));
@@ -136,7 +136,7 @@ export class Explorer {
 
   /** Returns the accessibility violations that axe finds. */
   async violations() {
-    // The script is injected, because the content security policy of the page allows no other scripts.
+    // The script is injected, because the content security policy of the page blocks other scripts.
     await this.page.evaluate(await readFile(AXE, 'utf8'));
     const { violations } = await this.page.evaluate(() => globalThis.axe.run());
     return violations.map(({ id, nodes }) => `${id} (${nodes.map(({ target }) => target.join(' ')).join(', ')})`);

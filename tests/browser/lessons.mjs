@@ -28,7 +28,7 @@ async function frustumValues(page) {
 /** The lessons and their statements, by source item. */
 export const STATEMENTS = [
   {
-    name: 'C62: a small field of view enlarges',
+    name: 'C62: a small field of view enlarges the picture',
     lesson: 'perspective',
     async check(page) {
       const [x, y] = await page.coordinates('ndc');
@@ -42,7 +42,7 @@ export const STATEMENTS = [
     },
   },
   {
-    name: 'C62: a wrong aspect ratio distorts',
+    name: 'C62: a wrong aspect ratio distorts the picture',
     lesson: 'perspective',
     async check(page) {
       const [x, y] = await page.coordinates('ndc');
@@ -94,7 +94,7 @@ export const STATEMENTS = [
       await page.choose('apex', 'moved');
       const [moved] = await page.coordinates('ndc');
       assertNear(moved, frustumX(view, values, true), 'the moved apex');
-      assert(Math.abs(moved - x) > 0.01, 'both are the same');
+      assert(Math.abs(moved - x) > 0.01, 'both apexes give the same x');
     },
   },
   {
@@ -116,7 +116,7 @@ export const STATEMENTS = [
     },
   },
   {
-    name: 'C94: in an orthographic projection, distance changes nothing and a smaller window enlarges',
+    name: 'C94: in an orthographic projection, distance has no effect, and a smaller window enlarges the picture',
     lesson: 'ortho',
     async check(page) {
       const clip = await page.coordinates('clip');

@@ -1,6 +1,6 @@
 // Tests the explorer in a real browser: `node main.mjs PROGRAM [FOLDER|--first]`.
 //
-// PROGRAM is `alberti`, whose server computes; FOLDER is the output of `cargo xtask web`, where WebAssembly computes.
+// PROGRAM is `alberti`, which computes on its server; FOLDER is the output of `cargo xtask web`, which computes in WebAssembly.
 // `--first` tests only the first lesson.
 // Prints one line per test; the exit code is 1 if a test failed.
 
@@ -27,7 +27,7 @@ async function test(name, run) {
 
 const hashOf = (bytes) => createHash('sha256').update(bytes).digest('hex');
 
-/** Returns the picture that the program renders from a scene in the folder of its models. */
+/** Returns the program's picture of a scene, rendered in the folder of the scene's models. */
 function programPicture(scene, isOwn) {
   const cwd = path.join(ROOT, isOwn ? 'scenes/models' : 'scenes');
   return execFileSync(program, ['render', '-', '-o', '-', '--format', 'png'], { input: scene, cwd, maxBuffer: 1 << 26 });
@@ -193,7 +193,7 @@ async function testPage(browser, server, engine) {
     await page.mouse.click(box.x + box.width * 0.5, box.y + box.height * 0.6);
     await page.waitForFunction(() => location.hash.includes('pin='));
     await explorer.settled();
-    // The lesson counts y from the bottom, as OpenGL does. The mouse position is a whole pixel of the larger screen.
+    // The lesson counts y from the bottom, as OpenGL does. The mouse position is rounded to a pixel of the larger picture on the page.
     const [x, y] = await explorer.coordinates('screen');
     assert(Math.abs(x - 320) <= 2.5 && Math.abs(400 - y - 240) <= 2.5, `${x}, ${y}`);
     const w = (await explorer.coordinates('clip'))[3];
@@ -202,7 +202,7 @@ async function testPage(browser, server, engine) {
     await explorer.close();
   });
 
-  await test(`${engine}: Chinese from the browser's language, and the language switch`, async () => {
+  await test(`${engine}: the browser's language selects Chinese, and the language can be switched`, async () => {
     const explorer = await open({ locale: 'zh-CN' });
     assert((await explorer.text('#title')) === '透视投影', await explorer.text('#title'));
     assert((await explorer.page.locator('html').getAttribute('lang')) === 'zh-CN', 'lang');
@@ -225,14 +225,14 @@ async function testPage(browser, server, engine) {
     }
   });
 
-  await test(`${engine}: a worker that dies is reported and restarted`, async () => {
+  await test(`${engine}: a crashed worker is reported and restarted`, async () => {
     const explorer = await open();
     await explorer.page.workers()[0].evaluate(() => { setTimeout(() => { throw new Error('out of memory'); }); });
     await explorer.page.locator('#notice').waitFor();
     assert((await explorer.text('#notice')).includes('out of memory'), await explorer.text('#notice'));
     explorer.faults.length = 0;
     await explorer.type('near', 6);
-    assert(await explorer.page.locator('#notice').isHidden(), 'the message stays');
+    assert(await explorer.page.locator('#notice').isHidden(), 'the message is still visible');
     await explorer.close();
   });
 

@@ -72,7 +72,7 @@ const MILDER: &[(&str, &str, &str)] = &[
     ),
 ];
 
-/// Errors that concern a whole file and have no JSON pointer.
+/// Returns whether errors with this code concern a whole file and have no JSON pointer.
 fn concerns_whole_file(code: &str) -> bool {
     code.starts_with("GLB_") || ["INVALID_JSON", "NOT_GLTF", "TYPE_MISMATCH"].contains(&code)
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-/// Flags of every run. The picture is large enough that the run outlasts its disturbances.
+/// Flags of every run. The pictures are large enough that the run outlasts the failures of nodes.
 const FLAGS: [&str; 6] = ["--size", "1024x768", "--job-seconds", "6", "--job-memory", "1GiB"];
 /// Twelve shards, of which at most three run at a time.
 const ARRAY: &str = "--array=0-11%3";
@@ -41,7 +41,7 @@ impl BatchRun {
         own.into_iter().chain(FLAGS.map(str::to_owned)).collect()
     }
 
-    /// Returns the program with those arguments.
+    /// Returns a command that runs the program with those arguments.
     fn batch(&self) -> Command {
         let mut command = Command::new(&self.program);
         command.arg("batch").args(self.arguments());
@@ -79,7 +79,7 @@ impl BatchRun {
     }
 }
 
-/// Runs the program; some models fail, so the exit code is 1.
+/// Runs the program. Some models fail, so it must exit with 1.
 fn run_batch(batch: &mut Command, codes: &[i32]) -> Result<(), String> {
     let output = batch.output().map_err(|error| format!("alberti: {error}"))?;
     if output.status.code().is_some_and(|code| codes.contains(&code)) {

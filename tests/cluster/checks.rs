@@ -109,10 +109,10 @@ pub fn check_verdict((code, text): &(i32, String), expected: &Expected) -> Resul
     Err(format!("--verify exited with {code} and names {good} good and {bad} bad jobs"))
 }
 
-/// Checks that the disturbed run took little longer than the undisturbed run.
+/// Checks that the disturbed run took only a little longer than the undisturbed run.
 ///
-/// The nodes share the processors of this machine, so the remaining nodes do the work of the others
-/// just as fast.
+/// All nodes share this machine's processors, so the remaining nodes can do all the work just as
+/// fast.
 pub fn check_time(time: Duration, undisturbed: Duration) -> Result<(), String> {
     let limit = undisturbed.mul_f64(1.15) + NODE_LOSS;
     let (time, limit) = (time.as_secs_f64(), limit.as_secs_f64());

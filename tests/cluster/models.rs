@@ -14,7 +14,7 @@ const RINGS: u16 = 48;
 const SIDES: u16 = 24;
 /// The number of translucent layers in the model that takes minutes.
 const LAYERS: usize = 8_000;
-/// The number of points in the model that needs much memory, at 12 bytes per point.
+/// The number of points in the model that needs a lot of memory, at 12 bytes per point.
 const POINTS: usize = 700_000_000;
 
 /// The jobs, by picture name.
@@ -139,8 +139,8 @@ fn torus(number: usize) -> Document {
     document
 }
 
-/// Creates thousands of translucent triangles, one behind the other, each of which is shaded at
-/// every pixel.
+/// Creates thousands of translucent triangles, one behind another, each of which is shaded at every
+/// pixel.
 fn layers() -> Document {
     let mut document = Document::single_triangle();
     let layer = |at: usize| json!({"mesh": 0, "translation": [0, 0, at as f64 / LAYERS as f64]});

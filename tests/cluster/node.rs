@@ -75,11 +75,11 @@ impl Node {
         Ok(())
     }
 
-    /// Kills everything on the node, like a power failure, and returns the number of processes.
+    /// Kills everything on the node, as a power failure would, and returns the number of processes.
     pub fn kill_processes(&mut self) -> Result<usize, String> {
         self.is_dead = true;
         let mut count = 0;
-        // Processes started meanwhile die in the next round.
+        // Processes that start during this round are killed in the next.
         loop {
             let processes = self.processes();
             if processes.is_empty() {

@@ -9,14 +9,14 @@ use std::time::{Duration, Instant};
 
 /// The number of nodes.
 pub const NODES: usize = 3;
-/// The time without an answer after which the controller gives up on a node: `SlurmdTimeout`.
+/// The time without a response after which the controller gives up on a node: `SlurmdTimeout`.
 const NODE_TIMEOUT: Duration = Duration::from_secs(5);
 /// The time that a job waits before it restarts after losing its node: `cred_expire`.
 const REQUEUE_DELAY: Duration = Duration::from_secs(5);
 /// The time from the loss of a node to the restart of its job.
 pub const NODE_LOSS: Duration =
     Duration::from_secs(NODE_TIMEOUT.as_secs() + REQUEUE_DELAY.as_secs());
-/// The time for which a node is cut off, which is much longer than the controller waits for it.
+/// The time for which a node is cut off. It is much longer than the controller waits.
 pub const LINK_CUT: Duration = Duration::from_secs(20);
 /// The maximum time of any wait in the test.
 pub const LONGEST_WAIT: Duration = Duration::from_secs(300);
@@ -120,7 +120,7 @@ impl Cluster {
 
     /// Returns whether a job is waiting or running.
     pub fn has_job(&self, job: &str) -> Result<bool, String> {
-        // A job that ended long ago is unknown, which counts as an error.
+        // Slurm forgets jobs that ended long ago and reports an error for them.
         let queue = run_command(self.command("squeue").args(["-h", "-j", job, "-o", "%i"]));
         match queue {
             Ok(queue) => Ok(!queue.trim().is_empty()),

@@ -22,7 +22,7 @@ pub struct Seen {
     pub faults: Vec<String>,
 }
 
-/// The thread that watches.
+/// A thread that watches a folder.
 pub struct Watcher {
     thread: JoinHandle<Seen>,
     count: Arc<AtomicUsize>,
@@ -57,14 +57,14 @@ impl Watcher {
         self.count.load(Ordering::Relaxed)
     }
 
-    /// Ends the watch.
+    /// Stops watching and returns the observations.
     pub fn stop(self) -> Result<Seen, String> {
         self.is_over.store(true, Ordering::Relaxed);
         self.thread.join().map_err(|_| "the watcher panicked".to_owned())
     }
 }
 
-/// The state of the thread.
+/// The state of the watching thread.
 struct FolderWatch {
     folder: PathBuf,
     expected: Pictures,

@@ -25,7 +25,7 @@ pub struct Run {
 }
 
 impl Program {
-    /// Returns the program, which is built if necessary.
+    /// Returns the program, after building it if necessary.
     pub fn build() -> Result<Self, String> {
         Ok(Self { path: alberti_tests::program_path()? })
     }

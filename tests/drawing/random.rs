@@ -125,8 +125,8 @@ fn describe(measured: [f64; 3]) -> String {
 }
 
 /// Returns the fraction of the shaded picture's outline (pixels next to one without a surface) that
-/// has no visible line nearby, or 0 if a depth plane cuts the models, because such cuts have no
-/// lines.
+/// has no visible line nearby. Returns 0 if a depth plane cuts the models, because such cuts have
+/// no lines.
 fn outline_without_line(mut scene: Scene, drawing: &LineDrawing) -> Result<f64, String> {
     let world_to_clip = scene.view_projection.world_to_clip();
     let is_cut = scene.world_points().into_iter().any(|point| {
@@ -246,7 +246,7 @@ fn check_scene(text: &str, models: &[(&'static str, Arc<Model>)]) -> Result<Verd
     Ok(Verdict::Drawn { denied, contradicted, unlined })
 }
 
-/// Returns the message of a rejection without its numbers and location.
+/// Returns the message of a rejection without its numbers or location.
 fn reason_of(message: &str) -> String {
     let lines: Vec<&str> = message.lines().collect();
     let first = lines.first().map_or("", |line| line.trim());

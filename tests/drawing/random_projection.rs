@@ -1,4 +1,4 @@
-//! Random projections, as a scene file writes them.
+//! Random projections in the syntax of scene files.
 
 use crate::drawing::bits::Random;
 

@@ -1,6 +1,6 @@
 """Check the program's DXF files with ezdxf: check.py PROGRAM FOLDER INPUT…
 
-Every INPUT, which is a scene, a model or a folder of them, is drawn as DXF. The audit of ezdxf must find nothing, and the total line
+Every INPUT, which is a scene, a model or a folder of them, is drawn as DXF. The ezdxf audit must find nothing, and the total line
 length on each layer must match the SVG to 1e-6 mm. Models are also drawn as sheets. Then parts with known cross sections are cut: their
 outlines must be closed and simple, and have the area of the section. Files are written to FOLDER. Prints a line `FAILED …` for each error;
 the last line has the counts.
@@ -213,7 +213,7 @@ def check_outline(name, regions, *flags):
     """Check that the outline of a part is closed and simple, and has the area and position of the section."""
     part, path = FOLDER / f"{name}.obj", FOLDER / f"{name}_outline.dxf"
     write_part(part, regions)
-    # The page grid is one micrometer, so a large page has finer steps.
+    # The page grid is one micrometer, so a larger page has finer steps relative to the part.
     view = ["--unit", "mm", "--view", "front", "--projection", "orthographic", "--style", "outline", "--size", "4800x3600"]
     fault = run("render", part, *view, *flags, "-o", path, "--arc-tolerance", "0")
     if fault:
@@ -267,7 +267,7 @@ def check_circles():
 
 
 def inputs(path):
-    """Return a file, the scenes in a folder, or if it has none, all models below it."""
+    """Return a file itself, the scenes in a folder, or, if the folder has no scenes, all models below it."""
     if path.is_file():
         return [path]
     scenes = sorted(path.glob("*.ron"))

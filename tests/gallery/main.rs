@@ -67,7 +67,7 @@ const VARIANTS: [Variant; 22] = [
     Variant { name: "back", change: |file| file.camera.view = framed_from(FromFile::Back) },
 ];
 
-/// Frames everything from a direction.
+/// Returns a view that frames everything from a direction.
 fn framed_from(from: FromFile) -> ViewFile {
     ViewFile::Frame { from: Some(from), padding_percent: DEFAULT_PADDING }
 }
@@ -171,7 +171,7 @@ fn figure_html(image: &str, name: &str, statistics: &PictureStatistics) -> Strin
     )
 }
 
-/// Adds the glTF files in a folder and its subfolders, by name.
+/// Adds the glTF files in a folder and its subfolders, sorted by name.
 fn list_models(folder: &Path, models: &mut Vec<PathBuf>) -> Result<(), String> {
     let in_folder = |error: std::io::Error| format!("{}: {error}", folder.display());
     let entries = std::fs::read_dir(folder).map_err(in_folder)?;

@@ -1,4 +1,4 @@
-//! Wrong counts, offsets, lengths and strides.
+//! Accessors and views with wrong counts, offsets, lengths and strides.
 
 use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::{Document, float_bytes};
@@ -171,7 +171,8 @@ fn value_cases() -> Vec<Case> {
     cases
 }
 
-/// Returns cases with accessors without bytes, whose zeros must be limited in number.
+/// Returns cases with accessors that are read as zeros because they have no data. The number of
+/// zeros must be limited.
 fn zero_cases() -> Vec<Case> {
     let case = |count: u64, expected: Expected| {
         let mut document = Document::single_triangle().without_value("/accessors/0/bufferView");

@@ -17,7 +17,8 @@ pub struct Case {
     pub expected: Expected,
 }
 
-/// The expected outcome of a file. In any case, loading must return and keep its promises.
+/// The expected outcome of a file. In every case, loading must return, and the model must keep its
+/// promises.
 pub enum Expected {
     /// Either a model or an error.
     Anything,
@@ -27,7 +28,7 @@ pub enum Expected {
     LoadsClean,
     /// A model with a warning.
     Warned,
-    /// A model with exactly this warning: the pointer, a blank and the message.
+    /// A model with exactly this warning: the pointer, a space and the message.
     Warns(String),
     /// An error.
     Refused,

@@ -1,4 +1,4 @@
-//! Images that declare a wrong size, are truncated, or are something else.
+//! Images that declare a wrong size, are truncated, or have an unsupported format.
 
 use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::{Document, encode_png};

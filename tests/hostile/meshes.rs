@@ -139,7 +139,7 @@ z="0"/><vertex x="0" y="4" z="0"/><vertex x="0" y="0" z="5"/></vertices><triangl
     vec![text.as_bytes().to_vec()]
 }
 
-/// Returns these files in archives.
+/// Returns 3MF archives, each with a file from [`threemf_parts`].
 fn threemf_files() -> Vec<Vec<u8>> {
     threemf_parts().iter().map(|part| encode_3mf(part)).collect()
 }

@@ -4,8 +4,8 @@ use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
 use serde_json::json;
 
-/// Returns the triangle with compressed positions and indices, with every byte in full and every
-/// index written out.
+/// Returns the triangle with positions and indices in meshopt streams. Every byte is stored in
+/// full, and every index is written out.
 fn compressed_document() -> Document {
     let mut document = Document::single_triangle();
     let plain = document.bytes.clone();

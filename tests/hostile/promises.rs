@@ -1,4 +1,4 @@
-//! Checks the invariants of a loaded model, which are the promises of its documentation.
+//! Checks the invariants that the documentation promises for a loaded model.
 
 use model::{Model, Primitive};
 

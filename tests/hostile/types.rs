@@ -38,7 +38,7 @@ pub fn type_cases() -> Vec<Case> {
             for normalized in [false, true] {
                 let name = format!("{shape} of {component}, normalized {normalized}");
                 let accessor = json!({"componentType": component, "type": shape, "count": 3, "normalized": normalized});
-                // There is room for any column padding; interpreted as floats, the bytes are ones.
+                // The buffer has space for any column padding. Read as floats, its bytes are ones.
                 let bytes = [0, 0, 0x80, 0x3F].repeat(3 * (width * size).max(16));
                 let readable = |shapes: &[&str], components: &[u32]| {
                     shapes.contains(&shape) && components.contains(&component)

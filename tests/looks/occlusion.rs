@@ -9,12 +9,12 @@ use std::path::Path;
 /// edges.
 const MODELS: [&str; 5] =
     ["bearing", "dense-sphere-draco-quantized", "flight-helmet", "teapot", "torus"];
-/// The tested samples per pixel.
+/// The numbers of samples per pixel to test.
 const SAMPLES: [u32; 4] = [1, 4, 8, 16];
 /// The fraction of its neighbors' light below which a pixel is a dot.
 const DOT: f64 = 0.25;
 
-/// Returns the dots in a model's pictures in even light, or none for models that are not listed.
+/// Returns the dots in a model's pictures in uniform light, or none for models that are not listed.
 pub(super) fn find_dots(model: &Path, name: &str) -> Vec<String> {
     let mut faults = Vec::new();
     if !MODELS.contains(&name) {

@@ -1,4 +1,4 @@
-//! The compared facts, and the files that intentionally differ from the manifest.
+//! The compared properties, and the files that intentionally differ from the manifest.
 
 /// The triangles and bounds of a mesh.
 #[derive(Clone, PartialEq, Debug)]
@@ -23,8 +23,8 @@ pub const DIFFERENCES: &[(&str, MeshFacts, &str)] = &[
 ];
 
 impl MeshFacts {
-    /// Compares with the facts found. Bounds must agree to the six digits of the manifest, relative
-    /// to the mesh size.
+    /// Compares with the properties found. Bounds must agree to the six digits of the manifest,
+    /// relative to the mesh size.
     pub fn compare(&self, found: &Self) -> Result<(), String> {
         if self.triangles != found.triangles {
             return Err(format!("{} triangles instead of {}", found.triangles, self.triangles));

@@ -68,7 +68,7 @@ fn parts_lists_are_drawn_and_written() {
     // A twelve-sided prism, 4 mm across and 1.5 mm high.
     let mass = 3.0 * 0.2 * 0.2 * 0.15 * 7.85;
     let found: f64 = rows[5][4].parse().expect("a mass");
-    assert!((found - mass).abs() < 0.001, "{found} for {mass}");
+    assert!((found - mass).abs() < 0.001, "expected {mass}, found {found}");
     assert!(!rows[4][4].is_empty() && rows[1][4].is_empty(), "{rows:?}");
     assert!(read_text(&sandbox, "out-2.svg").contains("id=\"parts-list\""));
     let run = sandbox.run(&["sheet", "scene.ron", "--parts-list=list.txt"]);

@@ -56,8 +56,8 @@ impl Gltf {
     }
 }
 
-/// Whether two lists of numbers are equal except for rounding; rotations may also have the opposite
-/// sign.
+/// Returns whether two lists of numbers are equal except for rounding. Rotations may also have the
+/// opposite sign.
 fn are_equal_values(actual: &[f64], expected: &[f64], rotation: bool) -> bool {
     let near = |sign: f64| actual.iter().zip(expected).all(|(a, b)| (a - sign * b).abs() < 1e-5);
     actual.len() == expected.len() && (near(1.0) || rotation && near(-1.0))
@@ -111,7 +111,7 @@ fn check_pose(gltf: &Gltf, json: &Value, info: &Value, time: f64) -> usize {
             actual.as_array().expect("numbers").iter().filter_map(Value::as_f64).collect();
         assert!(
             are_equal_values(&found, expected, path == "rotation"),
-            "{channel} at {time}: {found:?}, not {expected:?}"
+            "{channel} at {time}: expected {expected:?}, found {found:?}"
         );
         checked += 1;
     }

@@ -1,4 +1,4 @@
-//! `alberti batch`.
+//! Tests `alberti batch`.
 
 use crate::sandbox::Sandbox;
 use serde_json::Value;
@@ -155,8 +155,8 @@ fn a_killed_run_resumes_where_it_stopped() {
         assert!(begin.elapsed() < Duration::from_secs(60), "the run makes no progress");
         std::thread::sleep(Duration::from_millis(5));
     }
-    process.kill().expect("it can be killed");
-    process.wait().expect("it ends");
+    process.kill().expect("the process can be killed");
+    process.wait().expect("the process exits");
     let before = done();
     let run = sandbox.run(&arguments);
     assert_eq!(run.code, 0, "{}", run.stderr);

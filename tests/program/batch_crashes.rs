@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant, SystemTime};
 
-/// Eighteen small models; `BATCH` renders them.
+/// Returns a sandbox with eighteen small models, which `BATCH` renders.
 fn crash_sandbox(name: &str) -> Sandbox {
     let sandbox = Sandbox::new(name);
     for model in ["crate.glb", "panes.glb", "house.glb"] {
@@ -155,9 +155,9 @@ fn kill_often(name: &str, kills: usize, flags: &[&str]) {
         let mut ended = 0;
         for (at, mut shard) in (0_u64..).zip(shards) {
             if spared != at {
-                shard.kill().expect("it is ours");
+                shard.kill().expect("the process can be killed");
             }
-            let status = shard.wait().expect("it ends");
+            let status = shard.wait().expect("the process exits");
             ended += usize::from(status.code() == Some(0));
             killed += usize::from(status.code().is_none());
             assert!(matches!(status.code(), None | Some(0)), "{status}");
@@ -179,7 +179,7 @@ fn kill_often(name: &str, kills: usize, flags: &[&str]) {
     }
 }
 
-/// The number of times a batch is killed.
+/// Returns the number of times a batch is killed.
 fn kill_count() -> usize {
     let text = std::env::var("ALBERTI_BATCH_KILLS").ok();
     text.map_or(12, |text| text.parse().expect("ALBERTI_BATCH_KILLS is a number"))
@@ -204,8 +204,8 @@ fn workers_exit_when_their_batch_is_killed() {
         assert!(begin.elapsed() < Duration::from_secs(120), "the batch makes no progress");
         std::thread::sleep(Duration::from_millis(5));
     }
-    batch.kill().expect("it is ours");
-    batch.wait().expect("it ends");
+    batch.kill().expect("the process can be killed");
+    batch.wait().expect("the process exits");
     let files = || {
         let mut files = files_below(&sandbox.path_of("out"));
         files.sort();
@@ -261,7 +261,7 @@ fn running_a_shard_twice_at_once_is_harmless() {
             start_batch(&sandbox, &batch_with(&[flags, &["--shard", shard]].concat()))
         });
         for mut shard in shards {
-            assert_eq!(shard.wait().expect("it ends").code(), Some(0));
+            assert_eq!(shard.wait().expect("the process exits").code(), Some(0));
         }
         check_remains(&sandbox, &whole, "after four runs");
         let tars = files_below(&sandbox.path_of("out"));
@@ -281,7 +281,7 @@ fn running_a_shard_twice_at_once_is_harmless() {
 fn set_times(folder: &Path, time: SystemTime) {
     for name in files_below(folder) {
         let file = std::fs::File::options().append(true).open(folder.join(name)).expect("a file");
-        file.set_modified(time).expect("another time");
+        file.set_modified(time).expect("the time can be set");
     }
 }
 
@@ -338,7 +338,7 @@ fn check_stopped(sandbox: &Sandbox, run: &RunResult) {
 fn file_size_limits_stop_the_run_without_failing_jobs() {
     let sandbox = crash_sandbox("batch_file_size");
     let whole = undisturbed_pictures(&sandbox);
-    // Limits in blocks of 512 bytes: none, then enough for at least one record.
+    // Limits in blocks of 512 bytes: zero, then enough for at least one record.
     for blocks in ["0", "1", "2"] {
         // Ignores the signal that a write beyond the limit would cause.
         let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$alberti\" $batch");
@@ -352,7 +352,8 @@ fn file_size_limits_stop_the_run_without_failing_jobs() {
     check_complete(&sandbox, &[]);
 }
 
-/// Runs a batch on a separate disk, of 64 KiB and then larger, with and without tar files.
+/// Runs a batch on a separate disk, which has 64 KiB at first and is enlarged later, with and
+/// without tar files.
 ///
 /// The disk exists only for the script, in a mount namespace.
 const SMALL_DISK: &str = "

@@ -16,14 +16,14 @@ fn run_in_time(sandbox: &Sandbox, arguments: &[&str]) -> RunResult {
     let mut child = sandbox.start(arguments);
     drop(child.stdin.take());
     let begin = Instant::now();
-    while child.try_wait().expect("its state").is_none() {
+    while child.try_wait().expect("the process has a state").is_none() {
         if begin.elapsed() > Duration::from_secs(60) {
             let _ = child.kill();
             panic!("the program hangs: {arguments:?}");
         }
         std::thread::sleep(Duration::from_millis(20));
     }
-    RunResult::of(child.wait_with_output().expect("its output"))
+    RunResult::of(child.wait_with_output().expect("the process exits"))
 }
 
 fn crate_sandbox(name: &str) -> Sandbox {
@@ -67,7 +67,7 @@ fn lines_with_the_same_output_are_refused() {
 }
 
 #[test]
-fn duplicates_in_a_long_list_are_found_in_little_memory() {
+fn duplicates_in_a_long_list_are_found_with_little_memory() {
     let sandbox = crate_sandbox("batch_long_list");
     let line = |at: u32| format!("{{\"input\":\"none.glb\",\"output\":\"{at}.png\"}}\n");
     let mut list: String = (0..20_000).map(line).collect();

@@ -2,7 +2,7 @@
 
 use crate::sandbox::Sandbox;
 
-/// The mark after a command on the page that no test runs.
+/// The mark after a command on the page that the test does not run.
 const NOT_RUN: &str = "# not run here";
 
 /// Returns the page's code blocks in a language.
@@ -14,7 +14,7 @@ fn blocks<'a>(page: &'a str, language: &str) -> Vec<&'a str> {
         .collect()
 }
 
-/// Splits a command into words; quoted words are one word.
+/// Splits a command into words. A quoted string is one word.
 fn split_words(command: &str) -> Vec<&str> {
     let parts = command.split('\'').enumerate();
     let words = parts.flat_map(|(part, text)| match part % 2 {

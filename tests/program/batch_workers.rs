@@ -8,7 +8,7 @@ use serde_json::Value;
 use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
-/// A list with one job that takes minutes, between two short ones.
+/// Returns a sandbox with a list of three jobs: the second takes minutes, and the others are short.
 fn slow_sandbox(name: &str) -> Sandbox {
     let sandbox = batch_sandbox(name);
     sandbox.write_file(
@@ -63,9 +63,9 @@ fn slow_worker(sandbox: &Sandbox, run: &Child, known: Option<u32>) -> u32 {
     wait_for("a worker", || children(run.id()).into_iter().find(|id| Some(*id) != known))
 }
 
-/// Waits for a run to end, possibly by a signal.
+/// Waits for a run to exit, possibly because of a signal.
 fn end_of(run: Child) -> RunResult {
-    RunResult::of(run.wait_with_output().expect("it ends"))
+    RunResult::of(run.wait_with_output().expect("the process exits"))
 }
 
 #[test]
@@ -140,8 +140,8 @@ fn workers_exit_with_their_coordinator() {
     let sandbox = slow_sandbox("batch_orphans");
     let mut run = sandbox.start(&SLOW);
     let worker = slow_worker(&sandbox, &run, None);
-    run.kill().expect("it can be killed");
-    run.wait().expect("it ends");
+    run.kill().expect("the process can be killed");
+    run.wait().expect("the process exits");
     wait_for("the worker ends", || {
         let status = std::fs::read_to_string(format!("/proc/{worker}/stat"));
         // A process that has exited remains until its new parent reaps it.

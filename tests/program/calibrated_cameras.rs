@@ -1,10 +1,10 @@
-//! Cameras from intrinsics, extrinsics and poses, as flags.
+//! Camera flags: intrinsics, extrinsics and poses.
 
 use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
 use serde_json::Value;
 
-/// A camera three units in front of the origin, with x to the right, y down and z ahead.
+/// A camera three units in front of the origin, with x to the right, y down and z forward.
 const EXTRINSICS: &str = "1,0,0,0, 0,1,0,0, 0,0,1,3";
 
 /// Returns an item of an explanation.

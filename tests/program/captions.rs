@@ -1,12 +1,12 @@
-//! Labels at world points, captions below views, and several views at one scale: all are at the
-//! positions from the formulas, in pictures and in drawings.
+//! Labels at world points, captions below views, and several views at one scale: all are where the
+//! formulas place them, in pictures and in drawings.
 
 use crate::sandbox::Sandbox;
 use crate::vector_files::{Layers, PagePoint, parse_svg, point_bounds};
 
-/// Pixels per millimeter of a drawing, at 96 per inch.
+/// Pixels per millimeter of a drawing, at 96 pixels per inch.
 const PIXELS_PER_MILLIMETRE: f64 = 96.0 / 25.4;
-/// Rounding to micrometers at both ends of an extent, in pixels.
+/// The maximum error of an extent whose ends are rounded to micrometers, in pixels.
 const MICROMETRE: f64 = 0.001 * PIXELS_PER_MILLIMETRE;
 /// The extents of the crate in these tests along x, y and z; unscaled, it is a cube of side 1.
 const BOX: [f64; 3] = [2.0, 1.0, 3.0];
@@ -62,7 +62,7 @@ fn labels_are_next_to_their_projected_points() {
             "camera: (view: LookAt(eye: (0, 0, 10), target: (0, 0, 0)), projection: {projection})"
         );
         let image = "image: (size: (800, 600))";
-        // The corner or side of the text at the offset, for capitals 20 pixels high.
+        // The corner or side of the text that is at the offset. Capitals are 20 pixels high.
         for (offset, corner) in [
             ([30.0, -10.0], [Some(0), Some(1)]),
             ([-30.0, 10.0], [Some(1), Some(0)]),
@@ -146,7 +146,7 @@ fn a_caption_is_below_the_picture() {
     let middle = (least.expect("a column") + most.expect("a column") + 1) as f64 / 2.0;
     assert!((middle - 64.0).abs() <= 1.0, "{middle}");
     assert!(written.iter().any(|at| strip[*at][0] > 200));
-    // A crop of the picture has its part of the caption.
+    // A crop of the picture includes its part of the caption.
     picture("with.png", (128, 156), "caption: \"Front\"");
     let run = sandbox.run(&["render", "scene.ron", "-o", "part.png", "--crop", "20,120,90,30"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
@@ -228,7 +228,7 @@ fn command_line_views_share_a_scale() {
 }
 
 #[test]
-fn mistakes_in_labels_and_captions_are_explained_and_fmt_keeps_them() {
+fn mistakes_in_labels_and_captions_are_explained_and_fmt_preserves_both() {
     let sandbox = Sandbox::new("caption_mistakes");
     let cases = [
         ("caption: 5", "expected a string"),

@@ -5,7 +5,7 @@ use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
 use serde_json::{Value, json};
 
-/// A square with wrong bounds and the index of a missing material.
+/// Returns a square with wrong bounds and a reference to a missing material.
 fn faulty_model() -> GltfBuilder {
     let mut document = GltfBuilder::square();
     document.json["accessors"][0]["min"] = json!([-9, -1, 0]);

@@ -61,7 +61,7 @@ fn assert_close(color: [u8; 3], expected: [u8; 3], what: &str) {
     assert!(is_close, "{what}: {color:?} instead of {expected:?}");
 }
 
-/// Unlit, so that the picture shows the exact colors.
+/// Returns an unlit scene, so that the picture shows the exact colors.
 fn scene(model: &str, scalars: &str) -> String {
     format!(
         "Scene(models: [(path: \"{model}\", materials: [(unlit: true)], scalars: ({scalars}))])"

@@ -21,7 +21,7 @@ fn a_subject_is_drawn_in_every_projection() {
     for name in PROJECTIONS {
         let [low, high] = layer_bounds(&layers, |id| id.starts_with(&format!("{name}-visible-")));
         assert!(low[0] > 0.0 && low[1] > 0.0 && high[0] < page[0] && high[1] < page[1], "{name}");
-        // The drawing is framed: it fills most of its 84.7 × 63.5 mm and does not exceed them.
+        // The drawing is framed: it fills most of its 84.7 × 63.5 mm panel without exceeding it.
         let [w, h] = layer_size(&layers, name);
         assert!(w < 84.7 && h < 63.5 && (w > 70.0 || h > 52.0), "{name}: {w} x {h}");
     }
@@ -54,7 +54,7 @@ fn oblique_boxes_have_textbook_sizes() {
 }
 
 #[test]
-fn every_format_shows_the_same() {
+fn every_format_shows_the_same_content() {
     let sandbox = Sandbox::new("compare_formats");
     write_box(&sandbox, "box", [4.0, 3.0, 2.0]);
     let flags = ["--projections", "cavalier,two-point,cavalier", "--size", "200x150"];

@@ -64,7 +64,7 @@ pub(crate) fn assert_near(actual: f64, expected: f64) {
 }
 
 #[test]
-fn a_hundred_millimeters_measure_a_hundred_at_one_to_one() {
+fn lengths_are_exact_at_scale_one_to_one() {
     let sandbox = Sandbox::new("hundred");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let flags = ["--scale", "1:1", "--no-dimensions", "--axonometric", "none"];
@@ -131,7 +131,8 @@ fn views_are_aligned_and_arranged_by_projection_angle() {
             }
             assert_eq!(top[0][1] > front[1][1], top_is_below, "{angle} {paper}");
             assert!(side[0][0] > front[1][0], "{angle} {paper}");
-            // The depth is as wide in the side view as it is high in the top view.
+            // The depth is as large horizontally in the side view as it is vertically in the top
+            // view.
             assert_near(side[1][0] - side[0][0], top[1][1] - top[0][1]);
             let all = layer_bounds(&layers, |_| true);
             assert!(all[0].iter().all(|c| *c > 0.0) && all[1][0] < page[0] && all[1][1] < page[1]);
@@ -156,7 +157,7 @@ fn dimensions_show_the_true_size() {
     let front = layer_bounds(&layers, |id| id.starts_with("front-"));
     let lines = &layers["dimensions"];
     let level = |line: &&Vec<PagePoint>| line.len() == 2 && line[0][1] == line[1][1];
-    // The dimension line of the width is above the front view and as long as it.
+    // The dimension line for the width is above the front view and has the same length.
     let widths = lines.iter().filter(level).filter(|line| {
         (line[0][0] - front[0][0]).abs() < 5e-4 && (line[1][0] - front[1][0]).abs() < 5e-4
     });

@@ -25,7 +25,7 @@ fn numbers(tags: &[(u16, String)], kind: &str, code: u16) -> Vec<f64> {
     found
 }
 
-/// Whether there is an entity of a kind on a layer whose name begins like this.
+/// Returns whether there is an entity of a kind on a layer whose name has this prefix.
 fn has_entity(tags: &[(u16, String)], kind: &str, layer: &str) -> bool {
     let is_such = |entity: &[(u16, String)]| {
         entity[0].1 == kind

@@ -1,5 +1,5 @@
-//! The page of exercises: each of its commands is run, and its JSON output compared with the worked
-//! answer on the page (exercises 1 to 11, C104).
+//! The page of exercises: each of its commands is run, and its JSON output is compared with the
+//! worked answer on the page (exercises 1 to 11, C104).
 
 use crate::sandbox::Sandbox;
 use serde_json::Value;
@@ -59,7 +59,7 @@ fn read_cases(page: &str) -> Vec<Case> {
     cases
 }
 
-/// Splits a command into words; quoted words are one word.
+/// Splits a command into words. A quoted string is one word.
 fn split_words(command: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     for (part, text) in command.split('\'').enumerate() {

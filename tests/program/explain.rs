@@ -1,4 +1,4 @@
-//! `alberti explain`.
+//! Tests `alberti explain`.
 
 use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
@@ -237,7 +237,7 @@ fn maps_without_a_scene_report_what_they_need() {
 /// A point with w = 0 is a direction, and its image is a vanishing point (VN-1); a segment that
 /// passes the eye has no f(t).
 #[test]
-fn directions_vanish_and_segments_past_the_eye_have_no_f() {
+fn directions_have_vanishing_points_and_segments_past_the_eye_have_no_f() {
     let sandbox = sandbox_with_scene("explain_direction", |_| {});
     // The window is 4 x 2 on the plane at distance 1: (1, 0, -1) vanishes halfway to the right.
     let found = explanation_json(&sandbox, &["--point", "1,0,-1,0"]);

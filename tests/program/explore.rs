@@ -1,4 +1,4 @@
-//! `alberti explore`: what the server answers and refuses, and that it keeps running.
+//! `alberti explore`: which requests the server answers or refuses, and whether it keeps running.
 
 use crate::sandbox::Sandbox;
 use alberti_tests::skip::report_skip;
@@ -8,7 +8,7 @@ use std::net::{TcpListener, TcpStream};
 use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
-/// A test server, which ends when this value is dropped.
+/// A test server, which is killed when this value is dropped.
 struct Server {
     child: Child,
     port: u16,
@@ -37,7 +37,7 @@ impl Server {
         stream
     }
 
-    /// Sends lines and returns the whole response; nothing if the connection is dropped.
+    /// Sends lines and returns the whole response, which is empty if the connection is dropped.
     fn send(&self, lines: &[&str]) -> String {
         let mut stream = self.connect();
         // The server may have closed the connection before reading everything.
@@ -70,7 +70,7 @@ impl Server {
         stream
     }
 
-    /// Checks that a small query is answered as soon as a person expects, even on a slow test
+    /// Checks that a small query is answered as quickly as a user expects, even on a slow test
     /// machine.
     fn assert_answers_soon(&self, query: &str) {
         let start = Instant::now();
@@ -82,7 +82,7 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // It may already have ended.
+        // It may already have exited.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
@@ -149,7 +149,7 @@ fn a_scene_is_explored_unchanged() {
 }
 
 #[test]
-fn request_errors_are_answers() {
+fn request_errors_are_answered() {
     let sandbox = Sandbox::new("explore_errors");
     let server = Server::start(&sandbox, &[]);
     let (code, error) = server.get("/compute?v=1&what=state&naer=2");
@@ -291,7 +291,7 @@ fn a_thousand_silent_connections_do_not_stop_the_server() {
     let mut silent = VecDeque::new();
     for _ in 0..1000 {
         silent.push_back(server.connect());
-        // A process may have a thousand files open, over all tests together.
+        // All tests together may have a thousand open files, because they share a process.
         if silent.len() > 300 {
             let mut oldest = silent.pop_front().expect("the oldest");
             assert!(matches!(oldest.read(&mut [0]), Ok(0) | Err(_)), "it is still open");
@@ -305,8 +305,8 @@ fn a_thousand_silent_connections_do_not_stop_the_server() {
 #[test]
 fn an_interrupt_stops_the_server() {
     use std::os::unix::process::ExitStatusExt as _;
-    // A shell starts background commands with interrupts ignored, and everything that these start
-    // inherits this.
+    // A shell starts background commands with interrupts ignored, and their child processes inherit
+    // this setting.
     if ignores_signal(2) {
         return report_skip(
             "an_interrupt_stops_the_server",
@@ -322,11 +322,11 @@ fn an_interrupt_stops_the_server() {
     let kill = Command::new("kill").args(["-INT", &process]).status().expect("kill");
     assert!(kill.success());
     // As in the other commands, the signal ends the program; there is nothing to clean up.
-    let status = server.child.wait().expect("it ends");
+    let status = server.child.wait().expect("the process exits");
     assert_eq!(status.signal(), Some(2), "{status}");
 }
 
-/// Whether this process was started with a signal ignored: its bit in the mask.
+/// Returns whether this process was started with a signal ignored, as its bit in the mask shows.
 #[cfg(unix)]
 pub(crate) fn ignores_signal(number: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -339,7 +339,7 @@ pub(crate) fn ignores_signal(number: i32) -> bool {
 fn ports_in_use_and_broken_models_are_reported() {
     let sandbox = Sandbox::new("explore_refused");
     let taken = TcpListener::bind("127.0.0.1:0").expect("a port");
-    let port = taken.local_addr().expect("its number").port().to_string();
+    let port = taken.local_addr().expect("the port is bound").port().to_string();
     let run = sandbox.run(&["explore", "--port", &port]);
     let expected = format!("error: cannot listen on 127.0.0.1:{port}: ");
     assert!(run.code == 1 && run.stderr.starts_with(&expected), "{}", run.stderr);

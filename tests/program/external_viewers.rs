@@ -75,7 +75,7 @@ fn assert_alike(ours: &InkMap, theirs: &InkMap, tolerance: f64, what: &str) {
     assert!((ratio - 1.0).abs() < tolerance, "{what}: {ratio} times the ink");
 }
 
-/// The drawings to compare: flags, and the picture size.
+/// Returns the drawings to compare: their flags and picture sizes.
 fn drawings() -> Vec<(Vec<&'static str>, [u32; 2])> {
     let render = |style, projection| {
         let flags = vec!["render", "house.glb", "--size", "640x480", "--background", "#fff"];

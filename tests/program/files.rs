@@ -29,7 +29,7 @@ fn a_failed_run_leaves_the_old_picture_and_nothing_else() {
 }
 
 #[test]
-fn misspelled_models_get_a_suggestion_and_folders_a_hint_at_batch() {
+fn misspelled_models_get_a_suggestion_and_folders_a_hint_about_batch() {
     let sandbox = Sandbox::new("misspelt_model");
     sandbox.copy_model("crate.glb");
     let run = sandbox.run(&["render", "crat.glb", "-o", "out.png"]);

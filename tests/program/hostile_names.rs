@@ -7,7 +7,7 @@ use crate::sandbox::{RunResult, Sandbox};
 const HOSTILE: &str =
     "\u{1b}]0;P\u{7}\u{1b}[31m\u{9b}2J\u{7f}\u{202e}\u{2066}\u{2028}\r\t\u{85}\n  = help: FORGED";
 
-/// Checks that a text has no control characters, and that [`HOSTILE`] does not start a new line in
+/// Checks that text has no control characters, and that [`HOSTILE`] does not start a new line in
 /// it.
 fn assert_is_text(text: &str, arguments: &[&str]) {
     let is_control = |c: char| {
@@ -26,7 +26,7 @@ fn run(sandbox: &Sandbox, arguments: &[&str]) -> RunResult {
     run
 }
 
-/// A document of a triangle with a hostile name in place of one word, which is in capitals.
+/// Returns the glTF of a triangle in which a hostile name replaces `place`, a word in capitals.
 fn model_with(place: &str) -> String {
     let buffer =
         "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
@@ -161,7 +161,7 @@ fn strings_in_scenes_do_not_reach_a_terminal() {
     }
 }
 
-/// Removes color codes such as `ESC [1;31m` from a text.
+/// Removes color codes such as `ESC [1;31m` from text.
 fn without_colors(text: &str) -> String {
     let mut parts = text.split("\u{1b}[");
     let first = parts.next().unwrap_or_default().to_owned();

@@ -1,4 +1,4 @@
-//! `alberti info`.
+//! Tests `alberti info`.
 
 use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
@@ -117,7 +117,7 @@ fn anisotropy_is_described_as_approximate_under_an_environment() {
     assert!(text.contains(&format!("KHR_materials_anisotropy ({note})")), "{text}");
 }
 
-/// A material with everything that a material can have, with some values out of range.
+/// Returns a material with every member that a material can have. Some values are out of range.
 fn material_with_all_extensions() -> Value {
     let transform = json!({"KHR_texture_transform": {"offset": [0.5, 0], "texCoord": 1}});
     let texture = |index: usize| json!({"index": index, "texCoord": 0});

@@ -1,4 +1,4 @@
-//! Several views in one picture, backgrounds, copies and changed materials, camera paths.
+//! Several views in one picture, backgrounds, copies, changed materials and camera paths.
 
 use crate::sandbox::Sandbox;
 use crate::vector_files::{PagePoint, parse_svg};
@@ -54,8 +54,7 @@ fn a_viewport_matches_its_cameras_own_picture() {
     assert_eq!(sandbox.read_picture("part.png").2, cut_out(&all, [15, 5, 50, 40]));
 }
 
-/// In a drawing, a view is exactly its camera's drawing in its rectangle; everything under it is
-/// erased.
+/// In a drawing, a view is exactly its camera's drawing. Everything under its rectangle is erased.
 #[test]
 fn a_viewport_in_a_drawing_has_the_lines_of_its_camera() {
     let sandbox = Sandbox::new("drawn_viewports");

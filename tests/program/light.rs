@@ -4,7 +4,7 @@ use crate::sandbox::Sandbox;
 
 type Pixels = Vec<[u8; 4]>;
 
-/// A sandbox with a model, and its pictures with flags.
+/// Returns a sandbox with a model.
 fn sandbox_with_model(name: &str, model: &str) -> Sandbox {
     let sandbox = Sandbox::new(name);
     sandbox.copy_model(model);

@@ -3,10 +3,10 @@
 //! except for one pixel in a hundred. The test is reported as skipped if `shared/assets` is
 //! missing.
 //!
-//! Each pixel's position and normal come from the passes. From there, one ray is cast toward the sun and
-//! eight more around it, four texels of the shadow map apart. If all nine are blocked by something
-//! other than the surface itself, filtering the map cannot let light in. If none is blocked,
-//! filtering cannot keep light out.
+//! Each pixel's position and normal come from the passes. From there, one ray is cast toward the
+//! sun, and eight more around it, four texels of the shadow map apart. If all nine are blocked by
+//! something other than the surface itself, filtering the map cannot let light in. If none is
+//! blocked, filtering cannot keep light out.
 
 use crate::asset_models::asset_path;
 use glam::DVec3;
@@ -47,8 +47,8 @@ impl Occluder {
         Self { diagonal: (greatest - least).length(), triangles }
     }
 
-    /// Whether a ray hits something beyond this distance from its start (Möller and Trumbore,
-    /// 1997).
+    /// Returns whether a ray hits something beyond this distance from its start (Möller and
+    /// Trumbore, 1997).
     fn blocks_ray(&self, from: DVec3, along: DVec3, least: f64) -> bool {
         self.triangles.iter().any(|[a, b, c]| {
             let (u, v) = (*b - *a, *c - *a);
@@ -80,7 +80,7 @@ fn scene_with_sun(model: &Arc<Model>, travel: DVec3, shadows: &str) -> Scene {
     Scene::from_models(&origin, &file, &[placed]).expect("a valid scene")
 }
 
-/// The number of pixels that rays find dark and lit.
+/// The numbers of pixels that are dark and lit according to the rays.
 #[derive(Default)]
 struct RayCounts {
     away: usize,
@@ -152,7 +152,7 @@ fn no_light_leaks_through_closed_models() {
         }
         let RayCounts { away, dark, light, spots } = found;
         assert!(away > 100 && dark > 60 && light > 60, "{name}: {away} {dark} {light}");
-        // On saddle surfaces, single pixels are below the planes of adjacent triangles.
+        // On saddle surfaces, individual pixels are below the planes of adjacent triangles.
         assert!(spots * 100 <= light, "{name}: {spots} of {light} lit pixels are too dark");
     }
 }

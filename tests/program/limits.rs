@@ -15,7 +15,7 @@ fn refusal(name: &str, scene: &str) -> String {
 }
 
 #[test]
-fn a_scene_cannot_request_hours_of_pixels() {
+fn a_scene_cannot_request_hours_of_rendering() {
     let scene = "Scene(models: [(path: \"crate.glb\")], image: (size: (1048576, 1048576)))";
     let message = refusal("many_pixels", scene);
     assert!(message.contains("the picture has 1048576 x 1048576 pixels"), "{message}");

@@ -13,7 +13,7 @@ mod batch_hostile;
 mod batch_lists;
 mod batch_page;
 mod batch_workers;
-// Not about the program; it is here so that the engine is linked only once.
+// This module does not test the program. It is here so that the engine is linked only once.
 #[path = "../book_formulas/mod.rs"]
 mod book_formulas;
 mod calibrated_cameras;

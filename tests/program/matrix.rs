@@ -1,4 +1,4 @@
-//! `alberti matrix`.
+//! Tests `alberti matrix`.
 
 use crate::sandbox::Sandbox;
 use serde_json::{Value, json};

@@ -10,7 +10,7 @@ struct Part {
     triangles: Vec<[usize; 3]>,
 }
 
-/// Returns a turned part: a closed profile of radius and height around the z axis.
+/// Returns a solid of revolution: a closed profile of radius and height around the z axis.
 fn turned_part() -> Part {
     const PROFILE: [[f32; 2]; 6] =
         [[10.0, 0.0], [20.0, 0.0], [20.0, 5.0], [14.0, 9.0], [14.0, 20.0], [10.0, 20.0]];

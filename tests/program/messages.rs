@@ -103,7 +103,7 @@ fn invalid_values_are_also_located() {
 }
 
 #[test]
-fn a_missing_camera_is_reported_with_the_existing_ones() {
+fn a_missing_camera_is_reported_with_the_existing_cameras() {
     let sandbox = Sandbox::new("cameras");
     sandbox.copy_model("room.glb");
     let run = sandbox.run(&["render", "room.glb", "--camera", "nobody", "--size", "16x16"]);
@@ -115,8 +115,8 @@ fn a_missing_camera_is_reported_with_the_existing_ones() {
     );
 }
 
-/// While a large picture is drawn, the terminal shows the stage, the seconds and the fraction done;
-/// afterward, no trace of them remains.
+/// While a large picture is drawn, the terminal shows the stage, the elapsed seconds and the
+/// completed fraction. Afterward, they are erased.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_terminal_shows_the_progress_of_a_large_picture() {

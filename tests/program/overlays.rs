@@ -1,5 +1,5 @@
-//! Overlays and classical projections: vanishing points, the horizon and the axes are at the
-//! positions from the formulas.
+//! Overlays and classical projections: vanishing points, the horizon and the axes are where the
+//! formulas place them.
 
 use crate::sandbox::Sandbox;
 use crate::vector_files::{Layers, PagePoint, parse_svg, point_bounds};
@@ -21,13 +21,13 @@ fn draw_overlays(sandbox: &Sandbox, camera: &str, overlays: &str) -> (PagePoint,
     ([page[0] / 2.0, page[1] / 2.0], layers)
 }
 
-/// Returns the layers whose names end like this.
+/// Returns the layers whose names end with this suffix.
 fn layers_ending_in<'a>(layers: &'a Layers, end: &str) -> Vec<&'a Vec<PagePoint>> {
     let chosen = layers.iter().filter(|(id, _)| id.starts_with("overlay-") && id.ends_with(end));
     chosen.flat_map(|(_, lines)| lines).collect()
 }
 
-/// Converts a point on the page to half heights of the picture from its center, with y up.
+/// Converts a point on the page to an offset from the picture's center, in half heights, with y up.
 fn to_half_heights(point: PagePoint, half: PagePoint) -> PagePoint {
     [(point[0] - half[0]) / half[1], (half[1] - point[1]) / half[1]]
 }

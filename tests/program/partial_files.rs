@@ -8,13 +8,13 @@ use std::os::unix::process::ExitStatusExt as _;
 use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
-/// Starts a slow picture, and waits for its temporary file.
+/// Starts rendering a slow picture, and waits for its temporary file.
 fn start_picture(sandbox: &Sandbox) -> Child {
     let mut child = sandbox.start(&["render", "house.glb", "--size", "16000x16000", "-o", "a.png"]);
     let begin = Instant::now();
     while parts_of(sandbox).is_empty() {
         assert!(begin.elapsed() < Duration::from_secs(60), "there is no temporary file");
-        assert!(child.try_wait().expect("its state").is_none(), "the run has ended");
+        assert!(child.try_wait().expect("the process has a state").is_none(), "the run has ended");
         std::thread::sleep(Duration::from_millis(10));
     }
     child
@@ -32,7 +32,7 @@ fn send_signal(child: &Child, signal: &str) {
 /// Returns the id of a process that has ended.
 fn dead_process() -> u32 {
     let mut child = Command::new("true").spawn().expect("a process");
-    child.wait().expect("its end");
+    child.wait().expect("the process exits");
     child.id()
 }
 
@@ -48,7 +48,7 @@ fn a_signal_leaves_no_temporary_file() {
         }
         let mut child = start_picture(&sandbox);
         send_signal(&child, signal);
-        let status = child.wait().expect("it ends");
+        let status = child.wait().expect("the process exits");
         assert_eq!(status.signal(), Some(number), "{signal}: {status}");
         assert_eq!(sandbox.file_names(), ["a.png", "house.glb"], "{signal}");
     }
@@ -63,7 +63,7 @@ fn the_next_run_removes_the_files_of_a_killed_run() {
     sandbox.copy_model("house.glb");
     let mut child = start_picture(&sandbox);
     send_signal(&child, "-KILL");
-    child.wait().expect("it ends");
+    child.wait().expect("the process exits");
     assert_eq!(parts_of(&sandbox), [format!("a.png.{}.part", child.id())]);
     // A file that another run is writing, and a file for another output.
     let alive = format!("a.png.{}.part", std::process::id());

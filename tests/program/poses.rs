@@ -24,8 +24,8 @@ fn assert_near(actual: &Value, expected: &[f64], what: &str) {
     assert!(near, "{what}: {found:?} instead of {expected:?}");
 }
 
-/// A square whose node moves linearly, turns linearly and grows by a cubic spline, whose second
-/// node steps, and whose weights, material, light and camera also change.
+/// Writes a square whose node moves and turns linearly and grows by a cubic spline. A second node
+/// moves in steps, and the weights, the material, the light and the camera also change.
 fn write_animated_model(sandbox: &Sandbox) {
     let mut document = GltfBuilder::square();
     let [zero_to_two, steps] =

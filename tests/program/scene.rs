@@ -106,7 +106,7 @@ fn check_with_fields(sandbox: &Sandbox, rest: &str) -> (i32, String) {
 }
 
 /// Fields for a scene with a crate that are valid but probably unintended: the code of the warning,
-/// its location (empty for any), and words from it.
+/// its location (empty for any), and words from its message.
 const SUSPICIOUS: &[(&str, &str, &str, &str)] = &[
     (
         "camera: (view: LookTo(eye: (0, 0.5, 6), gaze: (0, 0, 1)), projection: Perspective(near: 0.1, far: 100))",

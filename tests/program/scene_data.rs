@@ -20,7 +20,7 @@ const CASES: u64 = 10_000;
 
 /// Finds all scene files in a folder and its subfolders.
 fn scene_files(folder: PathBuf, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).expect("the folder is there") {
+    for entry in fs::read_dir(folder).expect("the folder can be read") {
         let path = entry.expect("the folder can be read").path();
         if path.is_dir() {
             scene_files(path, found);
@@ -38,7 +38,7 @@ fn plain_ron_reads_every_scene_in_the_repository() {
     }
     assert!(paths.len() > 110, "{}", paths.len());
     for path in paths {
-        let text = fs::read_to_string(&path).expect("the scene is there");
+        let text = fs::read_to_string(&path).expect("the scene can be read");
         let scene: SceneFile = scene_ron_options()
             .from_str(&text)
             .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
@@ -67,7 +67,7 @@ fn random_scenes_survive_a_round_trip() {
     assert!(read > count / 2, "only {read} scenes can be read");
 }
 
-/// Checks that a scene is unchanged after RON, formatted by `to_ron` and compact, and after JSON.
+/// Checks that a scene survives round trips through RON, formatted and compact, and through JSON.
 #[track_caller]
 fn assert_reads_back(scene: &SceneFile, name: &str) {
     let text = scene.to_ron().expect(name);
@@ -81,8 +81,11 @@ fn assert_reads_back(scene: &SceneFile, name: &str) {
 #[test]
 fn default_values_are_not_written() {
     let scene = SceneFile::from_model_path("a.glb".to_owned());
-    assert_eq!(scene.to_ron().expect("it is written"), "Scene(models: [(path: \"a.glb\")])\n");
-    let json = serde_json::to_string(&scene).expect("it is written");
+    assert_eq!(
+        scene.to_ron().expect("the scene can be written"),
+        "Scene(models: [(path: \"a.glb\")])\n"
+    );
+    let json = serde_json::to_string(&scene).expect("the scene can be written");
     assert_eq!(json, r#"{"models":[{"path":"a.glb"}]}"#);
 }
 
@@ -130,7 +133,7 @@ fn every_type_of_a_public_field_can_be_named() {
     ]
     .map(read);
     let mut known: Vec<&str> = vec!["Option", "Vec", "String", "Box", "Self"];
-    // Items begin a line: `shade::ImageFit`.
+    // Items are at the beginning of a line: `shade::ImageFit`.
     let items = others.iter().flat_map(|other| other.lines()).chain(listing.lines());
     let items = items.filter(|line| !line.starts_with(' '));
     known.extend(items.filter_map(|line| line.split_whitespace().next()?.rsplit("::").next()));

@@ -6,7 +6,7 @@ use crate::vector_files::{Layers, PagePoint, layer_bounds, parse_svg};
 
 /// The layers of a cut box of 100 × 50 × 30 mm.
 #[test]
-fn sections_cut_drawings_open() {
+fn sections_cut_through_models_in_drawings() {
     let sandbox = Sandbox::new("sections");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let layers = |flags: &[&str]| {
@@ -125,7 +125,7 @@ fn sheets_show_cuts_in_the_view_that_faces_them() {
     let along = layers["cut-lines"].iter().find(|line| line[0][1] == line[1][1]).expect("a line");
     assert_near(along[0][1] - low[1], 10.0);
     assert_near((along[1][0] - along[0][0]).abs(), 108.0);
-    // The hatching is spaced according to the style at any scale: 2 mm, perpendicular to the lines.
+    // The hatch spacing follows the style at any scale: 2 mm, perpendicular to the lines.
     let mut at: Vec<f64> =
         layers["front-visible-hatching"].iter().map(|line| line[0][0] + line[0][1]).collect();
     at.sort_by(f64::total_cmp);

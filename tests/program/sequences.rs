@@ -1,11 +1,11 @@
-//! `alberti animate`.
+//! Tests `alberti animate`.
 
 use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
 use serde_json::json;
 use std::process::{Command, Stdio};
 
-/// A red square that moves two units to the right within a second.
+/// Writes a model with a red square that moves two units to the right within a second.
 fn write_moving_model(sandbox: &Sandbox) {
     let mut document = GltfBuilder::square();
     let times = document.add_floats("SCALAR", &[0.0, 1.0]);
@@ -129,7 +129,7 @@ fn invalid_sequences_are_rejected() {
     }
 }
 
-/// With a camera path, `render --time` gives the same picture as the frame of `animate` at that
+/// With a camera path, `render --time` produces the same picture as the frame of `animate` at that
 /// time.
 #[test]
 fn a_still_of_a_camera_path_matches_the_frame_at_its_time() {

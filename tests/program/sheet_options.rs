@@ -6,7 +6,7 @@ use crate::sandbox::Sandbox;
 use alberti_tests::skip::report_skip;
 use std::process::Command;
 
-/// Draws a sheet of a box of 100 × 50 × 30 mm with these fields.
+/// Writes a scene whose sheet shows a box of 100 × 50 × 30 mm and has these fields.
 fn write_scene(sandbox: &Sandbox, name: &str, fields: &str) {
     let text = format!("Scene(models: [(path: \"box.gltf\")], sheet: Sheet({fields}))");
     sandbox.write_file(name, text);
@@ -102,7 +102,7 @@ fn pdf_text_is_found_by_another_reader() {
 }
 
 #[test]
-fn a_custom_title_block_is_read_or_its_mistake_shown() {
+fn a_custom_title_block_is_read_or_its_mistake_is_shown() {
     let sandbox = Sandbox::new("sheet_block");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     write_scene(&sandbox, "scene.ron", "title: \"Box\", title_block: \"block.svg\"");
@@ -141,7 +141,7 @@ fn a_custom_title_block_is_read_or_its_mistake_shown() {
 }
 
 #[test]
-fn invalid_numbers_are_mistakes() {
+fn invalid_numbers_are_reported() {
     let sandbox = Sandbox::new("sheet_numbers");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     for (fields, told) in [

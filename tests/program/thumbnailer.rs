@@ -49,8 +49,8 @@ fn both_files_are_installed_for_a_user_and_removed_again() {
             assert!(path.is_file(), "{name}");
             assert!(said.contains(&format!("wrote {}\n", path.display())), "{said}");
         }
-        // If update-mime-database is installed, its database has the one format that Debian's
-        // lacks.
+        // If update-mime-database is installed, its database has the mesh formats, one of which
+        // Debian's database lacks.
         if said.contains("\nran update-mime-database ") {
             let globs = std::fs::read_to_string(data.join("mime/globs2")).expect("a database");
             for glob in ["50:model/x-ply:*.ply", "60:model/obj:*.obj", "50:model/stl:*.stl"] {
@@ -206,7 +206,7 @@ fn broken_and_huge_inputs_end_without_a_picture() {
 fn an_input_that_never_arrives_times_out() {
     let sandbox = Sandbox::new("thumbnailer_time");
     let mut child = sandbox.start(&["thumbnailer", "-", "out.png", "--max-seconds", "1"]);
-    // The pipe is held open: the program waits for bytes, and this cannot be canceled.
+    // The pipe is held open: the program waits for bytes, and the wait cannot be canceled.
     let pipe = child.stdin.take();
     let run = RunResult::of(child.wait_with_output().expect("the program ends"));
     drop(pipe);
@@ -217,12 +217,12 @@ fn an_input_that_never_arrives_times_out() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn the_system_ends_a_thumbnail_that_needs_more_memory() {
+fn the_system_kills_a_thumbnailer_that_needs_more_memory() {
     let sandbox = Sandbox::new("thumbnailer_memory");
     sandbox.copy_model("crate.glb");
     let flags = ["--size", "4096", "--max-memory-bytes", "64MiB"];
     let child = sandbox.start(&[&["thumbnailer", "crate.glb", "out.png"], &flags[..]].concat());
     let output = child.wait_with_output().expect("the program ends");
-    assert!(!output.status.success(), "the pixels take 64 MiB by themselves");
+    assert!(!output.status.success(), "the pixels by themselves take 64 MiB");
     assert_eq!(sandbox.file_names(), ["crate.glb"]);
 }

@@ -1,5 +1,5 @@
-//! Flags without effect on a picture are reported; warnings about things that the picture would not
-//! show are not.
+//! Flags without effect on a picture are reported. Warnings about things that the picture does not
+//! show are omitted.
 
 use crate::sandbox::Sandbox;
 
@@ -64,7 +64,7 @@ fn the_json_report_contains_the_warnings() {
     assert_eq!(run.stderr, "");
 }
 
-/// A file that uses an extension that is drawn only in part.
+/// Returns a glTF file that uses the extension `name`, which is drawn only in part.
 fn partly_drawn(name: &str) -> String {
     format!(
         r#"{{"asset": {{"version": "2.0"}}, "extensionsUsed": ["{name}"], "scene": 0,

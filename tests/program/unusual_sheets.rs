@@ -1,4 +1,4 @@
-//! Sheets of models that are empty, open or oddly named: a correct drawing or a message.
+//! Sheets of models that are empty, open or oddly named give a correct drawing or a message.
 
 use crate::sandbox::{RunResult, Sandbox};
 

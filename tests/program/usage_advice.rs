@@ -8,8 +8,8 @@ fn sandbox_with_teapot(name: &str) -> Sandbox {
     sandbox
 }
 
-/// Whether a message contains these words, or the words with the test's model in place of the
-/// example's.
+/// Returns whether a message contains these words, as written or with the test's model in place of
+/// the example's.
 fn tells(message: &str, words: &str) -> bool {
     message.contains(words) || message.contains(&words.replace("model.glb", "teapot.glb"))
 }
@@ -120,7 +120,7 @@ fn tips_are_never_misleading() {
     let sandbox = sandbox_with_teapot("tips");
     let unknown = sandbox.run(&["render", "teapot.glb", "--lenient", "--qwerty"]);
     assert!(!unknown.stderr.contains("tip:"), "{}", unknown.stderr);
-    // The usage would claim that `--lenient` is required.
+    // The usage line would claim that `--lenient` is required.
     assert!(!unknown.stderr.contains("Usage:"), "{}", unknown.stderr);
     let cel = sandbox.run(&["render", "teapot.glb", "--style", "cel"]);
     assert!(cel.stderr.contains("`--style toon`\n"), "{}", cel.stderr);
@@ -369,7 +369,7 @@ fn values_from_other_programs_are_translated() {
     }
 }
 
-/// The action is reported if it is probably not the intended one.
+/// An action that is probably unintended is reported.
 #[test]
 fn flags_without_effect_cause_warnings() {
     let sandbox = sandbox_with_teapot("idle_flags");

@@ -76,7 +76,7 @@ fn a_scene_is_selected_by_name_or_number() {
 }
 
 #[test]
-fn missing_choices_are_reported_with_the_available_ones() {
+fn unknown_choices_are_reported_with_the_available_choices() {
     let sandbox = Sandbox::new("no_such_variant");
     write_variants_model(&sandbox);
     for (flag, wanted, offered) in [

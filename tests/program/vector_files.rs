@@ -28,7 +28,7 @@ pub(crate) fn parse_svg(text: &str) -> (PagePoint, Layers) {
             (None, Some(path)) => {
                 layers.entry(layer.clone()).or_default().extend(parse_path(&path));
             }
-            (None, None) => panic!("neither id nor path: {tag}"),
+            (None, None) => panic!("expected an id or a path in {tag}"),
         }
     }
     let count = ids.len();
@@ -55,7 +55,7 @@ fn parse_path(path: &str) -> Vec<Vec<PagePoint>> {
         rest = &rest[end..];
         match command {
             'M' | 'm' => {
-                let [x, y] = numbers[..] else { panic!("one point: {path}") };
+                let [x, y] = numbers[..] else { panic!("expected one point in {path}") };
                 at = if command == 'M' { [x, y] } else { [at[0] + x, at[1] + y] };
                 start = at;
                 lines.push(vec![at]);
@@ -63,7 +63,7 @@ fn parse_path(path: &str) -> Vec<Vec<PagePoint>> {
             }
             'z' => at = start,
             'h' | 'v' | 'l' => {}
-            other => panic!("the command {other}"),
+            other => panic!("unsupported command {other}"),
         }
         let line = lines.last_mut().expect("a path begins with M");
         let steps: Vec<PagePoint> = match command {
@@ -139,7 +139,7 @@ fn drawn_lines(content: &str, height: f64) -> Vec<Vec<PagePoint>> {
             continue;
         }
         let point = || {
-            let [.., x, y] = stack[..] else { panic!("a point before {word}") };
+            let [.., x, y] = stack[..] else { panic!("expected a point before {word}") };
             let [a, b, c, d, e, f] = map;
             [(a * x + c * y + e) * POINT, height - (b * x + d * y + f) * POINT]
         };

@@ -18,8 +18,7 @@ use tracer::{Camera, Shape, Surface, World};
 
 /// The width and height of the pictures.
 const SIZE: (u32, u32) = (320, 240);
-/// The number of segments around the spheres, whose outline is within a hundredth of a pixel of a
-/// circle.
+/// The number of segments around the spheres. Their outline is within 0.01 pixels of a circle.
 const SEGMENTS: u32 = 192;
 
 /// Computes all references and writes them to a folder, with the models below `models`.
@@ -38,7 +37,7 @@ pub fn write_references(folder: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Returns the scenes by name.
+/// Returns the scenes with their names.
 fn worlds() -> Vec<(&'static str, World)> {
     let gray = [0.5; 3];
     let gold = [1.0, 0.76, 0.33];

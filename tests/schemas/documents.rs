@@ -39,7 +39,7 @@ impl Call {
         Self::with_paths(schema, line, &[])
     }
 
-    /// Creates a call in which the words `@` are paths, in this order.
+    /// Creates a call in which each word `@` is replaced by the next of these paths.
     fn with_paths(schema: &'static str, line: &str, paths: &[&Path]) -> Self {
         let mut paths = paths.iter().map(|path| path.to_string_lossy().into_owned());
         let word = |word: &str| match word {
@@ -133,7 +133,7 @@ pub fn all_calls(folder: &Path) -> Result<Vec<Call>, String> {
     Ok(calls)
 }
 
-/// Calls that each cover a special case.
+/// Returns calls that each cover a special case.
 fn other_calls() -> Vec<Call> {
     let mut calls: Vec<Call> = [
         ("render", "render crate.glb --json -o a.svg"),

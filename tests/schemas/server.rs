@@ -56,7 +56,7 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // The server may already have ended.
+        // The server may already have exited.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

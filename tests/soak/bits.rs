@@ -19,7 +19,7 @@ impl Bits {
         mixed(self.state)
     }
 
-    /// Returns bits that depend on the state and differ from all that follow.
+    /// Returns bits that depend on the state and differ from all later bits.
     pub fn peek(&self) -> u64 {
         mixed(self.state ^ 0x5bd1_e995)
     }

@@ -1,4 +1,4 @@
-//! Cameras, framing, stereo and screens.
+//! Functions for cameras, framing, stereo and screens.
 
 use crate::finite::Finite;
 use crate::random::Random;

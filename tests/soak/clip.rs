@@ -1,4 +1,4 @@
-//! Clipping: for any points and any volume, the result is finite.
+//! Functions for clipping. For any points and any volume, the result must be finite.
 
 use crate::finite::Finite;
 use crate::random::Random;
@@ -14,7 +14,7 @@ pub const SUBJECTS: &[Subject] = &[
         let (volume, point) = (volume(r), r.hpoint());
         let code = volume.outcode(point);
         let finite = point.is_finite();
-        // Compares plane by plane where the sum of four products has a definite sign.
+        // Each plane is compared only where the sign of the sum of four products is certain.
         let agrees = |i: PlaneIndex| {
             let distance = volume.plane(i).map_or(0.0, |plane| plane.evaluate(point));
             let certain = distance.is_finite() && i <= PlaneIndex::FAR;

@@ -1,4 +1,4 @@
-//! Points, maps and remappings.
+//! Functions for points, maps and remappings.
 
 use crate::finite::Finite;
 use crate::random::Random;

@@ -1,10 +1,10 @@
-//! Makes millions of random calls of every fallible function: nothing may panic, and finite input
+//! Makes millions of random calls to every fallible function: nothing may panic, and finite input
 //! must give finite output.
 //!
 //! `cargo xtask soak [--calls N] [--seed S] [NAME…]` runs it in release mode; arguments select
-//! functions by part of their name. `cargo xtask soak --scenes MINUTES [--seed S]` renders random
-//! scenes instead. A call draws its arguments from a generator whose entire state is one number. A
-//! failed call is repeated from that number to print its arguments.
+//! functions whose names contain them. `cargo xtask soak --scenes MINUTES [--seed S]` renders
+//! random scenes instead. A call draws its arguments from a generator whose entire state is one
+//! number. A failed call is repeated from that number to print its arguments.
 
 #![allow(clippy::print_stdout, reason = "a program writes to standard output")]
 #![allow(unreachable_pub, reason = "modules of a program cannot be used elsewhere")]

@@ -1,4 +1,4 @@
-//! Every projection builder in every convention.
+//! Functions that build projections, in every convention.
 
 use crate::finite::Finite;
 use crate::random::Random;

@@ -97,7 +97,7 @@ impl Random {
         self.bits.next() >> 63 == 1
     }
 
-    /// Returns any 32 bits, or half of the time a small number.
+    /// Returns arbitrary 32 bits or, half of the time, a small number.
     pub fn count(&mut self) -> u32 {
         let bits = self.bits.next();
         let count = (bits >> 32) as u32;
@@ -190,7 +190,7 @@ fn signed(size: f64, bits: u64) -> f64 {
     if bits & 16 == 0 { size } else { -size }
 }
 
-/// Types that are made of numbers.
+/// Methods that create values made of several numbers.
 impl Random {
     pub fn point<S: Space>(&mut self) -> Point<S> {
         Point::from(self.numbers())

@@ -1,4 +1,4 @@
-//! Rectangles, viewports, paper and picking.
+//! Functions for rectangles, viewports, paper and picking.
 
 use crate::finite::Finite;
 use crate::random::Random;

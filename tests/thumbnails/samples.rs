@@ -49,7 +49,7 @@ pub fn write_samples(folder: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Joins numbers with blanks.
+/// Joins numbers with spaces.
 fn joined<T: ToString>(numbers: &[T]) -> String {
     numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
 }

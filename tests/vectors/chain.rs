@@ -1,4 +1,4 @@
-//! The chain from the world to the screen and back (CA-1, CA-2, PL-1, UN-1, UN-2).
+//! Runners for the chain from the world to the screen and back (CA-1, CA-2, PL-1, UN-1, UN-2).
 
 use crate::vectors::Runner;
 use crate::vectors::explained::check_explained;

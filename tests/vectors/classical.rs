@@ -1,4 +1,4 @@
-//! Classical projections, vanishing points and normalization (MV-1 to VV-2).
+//! Runners for classical projections, vanishing points and normalization (MV-1 to VV-2).
 
 use crate::vectors::Runner;
 use crate::vectors::numbers::{

@@ -1,4 +1,4 @@
-//! Segments and triangles against the canonical volumes (CL-1 to CL-3).
+//! Runners for segments and triangles against the canonical volumes (CL-1 to CL-3).
 
 use crate::vectors::Runner;
 use crate::vectors::numbers::{

@@ -1,5 +1,5 @@
-//! The exercises in the chapter and the misprints in the sources. The result must be the correct
-//! form and must differ from the printed form.
+//! Runners for the exercises in the chapter and the misprints in the sources. The result must be
+//! the correct form and must differ from the printed form.
 
 use crate::vectors::Runner;
 use crate::vectors::chain::check_lookat;
@@ -171,7 +171,7 @@ fn check_correct_and_printed(
 ) -> Result<(), String> {
     compare_matrix(ours, out, correct)?;
     match assert_matrix_close(printed, ours, parse_matrix(&out[printed])?, TOLERANCE) {
-        Ok(()) => Err(format!("is the form called {printed}")),
+        Ok(()) => Err(format!("matches the printed form {printed}")),
         Err(_) => Ok(()),
     }
 }

@@ -1,4 +1,4 @@
-//! Hidden intervals of edges (HL-1).
+//! Runners for hidden intervals of edges (HL-1).
 
 use crate::vectors::Runner;
 use crate::vectors::numbers::{parse_array, parse_number, parse_numbers, zip_arrays};
@@ -49,8 +49,8 @@ fn check_hidden_lines(input: &Value, out: &Value) -> Result<(), String> {
 /// The side length of the picture in pixels, which are the unit of tolerances.
 const IMAGE_SIDE: u32 = 1 << 20;
 
-/// Half the window at distance 1, large because edges would be clipped at the sides of the picture,
-/// but are not clipped in the vectors.
+/// Half the window at distance 1. It is large because, unlike the drawing, the vectors do not clip
+/// edges at the sides of the picture.
 const HALF_WINDOW: f64 = 4096.0;
 
 fn parse_view_projection(input: &Value) -> Result<ViewProjection, String> {

@@ -1,4 +1,5 @@
-//! Homogeneous points and maps (HO-1 to HO-5), and segments under perspective (IN-1, IN-2).
+//! Runners for homogeneous points and maps (HO-1 to HO-5), and segments under perspective (IN-1,
+//! IN-2).
 
 use crate::vectors::Runner;
 use crate::vectors::numbers::{

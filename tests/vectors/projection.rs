@@ -1,4 +1,5 @@
-//! Projection matrices, fields of view and depth (OR-1 to LW-3, D3D-1 to IV-1, FOV-1, ZP-1).
+//! Runners for projection matrices, fields of view and depth (OR-1 to LW-3, D3D-1 to IV-1, FOV-1,
+//! ZP-1).
 
 use crate::vectors::Runner;
 use crate::vectors::numbers::{
@@ -46,7 +47,7 @@ fn builder_convention(builder: &str) -> Convention {
     }
 }
 
-/// Returns the matrix that the named builder makes, and the closed-form inverse.
+/// Returns the matrix from the named builder, and its closed-form inverse.
 pub fn build_projection(case: &Value) -> Result<BuiltMatrices, String> {
     let builder = text_field(case, "builder")?;
     if builder.starts_with("perspective") {

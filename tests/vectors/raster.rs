@@ -1,4 +1,4 @@
-//! Coverage and interpolated values (RA-1, RA-2, IN-2).
+//! Runners for coverage and interpolated values (RA-1, RA-2, IN-2).
 //!
 //! Coverage must agree sample by sample. Depth and weights are intentionally stored as f32, so they
 //! are compared at f32 precision.

@@ -1,4 +1,5 @@
-//! Windows, viewports, grids and depth ranges (LI-1, WI-2, WI-3, VP-1 to VP-4, WV-1 to WV-4, DP-1).
+//! Runners for windows, viewports, grids and depth ranges (LI-1, WI-2, WI-3, VP-1 to VP-4, WV-1 to
+//! WV-4, DP-1).
 
 use crate::vectors::Runner;
 use crate::vectors::numbers::{
@@ -138,18 +139,18 @@ pub fn full_image_viewport(case: &Value) -> Result<Result<Viewport, ViewportErro
     let y = match text_field(case, "y")? {
         "up" => YAxis::Up,
         "down" => YAxis::Down,
-        other => return Err(format!("y is {other}")),
+        other => return Err(format!("unknown y direction {other}")),
     };
     let centres = match text_field(case, "centers")? {
         "integer" => PixelCenters::Integer,
         "half" => PixelCenters::Half,
-        other => return Err(format!("centers is {other}")),
+        other => return Err(format!("unknown pixel centers {other}")),
     };
     let depth = match case["depth"].as_str() {
         None | Some("keep") => DepthRange::KEEP,
         Some("zero_one") => DepthRange::ZERO_ONE,
         Some("zero_one_flipped") => DepthRange::ZERO_ONE_FLIPPED,
-        Some(other) => return Err(format!("depth is {other}")),
+        Some(other) => return Err(format!("unknown depth range {other}")),
     };
     let image = Viewport::chapter(count_field(case, "nx")?, count_field(case, "ny")?);
     let convention = PixelConvention { y, centers: centres };

@@ -25,7 +25,7 @@ fn libraries() -> impl Iterator<Item = &'static str> {
     crate::tidy::LAYERS.iter().map(|(name, _)| *name).filter(|name| *name != "alberti")
 }
 
-/// Rustdoc's pages differ between compilers; the listings use the supported one.
+/// The compiler version of the listings. Rustdoc's pages differ between versions.
 const COMPILER: &str = "1.95";
 
 const FOLDER: &str = "docs/api";
@@ -48,7 +48,7 @@ pub fn run_api(arguments: &[String]) -> Outcome {
         );
         return Ok(());
     }
-    // The same command as in the step `docs`, so that nothing is built twice.
+    // This is the command of the step `docs`, so that nothing is built twice.
     let mut docs = cargo_command(&["doc", "--quiet", "--workspace", "--no-deps"]);
     capture_output(docs.env("RUSTDOCFLAGS", "-D warnings"))?;
     create_folder(&project_root().join(FOLDER))?;

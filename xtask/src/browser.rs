@@ -1,5 +1,5 @@
-//! `cargo xtask browser`: tests the explorer's page in a real browser, rendered by the program and
-//! by WebAssembly.
+//! `cargo xtask browser`: tests the explorer's page in a real browser, with pictures from the
+//! program and from WebAssembly.
 //!
 //! The tests are in `tests/browser/main.mjs`. They need Chromium, Node and two npm packages, which
 //! are fetched once. Tests whose tools are missing are reported as skipped.

@@ -1,5 +1,4 @@
-//! `cargo xtask conformance`: writes the table of the sources' topics and the tests that prove
-//! them.
+//! `cargo xtask conformance`: writes the table of the sources' topics and their tests.
 //!
 //! The table, `tests/CONFORMANCE.md`, is generated from the source text of the tests. With
 //! `--check` it is compared instead of written. In both modes, the command fails if a math crate

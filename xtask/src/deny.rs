@@ -3,7 +3,7 @@
 //!
 //! It checks licenses, sources, duplicate versions and `rust-version` with `cargo metadata`, for
 //! the workspace and the other shipped packages. `cargo deny` reads the same file and runs too if
-//! it is installed. It is not required, because building it takes longer than all tests here.
+//! it is installed. It is not required, because building it takes longer than running all tests.
 //! Advisories are not checked, because they need the network.
 
 mod license;
@@ -171,8 +171,8 @@ fn floors_of_packages(floor: &str) -> Result<Vec<String>, String> {
     Ok(faults)
 }
 
-/// Reports whether the tests run with the oldest supported compiler. Only then is its support
-/// tested.
+/// Reports whether the tests run with the oldest supported compiler. Only then is support for that
+/// compiler tested.
 fn print_compiler(floor: &str) -> Outcome {
     let compiler = std::env::var_os("RUSTC").unwrap_or("rustc".into());
     let text = capture_output(Command::new(compiler).arg("--version").current_dir(project_root()))?;

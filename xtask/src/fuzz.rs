@@ -1,4 +1,4 @@
-//! `cargo xtask fuzz`: feeds the fuzz targets with input that libFuzzer generates, guided by the
+//! `cargo xtask fuzz`: runs the fuzz targets on input that libFuzzer generates, guided by the
 //! branches that the input reaches.
 //!
 //! ```text

@@ -1,7 +1,8 @@
 //! `cargo xtask`: the developer commands of the workspace, from tests to benchmarks.
 //!
-//! Each command is a module; this file is the table of commands. It does not depend on the crates
-//! that it drives, so that `cargo xtask` builds in seconds and works even when they do not compile.
+//! Each command is a module; this file is the table of commands. The program does not depend on the
+//! crates that it builds and tests, so that `cargo xtask` builds in seconds and works even when
+//! they do not compile.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program prints")]
 #![allow(unreachable_pub, reason = "in a program, `pub` means used by another file")]
 

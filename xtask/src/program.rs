@@ -66,7 +66,7 @@ impl Program {
         Ok(Self { path: folder.join("release").join(name) })
     }
 
-    /// Refers to a program that has already been built.
+    /// Creates a handle to a program that has already been built.
     pub fn at(path: &Path) -> Self {
         Self { path: path.to_owned() }
     }

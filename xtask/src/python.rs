@@ -73,7 +73,7 @@ pub fn run_python(arguments: &[String]) -> Outcome {
 }
 
 /// Renders a picture with the package from the source tree and the library from the workspace
-/// build. Packs no wheel and compiles nothing extra.
+/// build. No wheel is packed, and nothing extra is compiled.
 fn make_first_picture() -> Outcome {
     let folder = target_folder().join("python/first");
     let Some(environment) = VirtualEnvironment::create(&folder.join("environment"))

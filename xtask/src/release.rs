@@ -4,11 +4,11 @@
 //! ```text
 //! release OUT               write everything for users to an empty folder
 //! release --check           do a dry run: build everything twice, in two folders, and test it
-//! release --deb [PROGRAM]   pack the release build or PROGRAM for Debian, and try the package
+//! release --deb [PROGRAM]   pack the release build or PROGRAM for Debian, and test the package
 //! release --crates          pack the crates for the registry without building them
 //! ```
 //! Nothing is published; `RELEASING.md` explains how to do that. The command needs the Debian tools
-//! `tar`, `gzip`, `dpkg-deb`, `sha256sum`, and, to try the package, `debootstrap`.
+//! `tar`, `gzip`, `dpkg-deb`, `sha256sum`, and, to test the package, `debootstrap`.
 
 mod archives;
 mod build;
@@ -134,7 +134,7 @@ fn check_release() -> Outcome {
     debian::try_package(&deb, &Program::at(&programs.dynamic))
 }
 
-/// Packs a program for Debian and tries the package.
+/// Packs a program for Debian and tests the package.
 fn check_debian_package(program: &Program) -> Outcome {
     let release = Release::read()?;
     let folder = target_folder().join("deb");

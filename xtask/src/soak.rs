@@ -3,7 +3,7 @@
 //!
 //! The calls and their inputs are in `tests/soak`. No call may panic, and finite input must give
 //! finite output. `cargo xtask soak --scenes MINUTES` instead renders random scenes that use all
-//! features of scene files: nothing may panic, no pass may contain NaN, and one thread must give
+//! features of scene files: nothing may panic, no pass may contain NaN, and one thread must produce
 //! the same bytes as two.
 
 use crate::Outcome;

@@ -62,7 +62,7 @@ impl ToolChain {
     }
 
     /// Returns a command that runs Cargo in the folder `package`, with this compiler and these
-    /// compiler flags. The results go to the folder `out`.
+    /// compiler flags. The results are written to the folder `out`.
     pub fn cargo_build(&self, package: &Path, flags: &[String], out: &Path) -> Command {
         let mut build = Command::new(&self.cargo);
         build.current_dir(package).args(["build", "--quiet", "--locked", "--release"]);

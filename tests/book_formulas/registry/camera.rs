@@ -1,4 +1,4 @@
-//! Cameras, viewing rays, stereo and intrinsics (CA-1 to CA-3).
+//! Registry entries for cameras, viewing rays, stereo and intrinsics (CA-1 to CA-3).
 
 use super::inputs::{Inputs, give};
 use super::screen::pixels;

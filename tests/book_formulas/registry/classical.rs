@@ -1,4 +1,4 @@
-//! Classical projections, vanishing points and shears (MV-1 to VV-2).
+//! Registry entries for classical projections, vanishing points and shears (MV-1 to VV-2).
 
 use super::Entry;
 use super::inputs::{Answer, Inputs, give};

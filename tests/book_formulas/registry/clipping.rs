@@ -1,4 +1,5 @@
-//! Half-spaces, segments, polygons and interpolation (CL-1 to CL-4, IN-1, IN-2).
+//! Registry entries for half-spaces, segments, polygons and interpolation (CL-1 to CL-4, IN-1,
+//! IN-2).
 
 use super::Entry;
 use super::inputs::{Answer, Inputs, give};

@@ -1,4 +1,5 @@
-//! Depth as a function of distance (GL-1, LW-3, D3D-1 to D3D-6, RV-1, IF-1 to IF-3, ZP-1).
+//! Registry entries for depth as a function of distance (GL-1, LW-3, D3D-1 to D3D-6, RV-1, IF-1 to
+//! IF-3, ZP-1).
 
 use super::Entry;
 use super::inputs::{Answer, Inputs, give};

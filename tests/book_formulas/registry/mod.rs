@@ -1,4 +1,4 @@
-//! The registry: names for use in checks, and the public functions they stand for.
+//! The registry: names for use in checks, and the public functions they refer to.
 //!
 //! No entry repeats its formula. If the crates have no function for a formula, the value comes from
 //! the most closely related function, usually by applying its matrix to a point.
@@ -25,7 +25,7 @@ pub type Extras = Result<Vec<(&'static str, Value)>, Box<dyn std::error::Error>>
 #[derive(Debug)]
 pub struct Entry {
     pub name: &'static str,
-    /// The variable names, separated by blanks.
+    /// The variable names, separated by spaces.
     pub variables: &'static str,
     pub build: fn(&Inputs<'_>) -> Answer,
     pub extras: Option<fn(&Inputs<'_>) -> Extras>,

@@ -1,4 +1,5 @@
-//! The box, the perspective matrix and the field of view (OR-1, PE-1 to PE-3, FOV-1, PR-1).
+//! Registry entries for the box, the perspective matrix and the field of view (OR-1, PE-1 to PE-3,
+//! FOV-1, PR-1).
 
 use super::inputs::{Answer, Inputs, give};
 use super::{Entry, Extras};

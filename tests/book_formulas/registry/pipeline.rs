@@ -1,4 +1,5 @@
-//! The chain and its inverse, and hidden lines (PL-1 to PL-3, UN-1, UN-2, HL-1).
+//! Registry entries for the chain and its inverse, and hidden lines (PL-1 to PL-3, UN-1, UN-2,
+//! HL-1).
 
 use super::camera::camera;
 use super::inputs::{Answer, Inputs, give};

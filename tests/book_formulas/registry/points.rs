@@ -1,4 +1,4 @@
-//! Points, maps and linear remapping (HO-1 to HO-5, LI-1, WI-2, WI-3).
+//! Registry entries for points, maps and linear remapping (HO-1 to HO-5, LI-1, WI-2, WI-3).
 
 use super::Entry;
 use super::inputs::{Answer, Inputs, give};
@@ -58,7 +58,7 @@ pub const ENTRIES: &[Entry] = &[
     }),
 ];
 
-/// Returns the map of a space to itself whose rows are the value of a name.
+/// Returns the map from a space to itself whose matrix is the value of a name.
 pub fn projective(v: &Inputs<'_>, name: &str) -> Result<Projective<World, World>, String> {
     Ok(Projective::from_rows(v.matrix(name)?.to_square()?))
 }

@@ -1,4 +1,5 @@
-//! Viewports, pixel conventions and coverage (VP-1 to VP-4, DP-1, WV-1 to WV-4, RA-1, RA-2).
+//! Registry entries for viewports, pixel conventions and coverage (VP-1 to VP-4, DP-1, WV-1 to
+//! WV-4, RA-1, RA-2).
 
 use super::inputs::{Answer, Inputs, give};
 use super::{Entry, Extras};

@@ -100,7 +100,7 @@ fn triple(numbers: &mut Numbers<'_>) -> [f64; 3] {
     [(); 3].map(|()| number(numbers))
 }
 
-/// Returns a number from any 64 bits, or a number of ordinary size.
+/// Returns a number with arbitrary bits, or a number of ordinary size.
 fn number(numbers: &mut Numbers<'_>) -> f64 {
     match numbers.byte() % 8 {
         0 => f64::from_le_bytes(numbers.take()),

@@ -1,4 +1,4 @@
-//! One case, which must end soon, without a panic, and with little memory.
+//! Runs one case, which must finish quickly, use little memory and not panic.
 
 use nix::sys::resource::{UsageWho, getrusage};
 use peak_alloc::PeakAlloc;
@@ -16,8 +16,8 @@ const LONGEST: Duration = Duration::from_secs(1);
 /// Runs the work of a case.
 ///
 /// # Panics
-/// If it uses too much memory or takes too long. Only processor time counts, because a busy machine
-/// must not fail a case; slow work is repeated to measure it.
+/// If it uses too much memory or takes too long. Only processor time counts, so that a busy machine
+/// does not fail a case. Slow work is run again to measure it.
 pub fn run(work: impl Fn()) {
     MEMORY.reset_peak_usage();
     let before = MEMORY.current_usage();

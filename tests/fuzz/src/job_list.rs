@@ -1,4 +1,4 @@
-//! Job lists for `alberti batch`, which are read with every picture's name and flags but not
+//! Job lists for `alberti batch`. Every picture's name and flags are parsed, but nothing is
 //! rendered.
 
 use std::fs;

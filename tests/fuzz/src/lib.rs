@@ -1,4 +1,4 @@
-//! The work of the fuzz targets, which themselves only pass on their bytes.
+//! The code behind the fuzz targets. The targets only pass on their bytes.
 //!
 //! ```text
 //!  model ───────────────────────► a whole .glb or .gltf ─┐

@@ -1,5 +1,5 @@
-//! Models from bytes, which are loaded, checked against their promises, posed, drawn from a few
-//! sides and encoded.
+//! Loads models from bytes, checks their promises, poses them, and draws and encodes them from a
+//! few sides.
 
 use crate::{glb, promises};
 use homog::Affine;
@@ -25,7 +25,7 @@ fn limits() -> Limits {
     }
 }
 
-/// Loads a file as it is, leniently, and with corrected lengths. It is also checked for errors.
+/// Checks a file, and loads it as it is, leniently, and with corrected lengths.
 pub fn file(bytes: &[u8]) {
     let loaded = load(bytes, ImportOptions::default());
     let has_variants = loaded.as_ref().is_ok_and(|model| !model.variants.is_empty());
@@ -88,8 +88,8 @@ pub fn material_library(bytes: &[u8]) {
     mesh("model.obj", &file);
 }
 
-/// Loads a file and checks it against its promises. It is not drawn, because the decoder's output
-/// is known by then.
+/// Loads a file and checks it against its promises. It is not drawn, because only the decoder is
+/// under test.
 pub fn loaded(bytes: &[u8]) {
     checked(load(bytes, ImportOptions::default()));
 }
@@ -126,7 +126,7 @@ fn draw(model: &Model, style: StyleFile, view: ViewFile) {
     file.camera.view = view;
     let origin = Origin::from_text("model.glb", "", PathBuf::new());
     let placed = ModelInstance { model: Arc::new(model.clone()), model_to_world: Affine::IDENTITY };
-    // A model without anything visible has no picture, and the error says so.
+    // A model with nothing visible gives an error instead of a picture.
     match Scene::from_models(&origin, &file, &[placed]) {
         Ok(scene) => {
             if let Ok(picture) = render(&scene, 1) {

@@ -4,7 +4,7 @@ use crate::glb;
 use serde_json::{Value, json};
 use std::sync::LazyLock;
 
-/// splitmix64.
+/// A splitmix64 generator.
 struct Random(u64);
 
 impl Random {
@@ -20,8 +20,8 @@ impl Random {
     }
 }
 
-/// Returns a variation of the file's JSON with unchanged data, or `None` if it is better to change
-/// bytes.
+/// Returns a variation of the file's JSON with unchanged data, or `None` if the bytes should be
+/// changed instead.
 pub fn file(file: &[u8], seed: u32) -> Option<Vec<u8>> {
     let mut random = Random(seed.into());
     if random.below(4) == 0 {
@@ -46,7 +46,7 @@ fn size(value: &Value) -> usize {
     }
 }
 
-/// Returns the value with this number, counted from the value itself.
+/// Returns the value with this index in depth-first order; the value itself has index 0.
 fn nth(value: &mut Value, mut number: usize) -> Option<&mut Value> {
     if number == 0 {
         return Some(value);

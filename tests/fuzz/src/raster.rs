@@ -1,13 +1,13 @@
-//! Arbitrary triangles, lines and points, which must give the same picture whether drawn whole, in
-//! two parts or at any SIMD level.
+//! Arbitrary triangles, lines and points, which must produce the same picture whether drawn whole,
+//! in two parts or at any SIMD level.
 
 use crate::numbers::Numbers;
 use homog::{PixelRect, Point};
 use raster::{Frame, Opacity, Samples, ScreenVertex, SimdLevel, VisibilityBuffer};
 
 impl Numbers<'_> {
-    /// Returns a coordinate from any 64 bits, or a coordinate near the picture, on the grid or
-    /// between its steps.
+    /// Returns a coordinate with arbitrary bits, or a coordinate near the picture, on or off the
+    /// grid.
     fn number(&mut self) -> f64 {
         match self.byte() % 8 {
             0 => f64::from_le_bytes(self.take()),

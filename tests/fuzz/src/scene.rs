@@ -1,5 +1,5 @@
-//! Scene files, which are parsed, resolved with an existing model, and drawn with one thread and
-//! with two.
+//! Parses scene files, resolves them with an existing model, and draws them with one and two
+//! threads.
 
 use pipeline::{Origin, Scene, SceneFile, render};
 use scene_file::parse_scene;

@@ -25,6 +25,8 @@ static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
     folder
 });
 
+/// Writes a file and creates its folder.
+///
 /// # Panics
 /// If the system's temporary folder is not writable, in which case nothing can be tested.
 fn write_file(path: &Path, bytes: &[u8]) {
@@ -33,7 +35,7 @@ fn write_file(path: &Path, bytes: &[u8]) {
     assert!(written.is_ok(), "{}: {written:?}", path.display());
 }
 
-/// Tests a scene with the files that it includes, which are parts of the bytes in the order of
+/// Tests a scene with the files that it includes. The bytes contain all files in the order of
 /// [`FILES`].
 pub fn included(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };

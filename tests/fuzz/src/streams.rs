@@ -146,7 +146,7 @@ pub fn image(bytes: &[u8]) {
 const CORNERS: &str =
     "data:application/octet-stream;base64,AAECAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAA==";
 
-/// Returns the file for a document, to which it adds the boilerplate.
+/// Adds the boilerplate to a document and returns its file.
 fn whole(mut document: Value, bytes: &[u8]) -> Vec<u8> {
     document["asset"] = json!({"version": "2.0"});
     document["scene"] = json!(0);

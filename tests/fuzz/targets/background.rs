@@ -1,4 +1,6 @@
-//! See `fuzz::scene_files::background`.
+//! Fuzzes background images: see `fuzz::scene_files::background`.
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fuzz::case::run(|| fuzz::scene_files::background(bytes)));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fuzz::case::run(|| fuzz::scene_files::background(
+    bytes
+)));

@@ -1,4 +1,4 @@
-//! See `fuzz::camera::calibrated`.
+//! Fuzzes calibrated cameras: see `fuzz::camera::calibrated`.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fuzz::case::run(|| fuzz::camera::calibrated(bytes)));

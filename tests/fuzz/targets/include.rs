@@ -1,4 +1,4 @@
-//! See `fuzz::scene_files::included`.
+//! Fuzzes included scenes: see `fuzz::scene_files::included`.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fuzz::case::run(|| fuzz::scene_files::included(bytes)));

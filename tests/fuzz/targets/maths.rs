@@ -1,5 +1,5 @@
-//! Arbitrary numbers for every function of the five math crates: the calls in `tests/soak`, with
-//! arguments from the fuzzer's bytes.
+//! Fuzzes every function of the five math crates: makes the calls in `tests/soak`, with arguments
+//! from the fuzzer's bytes.
 #![no_main]
 
 #[path = "maths/bits.rs"]

@@ -1,4 +1,4 @@
-//! See `fuzz::streams::meshopt`.
+//! Fuzzes meshopt streams: see `fuzz::streams::meshopt`.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fuzz::case::run(|| fuzz::streams::meshopt(bytes)));

@@ -1,4 +1,4 @@
-//! See `fuzz::model`, and `fuzz::mutate` for the variations of files.
+//! Fuzzes glTF files: see `fuzz::model`, and `fuzz::mutate` for the variations of files.
 #![no_main]
 
 use libfuzzer_sys::{fuzz_mutator, fuzz_target, fuzzer_mutate};

@@ -1,4 +1,4 @@
-//! See `fuzz::model::mesh`.
+//! Fuzzes OBJ files: see `fuzz::model::mesh`.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fuzz::case::run(|| fuzz::model::mesh(

@@ -1,4 +1,7 @@
-//! See `fuzz::model::mesh`.
+//! Fuzzes STL files: see `fuzz::model::mesh`.
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fuzz::case::run(|| fuzz::model::mesh("model.stl", bytes)));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fuzz::case::run(|| fuzz::model::mesh(
+    "model.stl",
+    bytes
+)));

@@ -1,5 +1,5 @@
-//! The chart, with one bar per contestant for each scene. Its length is the logarithm of the
-//! contestant's time relative to ours.
+//! The chart, with one bar per contestant for each scene. The length of a bar is the logarithm of
+//! the contestant's time relative to ours.
 
 use crate::contest::Heat;
 use crate::measure::Spread;

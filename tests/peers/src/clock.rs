@@ -40,7 +40,7 @@ pub struct Cost {
 }
 
 /// Returns the cost of the programs that this process started and that have ended. Start only one
-/// program, because the peak is that of the largest.
+/// program, because the peak is the maximum over all of them.
 pub fn children(wall: Duration) -> Option<Cost> {
     let usage = getrusage(UsageWho::RUSAGE_CHILDREN).ok()?;
     let time = |t: nix::sys::time::TimeVal| {

@@ -1,5 +1,5 @@
-//! The contests: every scene is drawn by all contestants that support it, then come the limits and
-//! the threads.
+//! Runs the contests: all contestants draw every scene that they support. Then the limits and the
+//! threads are measured.
 
 use crate::clock::{Took, timed};
 use crate::gl::Context;
@@ -194,7 +194,7 @@ pub fn bounds(count: usize) -> Result<Vec<Series>, String> {
 
 /// The gain from a second thread in a scene.
 pub struct Threads {
-    /// The owner of the frame: only the crate, or the whole program.
+    /// The renderer: `raster` (only the crate) or `render` (the whole pipeline).
     pub peer: &'static str,
     /// The scene's name.
     pub scene: &'static str,
@@ -209,7 +209,7 @@ pub struct Threads {
     pub same: bool,
 }
 
-/// A single thread that got less than this fraction of the wall time was disturbed, and its round
+/// If a single thread got less than this fraction of the wall time, it was disturbed, and the round
 /// does not count.
 const ALONE: f64 = 0.97;
 

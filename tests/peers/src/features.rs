@@ -103,7 +103,7 @@ fn scene(fields: &str, image: &str, folder: &Path) -> Result<Scene, String> {
 
 /// Renders the scene repeatedly, reusing the memory of the first rendering.
 fn frames(scene: Scene) -> Result<Box<dyn FnMut()>, String> {
-    // They are leaked, because there are few.
+    // Each scene is leaked. That is acceptable, because there are few.
     let scene: &'static Scene = Box::leak(Box::new(scene));
     let textures = Textures::for_models(&scene.models);
     let mut renderer = Renderer::default();

@@ -103,7 +103,7 @@ fn f3d() -> Result<Viewer, String> {
     Ok(Viewer { name: "f3d", program, display: Some(display) })
 }
 
-/// Returns the first line of f3d's description of itself.
+/// Returns the first line that `f3d --version` prints, if f3d is installed.
 pub fn f3d_version() -> Option<String> {
     let output = Command::new("f3d").arg("--version").output().ok()?;
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -136,7 +136,7 @@ fn contest(
 }
 
 impl Viewer {
-    /// Makes a picture; returns CPU seconds, wall seconds and peak bytes.
+    /// Renders a picture; returns CPU seconds, wall seconds and peak bytes.
     fn picture(&self, model: &Path, out: &Path) -> Result<[f64; 3], String> {
         let stem = model.file_stem().unwrap_or_default().to_string_lossy();
         let picture = out.join(format!("{stem}.{}.png", self.name));

@@ -9,7 +9,7 @@ use crate::report::Figures;
 pub struct Goal {
     /// The comparison.
     pub about: String,
-    /// The owner of the figure: `raster`, `render` or `alberti`.
+    /// The contestant to which the figure applies: `raster`, `render` or `alberti`.
     pub whose: &'static str,
     /// The figure.
     pub reached: Spread,
@@ -51,7 +51,7 @@ const FASTER: [(&str, &str, f64); 14] = [
 /// The models whose CPU time must be at most a fifth of f3d's.
 const HELD_TO_F3D: [&str; 2] = ["flight-helmet", "cave"];
 
-/// Returns the goals that have figures.
+/// Returns the goals for which there are figures.
 pub fn goals(figures: &Figures) -> Vec<Goal> {
     let mut found = faster(figures);
     found.extend(instructions(figures));

@@ -11,7 +11,7 @@ const TILE: usize = 64 * 64;
 /// The number of pixels that the kernel fills, as many as fifty layers have.
 pub const KERNEL_PIXELS: usize = 50 * (SIZE.0 * SIZE.1) as usize / TILE * TILE;
 
-/// The number of pictures cleared in turn, which exceed any cache.
+/// The number of pictures cleared in turn. Together, they are larger than any cache.
 const PICTURES: usize = 16;
 
 /// The color and depth buffers of pictures to clear.

@@ -9,7 +9,8 @@
 //!  files  ──► alberti, f3d as processes
 //! ```
 //!
-//! Run by `cargo xtask bench raster`. No figure is asserted; a falling ratio is judged by people.
+//! Run by `cargo xtask bench raster`. No figure is asserted; people judge whether a change in a
+//! ratio matters.
 
 mod chart;
 mod clock;
@@ -119,7 +120,7 @@ fn run(arguments: &[String]) -> Result<(), String> {
     write("raster.svg", chart::svg(&figures))
 }
 
-/// Returns the llvmpipe context, or warns clearly if there is none.
+/// Returns the llvmpipe context, or prints a warning if it is unavailable.
 fn llvmpipe() -> Result<Option<Rc<gl::Context>>, String> {
     // Mesa reads the variable when loaded. Its threads would make CPU times incomparable.
     if std::env::var_os("LP_NUM_THREADS").is_none_or(|threads| threads != "0") {

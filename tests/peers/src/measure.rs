@@ -35,7 +35,8 @@ pub struct Spread {
     pub high: f64,
 }
 
-/// The time for slow contestants, which run in as many rounds as it allows, but in at least three.
+/// The time limit for slow contestants. They run in as many rounds as it allows, but in at least
+/// three.
 const PATIENCE: Duration = Duration::from_secs(6);
 
 /// Runs every contestant `rounds` times, after one warm-up round.

@@ -1,5 +1,4 @@
-//! The compared scenes, which are plain arrays that all rasterizers draw from, with one camera for
-//! all.
+//! The compared scenes, as plain arrays that all rasterizers draw with the same camera.
 
 mod floor;
 mod layers;
@@ -36,8 +35,8 @@ pub struct Vertex {
     pub uv: [f32; 2],
 }
 
-/// An 8-bit RGBA image, shown unchanged, repeated in both directions, and bilinear between texels
-/// without mip maps.
+/// An 8-bit RGBA image without color conversion or mip maps. It is repeated in both directions and
+/// filtered bilinearly.
 #[derive(Clone, Debug)]
 pub struct Texture {
     /// The number of texels per row.
@@ -119,8 +118,8 @@ impl Scene {
 pub const TEXTURE_SCALE: f32 = 1.0 / 255.0;
 
 impl Texture {
-    /// Creates a board of two colors with softly varying brightness, `size` × `size` texels in
-    /// `fields` × `fields` squares.
+    /// Creates a checkerboard of two colors with smoothly varying brightness, `size` × `size`
+    /// texels in `fields` × `fields` squares.
     pub fn board(size: usize, fields: usize, colors: [[u8; 3]; 2]) -> Self {
         let texel = |n: usize| {
             let (x, y) = (n % size, n / size);

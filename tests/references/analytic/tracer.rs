@@ -87,8 +87,7 @@ impl World {
         Picture { width, height, pixels: pixels.collect() }
     }
 
-    /// Returns the color along a ray, for which all surfaces are blended from back to front in
-    /// linear light.
+    /// Returns the color along a ray. All surfaces are blended from back to front in linear light.
     fn trace(&self, eye: DVec3, direction: DVec3) -> [u8; 3] {
         let hit = |surface: &Surface| {
             let (distance, normal) = surface.shape.intersect(eye, direction)?;

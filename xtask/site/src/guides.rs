@@ -1,4 +1,4 @@
-//! Runs the commands in the guides, so that their output is correct and their pictures are current.
+//! Runs the commands in the guides, to check their output and to update their pictures.
 //!
 //! The commands run in a folder that initially contains only the models that the guide links to.
 //! Code blocks have these meanings:
@@ -49,7 +49,7 @@ pub fn run_guides(site: &mut Site, program: &Program) -> Outcome {
     Ok(())
 }
 
-/// A guide while its commands run.
+/// A guide whose commands are being run.
 struct GuideRun {
     /// The folder in which the commands run.
     folder: PathBuf,

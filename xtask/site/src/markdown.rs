@@ -28,7 +28,7 @@ fn options() -> Options {
     Options::ENABLE_TABLES | Options::ENABLE_STRIKETHROUGH
 }
 
-/// Translates a document. `link` maps the target of a link or an image to its new target.
+/// Converts a document. `link` maps the target of a link or an image to its new target.
 pub fn to_html(
     markdown: &str,
     mut link: impl FnMut(&str) -> Result<String, String>,

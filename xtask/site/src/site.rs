@@ -80,7 +80,7 @@ impl Site {
         self.pages.insert(path.to_owned(), Page { group, document });
     }
 
-    /// Translates the Markdown of a repository file for a page.
+    /// Converts the Markdown of a repository file for a page.
     pub fn translate(
         &mut self,
         source: &str,

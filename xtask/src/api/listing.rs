@@ -58,7 +58,7 @@ fn item_name(name: &str, page: &str) -> Option<String> {
     KINDS.contains(&kind).then(|| path.join("::"))
 }
 
-/// Headings that end the interesting part: the text after them can be derived from the rest of the
+/// Headings that end the relevant part: the text after them can be derived from the rest of the
 /// page or belongs to another item.
 const ENDS: [&str; 5] = [
     "id=\"synthetic-implementations\"",

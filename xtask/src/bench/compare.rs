@@ -7,12 +7,12 @@
 //! cargo xtask bench compare HEAD~1 --models ../models
 //! ```
 //!
-//! Both programs render the same models in turn: old, new, old, new. The output is ratios of times
-//! from the same round, because a machine that is slow for a second is slow for both. Each ratio is
-//! a median with its minimum and maximum: new/old for each stage of `--timings`, and on/off for
-//! features, styles and threads in either program. Peak memory and wall time are listed too. A
-//! variant that a program refuses, for example because it lacks a flag, is shown as a dash, and the
-//! reason is listed below the table.
+//! Both programs render the same models in turn: old, new, old, new. The output consists of ratios
+//! of times from the same round, because a machine that is slow for a second is slow for both. Each
+//! ratio is a median with its minimum and maximum: new/old for each stage of `--timings`, and
+//! on/off for features, styles and threads in either program. Peak memory and wall time are listed
+//! too. A variant that a program refuses, for example because it lacks a flag, is shown as a dash,
+//! and the reason is listed below the table.
 //!
 //! By default, six of the shared models are rendered, which takes half an hour; `--models` selects
 //! other shared models, scene models or a folder. `--quick` runs fewer rounds and renders fewer
@@ -59,10 +59,10 @@ use std::path::{Path, PathBuf};
 
 const USAGE: &str = "bench compare REV [--models DIR|NAME…] [--runs N] [--quick] [--out FOLDER]";
 
-/// The number of rounds and, below, of frames in the turntable.
+/// The number of rounds, and the number of frames in the turntable.
 const RUNS: usize = 5;
 const FRAMES: usize = 120;
-/// Both numbers with `--quick`.
+/// The two numbers with `--quick`.
 const QUICK_RUNS: usize = 3;
 const QUICK_FRAMES: usize = 12;
 

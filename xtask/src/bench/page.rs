@@ -22,7 +22,7 @@ use std::path::Path;
 
 /// Runs the measurements, then writes the page and the CSV file.
 pub fn run_page(arguments: &[String]) -> Outcome {
-    // Built before the load is read, because other builds should count but not this one.
+    // The program is built before the load is read, so that this build does not count as load.
     let program = crate::program::Program::build(crate::program::Build::Release)?;
     super::raster::build_peers()?;
     let mut place = Place::describe()?;

@@ -3,7 +3,7 @@
 
 use std::sync::LazyLock;
 
-/// An item that tests must prove.
+/// An item that must have tests.
 pub struct Item {
     /// The id, such as `C4`, `M11b` or `exercise 3`.
     pub id: String,
@@ -29,7 +29,7 @@ pub static ITEMS: LazyLock<Vec<Item>> = LazyLock::new(|| parse_rows(ITEM_ROWS));
 /// The misprints in the sources. A test of a misprint shows that the printed form fails.
 pub static MISPRINTS: LazyLock<Vec<Item>> = LazyLock::new(|| parse_rows(MISPRINT_ROWS));
 
-/// The exercises. Each asks for an item, and any test of the exercise also proves the item.
+/// The exercises. Each covers an item, and a test of the exercise also counts for the item.
 pub static EXERCISES: LazyLock<Vec<Item>> = LazyLock::new(|| {
     let asked = |id: &str| ITEMS.iter().find(|item| item.id == id);
     let exercise = |(i, id): (usize, &&str)| {
@@ -40,11 +40,11 @@ pub static EXERCISES: LazyLock<Vec<Item>> = LazyLock::new(|| {
     EXERCISE_ITEMS.iter().enumerate().filter_map(exercise).collect()
 });
 
-/// The items that exercises 1 to 11 ask for.
+/// The items that exercises 1 to 11 cover.
 const EXERCISE_ITEMS: [&str; 11] =
     ["C38", "C39", "C40", "C41", "C42", "C43", "C44", "C45", "C45", "C46", "C47"];
 
-/// Returns the item that an exercise asks for.
+/// Returns the item that an exercise covers.
 pub fn exercise_item(exercise: &str) -> Option<&'static str> {
     let number: usize = exercise.strip_prefix("exercise ")?.parse().ok()?;
     EXERCISE_ITEMS.get(number.checked_sub(1)?).copied()

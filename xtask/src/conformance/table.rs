@@ -75,8 +75,8 @@ pub fn has_test(item: &Item, owner: &str, tests: &[Test]) -> bool {
     tests.iter().any(|test| test.owner() == owner && test.ids.contains(&item.id))
 }
 
-/// Returns whether a crate has a test that names the item. For topics outside mathematics: whether
-/// the book has a page that marks it.
+/// Returns whether a crate has a test that names the item. For a topic outside mathematics, returns
+/// whether a page of the book marks it.
 pub fn has_evidence(item: &Item, owner: &str, tests: &[Test], marks: Option<&BookMarks>) -> bool {
     if owner == DOCUMENTS {
         return marks.is_some_and(|marks| marks.pages_of(&item.id).next().is_some());

@@ -1,5 +1,5 @@
-//! The items that each file in `tests/vectors/data` tests, as independent evidence beside the tests
-//! of the crates.
+//! The items that each file in `tests/vectors/data` tests, as independent evidence in addition to
+//! the crates' tests.
 
 /// The name of a vector file, and the items it tests.
 pub const VECTORS: &[(&str, &[&str])] = &[

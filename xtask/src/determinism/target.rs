@@ -1,4 +1,4 @@
-//! A target, with the way to compile the program for it and to run it on this machine.
+//! Targets: how the program is compiled for each of them and run on this machine.
 
 use crate::program::capture_output;
 use crate::tool_chain::ToolChain;
@@ -12,7 +12,7 @@ use std::process::Command;
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
     pub name: &'static str,
-    /// What the target is, for the printed table.
+    /// The description of the target in the printed table.
     pub about: &'static str,
     compiler: Compiler,
     /// Compiler flags, after the profile's flags; `{own}` is a folder for this target.
@@ -35,8 +35,9 @@ enum Compiler {
     WithSources { triple: &'static str, linker: &'static str, packages: &'static str },
 }
 
-/// Less optimization. Every change is tested on the emulated processors, and compiling for them
-/// takes longer than running on them. The targets `opt-1` and `native` compare optimizations.
+/// Settings that reduce optimization. Every change is tested on the emulated processors, and
+/// compiling for them takes longer than running on them. The targets `opt-1` and `native` compare
+/// optimizations.
 const QUICK: &[&str] = &["-Copt-level=1", "-Ccodegen-units=16"];
 
 /// All targets. The processors differ in their vector instructions (NEON or none), in pointer size

@@ -1,5 +1,5 @@
 //! Compares the explorer's pictures from WebAssembly, run in Node, with the program's: a different
-//! instruction set must give the same bytes.
+//! instruction set must produce the same bytes.
 
 use crate::Outcome;
 use crate::program::Program;

@@ -82,7 +82,7 @@ impl Session {
             }
             if report.crashes.is_empty() {
                 return Err(format!(
-                    "{name} ended unexpectedly; see {}",
+                    "{name} exited unexpectedly; see {}",
                     relative_path(&jobs[0].log)
                 ));
             }
@@ -99,7 +99,7 @@ impl Session {
         let mut command = Command::new(&self.program);
         command.args(["-timeout=30", "-rss_limit_mb=2048", "-print_final_stats=1"]);
         if self.is_talkative {
-            // Hide the messages of the program under test. The fuzzer's own still appear.
+            // Hide the messages of the program under test. The fuzzer's own messages still appear.
             command.arg("-close_fd_mask=3");
         }
         command.arg(format!("-artifact_prefix={}/", folder("artifacts").display()));
@@ -133,7 +133,7 @@ impl Session {
 }
 
 impl FuzzJob {
-    /// Updates the time for which it has run, and whether it has ended.
+    /// Updates the process's running time, and whether it has exited.
     fn update_peak(&mut self) -> Result<(), String> {
         // If the system does not report the CPU time, use the clock.
         self.time =
@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn this_process_has_used_less_than_an_hour() {
+    fn this_process_has_used_less_than_an_hour_of_cpu_time() {
         let time = processor_time(std::process::id());
         assert!(time.is_none_or(|time| time < Duration::from_secs(3600)), "{time:?}");
     }

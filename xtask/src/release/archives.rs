@@ -1,4 +1,5 @@
-//! Writes packages. The same contents give the same bytes, regardless of the time and the user.
+//! Writes packages. The same contents always produce the same bytes, regardless of the time and the
+//! user.
 
 use super::contents::PackagedFile;
 use super::{Release, write_file};

@@ -66,7 +66,7 @@ pub fn packaged_files(program: &Path, notices: &str) -> Result<Vec<PackagedFile>
     Ok(files)
 }
 
-/// Returns the manual pages, compressed without a timestamp and a file name.
+/// Returns the manual pages, compressed without a timestamp or a file name.
 fn manual_pages(program: &Path) -> Result<Vec<PackagedFile>, String> {
     let folder = crate::workspace::target_folder().join("man1");
     let _ = fs::remove_dir_all(&folder);

@@ -1,4 +1,4 @@
-//! Tries the package in an empty Debian system: installs it, uses it as a user would, and removes
+//! Tests the package in an empty Debian system: installs it, uses it as a user would, and removes
 //! it without a trace.
 //!
 //! ```text

@@ -1,4 +1,4 @@
-//! The software bill of materials: CycloneDX 1.5 as JSON, without timestamps and random numbers.
+//! The software bill of materials: CycloneDX 1.5 as JSON, without timestamps or random numbers.
 
 use super::Release;
 use super::third_party::Dependency;

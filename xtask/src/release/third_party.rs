@@ -29,8 +29,8 @@ impl Dependency {
     }
 }
 
-/// Returns all crates that are linked into the program on this machine, sorted, without procedural
-/// macros and build dependencies.
+/// Returns all crates that are linked into the program on this machine, sorted, excluding
+/// procedural macros and build dependencies.
 pub fn shipped_dependencies() -> Result<Vec<Dependency>, String> {
     let mut tree = cargo_command(&["tree", "--locked", "--package", "alberti", "--prefix", "none"]);
     tree.args(["--edges", "normal,no-proc-macro", "--format", "{p}"]);

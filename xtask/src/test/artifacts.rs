@@ -104,7 +104,7 @@ impl TestPrograms {
         let mut command = Command::new(&program.path);
         command.args(words).current_dir(&program.folder).env("ALBERTI", &self.alberti);
         if program.package == "xtask" {
-            // Its tests cause skips on purpose.
+            // The tests of xtask cause skips on purpose.
             command.env_remove("SKIP_LOG");
         }
         // Nobody needs the output of a thousand passing tests.

@@ -106,7 +106,10 @@ fn suite_steps() -> Vec<Step> {
             "drawing",
             "line drawings against the z-buffer: models and a tenth of the random scenes",
         ),
-        suite("corpus", "valid, odd and broken glTF files are rendered, or rejected with a reason"),
+        suite(
+            "corpus",
+            "valid, unusual and broken glTF files are rendered or rejected with a reason",
+        ),
         suite("looks", "pictures are not black, empty or unlit"),
         suite("references", "pictures against ray-traced references, with the glTF formulas"),
         suite("assemblies", "sheets of models with several parts: a tenth of the models"),
@@ -137,7 +140,7 @@ fn release_steps() -> Vec<Step> {
     vec![
         Step::built_in(
             "determinism",
-            "release and debug builds give the same bytes, with any number of threads",
+            "release and debug builds produce the same bytes, with any number of threads",
             || crate::determinism::run_determinism(&[]),
         ),
         Step::built_in(
@@ -155,7 +158,7 @@ fn release_steps() -> Vec<Step> {
             "programs of outside users build against the packed crates and run",
             || crate::strangers::run_strangers(&[]),
         ),
-        Step::built_in("aarch64", "AArch64 in an emulator gives the same bytes", || {
+        Step::built_in("aarch64", "AArch64 in an emulator produces the same bytes", || {
             crate::determinism::run_determinism(&["--targets=aarch64".into()])
         }),
         Step::built_in(

@@ -18,7 +18,7 @@ const ALLOWED_SKIPS: &str = ".ci/allowed-skips";
 pub fn print_summary(run: &Run, is_first_tier: bool) -> Outcome {
     let mut reports: Vec<_> = run.reports.iter().collect();
     reports.sort_by(|a, b| b.cpu_seconds.total_cmp(&a.cpu_seconds));
-    println!("\n── summary: wall-clock time, CPU time, and the share of compilers in it");
+    println!("\n── summary: wall-clock time, CPU time, and the share spent in compilers");
     for report in &reports {
         let verdict = if report.failure.is_some() { "FAILED" } else { "passed" };
         let compiling = 100.0 * report.compile_seconds / report.cpu_seconds.max(0.01);

@@ -57,7 +57,7 @@ fn unlisted_ids(sources: &[Source], list: &str) -> Vec<Violation> {
     violations
 }
 
-/// Returns the ids in a text: two to five letters or digits, a hyphen and a number.
+/// Returns the ids in text: two to five letters or digits, a hyphen and a number.
 fn formula_ids(text: &str) -> impl Iterator<Item = &str> {
     let words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '-' && c != '_');
     words.filter(|word| {
@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn docs_begin_with_the_thing_itself() {
+    fn docs_must_not_open_with_a_reference_to_another_item() {
         let count = |line: &str| {
             empty_openings(&source(&line.repeat(EMPTY_OPENINGS_LEFT + 1))).len()
                 / (EMPTY_OPENINGS_LEFT + 1)

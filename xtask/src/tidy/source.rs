@@ -1,4 +1,4 @@
-//! Source files for the rules: their text, and their code without comments and strings.
+//! Source files for the rules: their text, and their code without comments or strings.
 
 use super::code::blank_comments_and_strings;
 use crate::workspace::{project_root, read_text, relative_path};
@@ -60,8 +60,8 @@ pub fn text_files() -> Result<Vec<(String, String)>, String> {
     paths.iter().map(|path| Ok((relative_path(path), read_text(path)?))).collect()
 }
 
-/// Returns all files below a folder, sorted, without build output, hidden folders and links. Linked
-/// files are read at their targets.
+/// Returns all files below a folder, sorted, excluding build output, hidden folders and links.
+/// Linked files are read at their targets.
 fn walk_files(folder: &Path) -> Result<Vec<PathBuf>, String> {
     let mut found = Vec::new();
     let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;

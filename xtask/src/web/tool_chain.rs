@@ -1,8 +1,9 @@
 //! The tool chain that compiles Rust to WebAssembly, with the sources of the standard library.
 //!
 //! The standard library is compiled together with the explorer, which makes the module a sixth
-//! smaller: panics have no message, which nobody would read because the page starts another worker,
-//! and sorting takes less code. The precompiled WebAssembly library from rustup offers neither.
+//! smaller: panics omit their messages, which nobody would see because the page starts another
+//! worker, and sorting takes less code. The precompiled WebAssembly library from rustup offers
+//! neither.
 
 use crate::program::capture_output;
 use crate::tool_chain::ToolChain;

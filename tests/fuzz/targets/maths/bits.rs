@@ -31,7 +31,7 @@ impl Bits {
         word
     }
 
-    /// Returns bits that differ from all that follow.
+    /// Returns bits that differ from all later bits.
     pub fn peek(&self) -> u64 {
         self.mood.into()
     }

@@ -1,5 +1,5 @@
 //! The shader of our rasterizer, which computes tint × texture × light for eight fragments at once,
-//! like the GLSL of the other peer.
+//! like the GLSL shader for llvmpipe.
 
 use crate::scene::{Scene, TEXTURE_SCALE, Texture, Vertex, floor_of, light, wrap};
 use raster::{F32x8, Fragment, Fragments, LANES, Surface};

@@ -28,7 +28,7 @@ pub struct Raster<'a> {
     corners: [[f32; 3]; 8],
     /// The clusters of each part, built once like vertex buffers.
     clusters: Vec<Clusters>,
-    /// The selection of each part that is currently drawn.
+    /// The selected clusters of each part, for the current frame.
     selections: Vec<MeshSelection>,
     clip: Vec<HPoint<Clip>>,
     codes: Vec<Outcode>,

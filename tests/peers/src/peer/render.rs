@@ -51,7 +51,7 @@ impl Render {
         let image = ImageSpec { samples, ..ImageSpec::new(width, height) };
         let scene =
             pipeline::Scene { lights, ..pipeline::Scene::new(models, view_projection, image) };
-        // They are leaked, because there are few and their textures refer to them.
+        // The models are leaked, because `textures` borrows them. There are only a few.
         let models: &'static [ModelInstance] = scene.models.clone().leak();
         Ok(Self {
             scene,

@@ -1,5 +1,5 @@
-//! A tiled floor that passes under and behind the eye, for the cost of clipping and of oblique
-//! textures.
+//! A tiled floor that passes under and behind the eye, for measuring the cost of clipping and of
+//! obliquely viewed textures.
 
 use super::{Lens, Part, Scene, Texture, Vertex, aspect};
 use camera::Camera;

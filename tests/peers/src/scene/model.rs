@@ -1,4 +1,5 @@
-//! A model from the shared assets as plain arrays, for the cost of an ordinary textured model.
+//! A model from the shared assets as plain arrays, for measuring the cost of an ordinary textured
+//! model.
 
 use super::{Lens, Part, Scene, Texture, Vertex, aspect};
 use camera::{NamedView, Slopes, frame_perspective};

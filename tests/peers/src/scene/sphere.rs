@@ -1,4 +1,4 @@
-//! A bumpy sphere of a million triangles or more, for the cost of geometry.
+//! A bumpy sphere of a million triangles or more, for measuring the cost of geometry.
 
 use super::{Lens, Part, Scene, Vertex, aspect};
 use camera::Camera;

@@ -49,7 +49,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let seen: nalgebra::Point3<f64> = (world_to_view * p).into();
     assert!((seen - pose * nalgebra::Point3::new(0.3, 0.4, 0.5)).norm() < 1e-12);
 
-    // Any serde format.
+    // Any serde format works.
     let text = serde_json::to_string(&(p, world_to_view))?;
     let back: (Point<World>, Affine<World, View>) = serde_json::from_str(&text)?;
     assert_eq!(back, (p, world_to_view));

@@ -1,4 +1,4 @@
-//! The program with euc.
+//! The program written with euc.
 
 use crate::scene::{SIZE, Scene};
 use euc::{Interpolate, Pipeline, Target, buffer::Buffer2d, rasterizer};

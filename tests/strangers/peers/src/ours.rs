@@ -1,4 +1,4 @@
-//! The program with this rasterizer.
+//! The program written with this rasterizer.
 
 use crate::scene::{SIZE, Scene};
 use raster::homog::{ClipRange, Projective, View};

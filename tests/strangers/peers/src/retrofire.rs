@@ -1,4 +1,4 @@
-//! The program with retrofire.
+//! The program written with retrofire.
 
 use crate::scene::{SIZE, Scene};
 use retrofire_core::math::mat::Mat4;

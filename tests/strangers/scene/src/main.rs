@@ -1,5 +1,5 @@
-//! Builds a scene in memory from arrays, renders it to a PNG with depth, and writes it as text that
-//! can be read again.
+//! Builds a scene in memory from arrays, renders it to a PNG with a depth pass, and writes it as
+//! text that can be read again.
 
 use pipeline::render::passes::{Pass, render_passes};
 use pipeline::scene::file::{CameraFile, LightFile, ModelFile};

@@ -48,7 +48,7 @@ impl ModelSelection {
         match self {
             Self::Default => default_models(&shared_folder()),
             Self::Folder(folder) => {
-                // The program runs in the workspace root, not in the folder where this one was
+                // The program runs in the workspace root, not in the folder in which xtask was
                 // started.
                 let folder = std::fs::canonicalize(folder)
                     .map_err(|error| format!("{}: {error}", folder.display()))?;
