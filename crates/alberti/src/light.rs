@@ -172,7 +172,7 @@ fn given_flags(flags: &[(&'static str, bool)]) -> Vec<&'static str> {
 
 /// Rotates an environment about the y axis, counterclockwise as seen from above.
 ///
-/// A uniform environment looks the same in every direction.
+/// The rotation does not affect a uniform environment.
 ///
 /// # Errors
 /// If the scene has no environment.
@@ -294,7 +294,7 @@ fn parse_light_intensity(text: &str) -> Result<NonNegative, String> {
 
 /// Parses a number of stops from −30 to 30.
 ///
-/// Thirty stops are a factor of about 10⁹: more than any scene needs, without overflow in `f32`.
+/// Thirty stops are a factor of about 10⁹, which is more than any scene needs and fits in `f32`.
 fn parse_exposure(text: &str) -> Result<Finite, String> {
     let fault = || "expected a number of stops from -30 to 30, such as 1.5".to_owned();
     let stops: f64 = text.parse().map_err(|_| fault())?;

@@ -264,8 +264,8 @@ fn check_is_file(input: &Path) -> Result<(), CliError> {
     help.map_or(Ok(()), |help| Err(missing(help)))
 }
 
-/// Returns help for an input that does not name a file: a pattern that the shell did not expand, an
-/// address, or a word that belongs to a flag.
+/// Returns help for an input that does not name a file: a pattern that the shell did not expand, a
+/// URL, or a word that belongs to a flag.
 pub(super) fn missing_input_help(input: &Path) -> Option<String> {
     let word = input.to_string_lossy();
     if word.contains("://") {

@@ -8,7 +8,7 @@ use scene_file::file::{
     CameraFile, FieldOfView, Finite, FromFile, Positive, ProjectionFile, Triple, ViewFile,
 };
 
-/// The position of the camera, and how much it sees.
+/// The position and the field of view of the camera.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(crate) struct ViewpointArgs {
     /// Frame all models from this angle around them: 0 is the front, 90 the right side
