@@ -284,7 +284,7 @@ fn find_node(model: &Model, node: &str) -> Result<usize, String> {
     })
 }
 
-/// A point from the command line: three coordinates, or four homogeneous ones.
+/// A point from the command line: three coordinates, or four homogeneous coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum SubjectPoint {
     /// x, y, z.

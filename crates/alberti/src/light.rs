@@ -155,8 +155,8 @@ impl LightArgs {
 
     /// Returns the environment map, if the flag names a file; it may be in any folder.
     ///
-    /// A path in a scene file may come from elsewhere and is confined to the scene's folder. A path
-    /// on the command line comes from the user, who may read any file.
+    /// A path in a scene file may be untrusted, so it is confined to the scene's folder. A path on
+    /// the command line comes from the user, who may read any file.
     pub(super) fn environment_file(&self) -> Option<PathBuf> {
         match &self.environment {
             Some(EnvironmentArg::File(path)) => Some(path.clone()),
@@ -200,7 +200,7 @@ fn turn_environment(file: &mut Option<EnvironmentFile>, degrees: f64) -> Result<
     Ok(())
 }
 
-/// Enables or disables the shadows of all lights; the scene's settings are kept.
+/// Enables or disables the shadows of all lights, and keeps the parameters that the scene sets.
 ///
 /// `off` disables them for the scene and for every light that overrides the scene. `on` keeps the
 /// parameters of lights that have shadows, and sets the defaults for other lights. Lights that only

@@ -190,7 +190,7 @@ fn rows_of(matrix: DMat4) -> [[f64; 4]; 4] {
     matrix.transpose().to_cols_array_2d()
 }
 
-/// Explains the matrix, its factors in the order of their application, and its inverse.
+/// Explains the matrix, its factors in order of application, and its inverse.
 fn explain_built(built: &BuiltMatrix) -> Explanation {
     let entry = |id: &str, name: &str, value: ItemValue| ExplanationEntry {
         id: id.to_owned(),

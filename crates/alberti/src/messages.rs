@@ -6,9 +6,9 @@
 //! notes such as `--verify` and `--timings`, then warnings, then the error, if any. Nothing on the
 //! standard output depends on whether messages are printed, so results can be piped safely.
 //!
-//! Text for people shows control characters as codes, because names may come from any file. This
-//! applies to [`print_text`], [`print_json`], and everything on the standard error stream. Names
-//! within a message line are written by [`files::visible_text`], which also shows line ends.
+//! Human-readable text shows control characters as codes, because names may come from any file.
+//! This applies to [`print_text`], [`print_json`], and everything on the standard error stream.
+//! Names within a message line are written by [`files::visible_text`], which also shows line ends.
 
 use super::CliError;
 use super::color;
@@ -40,7 +40,7 @@ pub(crate) fn print_stdout(bytes: &[u8]) -> Result<(), CliError> {
     }
 }
 
-/// Writes text for people to the standard output: control characters in names are shown as codes.
+/// Writes human-readable text to the standard output, with control characters shown as codes.
 ///
 /// # Errors
 /// The same as for [`print_stdout`].
@@ -125,7 +125,7 @@ pub(crate) fn print_message(level: &str, message: &str) {
 /// Prints clap's message about wrong usage, or the requested help.
 pub(crate) fn print_usage(usage: &clap::Error) {
     if !usage.use_stderr() {
-        // If the stream accepts no text, there is nowhere to report the error.
+        // If this fails, there is nowhere to report the error.
         let _ = usage.print();
         return;
     }

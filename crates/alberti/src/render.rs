@@ -173,7 +173,7 @@ fn verify_drawing(scene: &Scene, threads: usize) -> Result<Agreement, CliError> 
 /// Returns the message of `--verify`.
 ///
 /// The length is the total of all visible lines, in pixels; the percentage is the part behind the
-/// z-buffer's surface. Up to about 0.2 % is normal, because the image resolves only a quarter of a
+/// z-buffer's surface. Up to about 0.2% is normal, because the image resolves only a quarter of a
 /// pixel, while the drawing is exact.
 fn agreement_message(agreement: &Agreement) -> String {
     let percent = 100.0 * agreement.disagreement_ratio();

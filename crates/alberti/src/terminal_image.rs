@@ -55,7 +55,7 @@ pub(super) fn print_image(painted: &RenderOutput) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Box-filters a picture over black down to `columns` × `rows`.
+/// Downsamples a picture over black to `columns` × `rows` with a box filter.
 ///
 /// Squared codes approximate linear light: a gamma of 2 is close enough to sRGB here.
 ///

@@ -55,7 +55,7 @@ pub(crate) struct ViewpointArgs {
     )]
     target: Option<Triple>,
     /// Direction that points up in the picture, with --eye [default: 0,1,0]
-    // It has its own name because `up` is the axis of models that points up.
+    // It is not called `up`, because `--up` sets the axis of a model that points up.
     #[arg(
         help_heading = "Camera",
         long = "view-up",

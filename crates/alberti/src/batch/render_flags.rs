@@ -26,7 +26,7 @@ impl RenderFlags {
     /// Parses arguments such as `--size=64x64`.
     ///
     /// # Errors
-    /// If a flag does not accept its value, or two flags conflict; the message is clap's.
+    /// If a flag does not accept its value, or two flags conflict; the message comes from clap.
     pub(super) fn parse(words: &[String]) -> Result<Self, String> {
         let command = declaration().no_binary_name(true).color(clap::ColorChoice::Never);
         let parsed = command.try_get_matches_from(words);
