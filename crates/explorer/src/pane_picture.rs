@@ -1,4 +1,4 @@
-//! Pane pictures, rendered whole or in bands with the same memory.
+//! Pane pictures, rendered whole or in bands, with buffers that are reused.
 
 use crate::ExplorerError;
 use homog::PixelRect;

@@ -198,9 +198,9 @@ fn divided_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
 
 /// Draws the boards clipped against the view volume and then divided.
 ///
-/// Polygon clipping in homogeneous space (Sutherland and Hodgman, 1974; CL-3). Every remaining
-/// vertex has w ≥ near, and the smallest w is printed. Boards behind the eye disappear, and
-/// crossing boards keep their front part.
+/// Clips polygons in homogeneous space (Sutherland and Hodgman, 1974; CL-3). Every remaining vertex
+/// has w ≥ near, and the smallest w is printed. Boards behind the eye disappear, and crossing
+/// boards keep their front part.
 fn clipped_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
     let ring = |board: &Board| {
         clip_convex(&board.corners.map(|corner| map.transform_point(corner)), &Volume::CHAPTER)
