@@ -1,10 +1,10 @@
 //! Explains a matrix: its kind, its inverse, its meaning with parameters, and known misprints it
 //! resembles.
 //!
-//! Sixteen numbers can be several projections, each in a different convention: OpenGL's and the
-//! textbook's differ by the sign of z. The most likely reading comes first with all its parameters;
-//! others follow, one per line. A misprint is reported only if the matrix as given is less
-//! plausible; if both are equally plausible, both are listed.
+//! Sixteen numbers can represent several projections, each in a different convention: OpenGL's and
+//! the textbook's differ by the sign of z. The most likely reading comes first with all its
+//! parameters; others follow, one per line. A misprint is reported only if the matrix as given is
+//! less plausible; if both are equally plausible, both are listed.
 
 mod meaning;
 mod planar;

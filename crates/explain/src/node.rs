@@ -130,7 +130,7 @@ impl PrimitiveCounts {
     ///
     /// Positions are skinned, mapped to world and clip space in f64, then assembled by topology. A
     /// transform with a negative determinant mirrors the mesh: triangles that were counterclockwise
-    /// appear clockwise, so the culled side is exchanged as the glTF specification requires.
+    /// appear clockwise, so the opposite side is culled, as the glTF specification requires.
     fn count_primitive(
         &mut self,
         chain: &TransformChain,

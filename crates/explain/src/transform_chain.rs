@@ -49,8 +49,8 @@ impl TransformChain {
     /// # Errors
     /// If the picture has no pixels.
     ///
-    /// The projection is converted from the pipeline's own volume by `Convention::convert`; the
-    /// camera is composed with the flip of z of left-handed conventions. World to clip is their
+    /// The projection is converted from the pipeline's own volume by `Convention::convert`; in
+    /// left-handed conventions, the camera is composed with a flip of z. World to clip is their
     /// product in f64.
     pub fn new(
         view_projection: &ViewProjection,
