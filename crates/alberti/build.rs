@@ -3,8 +3,8 @@
 //! Packed relocations (`DT_RELR`) shrink a quarter of a megabyte of addresses, mostly of strings,
 //! to a few kilobytes.
 //!
-//! The dynamic linker must support the format, as glibc has since 2.36. A program built on a
-//! machine with an older version, or for another machine, is left unchanged.
+//! The dynamic linker must support the format; glibc has supported it since version 2.36. A program
+//! that is built on a machine with an older version, or cross-compiled, keeps ordinary relocations.
 //!
 //! The explorer consists of its page and its lesson models. `ALBERTI_WEB=FOLDER cargo build`, where
 //! FOLDER is the output of `cargo xtask web`, adds the WebAssembly engine; without it, the program

@@ -145,7 +145,7 @@ fn a_pixel_is_traced_to_its_triangle() {
     let expected = [0.45, -0.25, 0.0];
     assert!(position.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-4), "{position:?}");
     let empty = explanation_json(&sandbox, &["--pixel", "0,0"]);
-    assert!(empty["verdict"].as_str().expect("words").contains("only the background is in it"));
+    assert!(empty["verdict"].as_str().expect("words").contains("only the background is visible"));
     let run = sandbox.run(&["explain", "scene.ron", "--pixel", "200,0"]);
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("200 x 100"), "{}", run.stderr);

@@ -187,11 +187,11 @@ impl AnimateArgs {
 
 /// Returns the animation of each model instance: the one the scene selects, or the model's first.
 ///
-/// Instances are in the order of the scene file; a model with several instances has one entry per
-/// instance, each with the choice from the scene file. `None` means that the model does not move.
+/// There is one entry per instance, in the order of the scene file. `None` means that the model
+/// does not move.
 ///
 /// # Errors
-/// If a choice matches no animation; the message lists the model's animations.
+/// If a model does not have the selected animation; the message lists the model's animations.
 fn choose_animations(
     models: &[ModelInstance],
     file: &SceneFile,

@@ -74,7 +74,7 @@ Examples:
 
   alberti explain model.glb --point 0,1,0         a point through every stage of the pipeline
   alberti explore model.glb                       the same, live in a browser on this machine
-  alberti matrix 1 0 0 0 …                        which transform or projection it is
+  alberti matrix 1 0 0 0 …                        the transform or projection that it represents
   alberti matrix --perspective 60,16/9,0.1,100    a matrix from parameters, or as code
   alberti exercise 3 --answer 'A=1; B=0'          a check of your answer to an exercise
   alberti demo wrap-around                        why clipping comes before the perspective divide
@@ -197,7 +197,7 @@ pub(crate) struct RenderArgs {
     pub(crate) timings: bool,
     /// Compare the line drawing with a z-buffer image and print the fraction that disagrees
     ///
-    /// It is the part of the visible lines' length that the z-buffer hides.
+    /// The fraction is the share of the visible lines, by length, that the z-buffer hides.
     #[arg(help_heading = "Lines", long)]
     pub(crate) verify: bool,
     /// Print a JSON report: size, camera, models, times, warnings, files with their SHA-256

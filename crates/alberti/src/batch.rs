@@ -1,7 +1,7 @@
 //! `alberti batch` and its worker: arguments, messages, exit codes, and rendering.
 //!
 //! The crate [`batch`](../batch/index.html) manages the jobs, their progress and their results. A
-//! worker is another process of this program; it renders what the coordinator requests.
+//! worker is a separate process of this program, which renders what the coordinator requests.
 
 mod render_flags;
 mod worker;
@@ -100,7 +100,7 @@ const STOPPED: u8 = 3;
 
 /// Runs the jobs of this shard; returns the exit code.
 ///
-/// A failed job is not an error of the run: it is a record in the report and changes only the exit
+/// A failed job does not fail the run: it becomes a record in the report and changes only the exit
 /// code. Problems with the inputs or the output folder are printed here, since each has its own
 /// exit code.
 ///
@@ -127,7 +127,7 @@ pub(crate) fn run(args: BatchArgs) -> Result<u8, CliError> {
 }
 
 impl BatchArgs {
-    /// The options of the run.
+    /// Returns the options of the run.
     fn into_options(mut self) -> BatchOptions {
         let scene = self.flags.take_scene_file();
         BatchOptions {

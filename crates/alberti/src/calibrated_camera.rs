@@ -53,7 +53,7 @@ pub(crate) struct CalibratedCameraArgs {
     camera_axes: Option<CameraAxes>,
 }
 
-/// The three rows of a rotation, and the column next to them.
+/// A 3 × 4 matrix: the rows of its rotation, and its last column.
 #[derive(Clone, Copy, Debug)]
 struct CameraFrame {
     rotation: [[f64; 3]; 3],
@@ -61,7 +61,7 @@ struct CameraFrame {
 }
 
 impl CameraFrame {
-    /// Returns the rotation in the form of a scene file.
+    /// Returns the rotation as written in a scene file.
     fn to_rotation_file(self) -> RotationFile {
         let [x, y, z] = self.rotation.map(Triple);
         RotationFile::Rows((x, y, z))

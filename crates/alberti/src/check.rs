@@ -146,7 +146,7 @@ fn check_models(origin: &Origin, file: &SceneFile, options: &ImportOptions) -> V
 }
 
 impl CheckResult {
-    /// The number of errors in the scene and its models.
+    /// Returns the number of errors in the scene and its models.
     ///
     /// Warnings, notes and lints do not count: they do not change the exit code.
     fn error_count(&self) -> usize {

@@ -1,7 +1,7 @@
 //! Message colors: when to use ANSI escapes, and which ones.
 //!
-//! The choice is global to the process, because messages are printed from everywhere: `--color`
-//! sets it once, before the first message.
+//! The choice is global to the process, because messages are printed from everywhere in the
+//! program: `--color` sets it once, before the first message.
 
 use std::io::IsTerminal as _;
 use std::sync::OnceLock;

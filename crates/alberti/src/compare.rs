@@ -37,7 +37,7 @@ pub(super) struct PictureComparison {
     pub(super) max_difference: u8,
     /// The number of pixels that differ by more than the tolerance.
     pub(super) differing_pixels: usize,
-    /// The number of pixels of the picture.
+    /// The number of pixels in the picture.
     pub(super) total_pixels: usize,
     /// The maximum channel difference that counts as equal.
     pub(super) tolerance: u8,
@@ -67,7 +67,7 @@ impl PictureComparison {
         self.differing_pixels == 0
     }
 
-    /// The fraction of pixels that differ, from 0 to 1.
+    /// Returns the fraction of pixels that differ, from 0 to 1.
     ///
     /// An empty picture does not differ.
     pub(super) fn differing_fraction(&self) -> f64 {
@@ -93,8 +93,8 @@ impl fmt::Display for PictureComparison {
 /// Returns the maximum difference over the channels of two pixels. Fully transparent pixels are
 /// equal even if their colors differ.
 ///
-/// Codes are compared, not light: the difference is in the file's units, 0 to 255. Alpha counts
-/// like any other channel.
+/// Encoded values are compared, not linear light: the difference is in the file's units, 0 to 255.
+/// Alpha counts like any other channel.
 fn pixel_difference(expected: [u8; 4], actual: [u8; 4]) -> u8 {
     if expected[3] == 0 && actual[3] == 0 {
         return 0;

@@ -23,7 +23,7 @@ use std::path::PathBuf;
 
 /// The longer side of the picture embedded in an HTML page, in pixels.
 ///
-/// The picture only shows where the subject is, and is embedded in base64.
+/// A small picture is enough to show where the subject is, and keeps the page small.
 const MAX_PAGE_SIDE: f64 = 960.0;
 
 /// Arguments of `alberti explain`.
@@ -80,7 +80,7 @@ struct BareMapArgs {
     planes: Option<[f64; 2]>,
 }
 
-/// The subject of the explanation; without any, the transforms of the pipeline themselves.
+/// The subject of the explanation; by default, the transforms of the pipeline themselves.
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Subject")]
 struct ExplainSubjectArgs {
@@ -284,7 +284,7 @@ fn find_node(model: &Model, node: &str) -> Result<usize, String> {
     })
 }
 
-/// A point from the command line: three coordinates, or four homogeneous ones.
+/// A point from the command line: three coordinates, or four homogeneous coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum SubjectPoint {
     /// x, y, z.
@@ -294,7 +294,7 @@ pub(super) enum SubjectPoint {
 }
 
 impl SubjectPoint {
-    /// Four homogeneous coordinates.
+    /// Returns the four homogeneous coordinates.
     pub(super) fn numbers(self) -> [f64; 4] {
         match self {
             Self::Cartesian([x, y, z]) => [x, y, z, 1.0],

@@ -171,8 +171,8 @@ fn shown_line(model: &Model) -> String {
 
 /// Formats the axis-aligned bounds of the drawn scene.
 ///
-/// The corners are those of the box in the selected pose, in model space: right-handed, y up, with
-/// lengths in units of the file.
+/// The box is computed in the selected pose, in model space: right-handed, y up, with lengths in
+/// units of the file.
 fn bounds_line(model: &Model) -> String {
     let Some(bounds) = model.bounds() else { return "none: nothing is shown".to_owned() };
     let triple = |p: [f64; 3]| format!("({:.6}, {:.6}, {:.6})", p[0], p[1], p[2]);
@@ -183,7 +183,7 @@ fn bounds_line(model: &Model) -> String {
 /// Counts the materials and those that need special treatment.
 ///
 /// Masked and blended materials cost more to draw, because their texels decide visibility;
-/// double-sided ones are not culled.
+/// double-sided surfaces are not culled.
 fn materials_line(model: &Model) -> String {
     let count = |wanted: fn(&AlphaMode) -> bool| {
         model.materials.iter().filter(|material| wanted(&material.alpha_mode)).count()

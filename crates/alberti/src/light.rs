@@ -155,8 +155,8 @@ impl LightArgs {
 
     /// Returns the environment map, if the flag names a file; it may be in any folder.
     ///
-    /// A path in a scene file may come from elsewhere and is confined to the scene's folder. A path
-    /// on the command line comes from the user, who may read any file.
+    /// A path in a scene file may be untrusted, so it is confined to the scene's folder. A path on
+    /// the command line comes from the user, who may read any file.
     pub(super) fn environment_file(&self) -> Option<PathBuf> {
         match &self.environment {
             Some(EnvironmentArg::File(path)) => Some(path.clone()),
@@ -172,7 +172,7 @@ fn given_flags(flags: &[(&'static str, bool)]) -> Vec<&'static str> {
 
 /// Rotates an environment about the y axis, counterclockwise as seen from above.
 ///
-/// A uniform environment looks the same in every direction.
+/// The rotation does not affect a uniform environment.
 ///
 /// # Errors
 /// If the scene has no environment.
@@ -200,7 +200,7 @@ fn turn_environment(file: &mut Option<EnvironmentFile>, degrees: f64) -> Result<
     Ok(())
 }
 
-/// Enables or disables the shadows of all lights; the scene's settings are kept.
+/// Enables or disables the shadows of all lights, and keeps the parameters that the scene sets.
 ///
 /// `off` disables them for the scene and for every light that overrides the scene. `on` keeps the
 /// parameters of lights that have shadows, and sets the defaults for other lights. Lights that only
@@ -294,7 +294,7 @@ fn parse_light_intensity(text: &str) -> Result<NonNegative, String> {
 
 /// Parses a number of stops from −30 to 30.
 ///
-/// Thirty stops are a factor of about 10⁹: more than any scene needs, without overflow in `f32`.
+/// Thirty stops are a factor of about 10⁹, which is more than any scene needs and fits in `f32`.
 fn parse_exposure(text: &str) -> Result<Finite, String> {
     let fault = || "expected a number of stops from -30 to 30, such as 1.5".to_owned();
     let stops: f64 = text.parse().map_err(|_| fault())?;

@@ -1,5 +1,5 @@
-//! Model loading flags: leniency, allowed folders, limits on input size, and defaults for the up
-//! axis, the unit and the crease angle, which a file may leave open.
+//! Model loading flags: leniency, allowed folders, limits on input size, and values for what a file
+//! may not specify: the up axis, the unit and the crease angle.
 //!
 //! Models are not trusted: without limits, a file of a few kilobytes could demand terabytes. Every
 //! command that loads a model has these flags.

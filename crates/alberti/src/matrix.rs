@@ -25,7 +25,7 @@ use std::io::Read as _;
 const EXAMPLES: &str = "\
 Examples:
   alberti matrix 0.9743 0 0 0  0 1.7321 0 0  0 0 -1.002 -0.2002  0 0 -1 0
-                                                  what a printed matrix means
+                                                  the meaning of a printed matrix
   alberti matrix --look-at 0,2,-5,0,0,0 --conventions direct3d
                                                   XMMatrixLookAtLH
   alberti matrix --viewport 640,480 --perspective 60,4/3,0.1,100 --look-at 4,3,6,0,0,0 --point 0,1,0
@@ -112,7 +112,7 @@ pub(crate) fn run(args: &MatrixArgs) -> Result<(), CliError> {
 
 /// Returns the arguments with the flags moved to the front, if a flag follows a number.
 ///
-/// Numbers may begin with a minus sign, so everything after the first number is taken as a number.
+/// Numbers may begin with a minus sign, so everything after the first number is parsed as a number.
 fn flags_after_numbers(words: &[String]) -> Option<MatrixArgs> {
     let first = words.iter().position(|word| word.starts_with("--"))?;
     let (numbers, flags) = words.split_at(first);
@@ -190,7 +190,7 @@ fn rows_of(matrix: DMat4) -> [[f64; 4]; 4] {
     matrix.transpose().to_cols_array_2d()
 }
 
-/// Explains the matrix, its factors in the order of their application, and its inverse.
+/// Explains the matrix, its factors in order of application, and its inverse.
 fn explain_built(built: &BuiltMatrix) -> Explanation {
     let entry = |id: &str, name: &str, value: ItemValue| ExplanationEntry {
         id: id.to_owned(),

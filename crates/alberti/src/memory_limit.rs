@@ -12,7 +12,7 @@ use import::Limits;
 ///
 /// The limits on nodes, JSON values and triangles follow from their maximum sizes: 2,048, 256 and
 /// 64 bytes each. The parts add up to more than the total, because no model needs the maximum of
-/// everything; a model that is built to need it is stopped by the system.
+/// everything; the system stops a model that was crafted to need it.
 pub(crate) fn import_limits(usual: &Limits, memory: u64) -> Limits {
     let count = |usual: usize, bytes: u64| {
         usize::try_from(memory / bytes).map_or(usual, |most| usual.min(most))

@@ -6,9 +6,9 @@
 //! notes such as `--verify` and `--timings`, then warnings, then the error, if any. Nothing on the
 //! standard output depends on whether messages are printed, so results can be piped safely.
 //!
-//! Text for people shows control characters as codes, no matter which file a name comes from. This
-//! applies to [`print_text`], [`print_json`], and everything on the standard error stream. Names
-//! within a message line are written by [`files::visible_text`], which also shows line ends.
+//! Human-readable text shows control characters as codes, because names may come from any file.
+//! This applies to [`print_text`], [`print_json`], and everything on the standard error stream.
+//! Names within a message line are written by [`files::visible_text`], which also shows line ends.
 
 use super::CliError;
 use super::color;
@@ -40,7 +40,7 @@ pub(crate) fn print_stdout(bytes: &[u8]) -> Result<(), CliError> {
     }
 }
 
-/// Writes text for people to the standard output: control characters in names are shown as codes.
+/// Writes human-readable text to the standard output, with control characters shown as codes.
 ///
 /// # Errors
 /// The same as for [`print_stdout`].
@@ -60,7 +60,7 @@ pub(crate) fn print_json(json: &str) -> Result<(), CliError> {
     let mut escaped = String::with_capacity(json.len() + 8);
     for character in json.chars() {
         if must_be_escaped(character) {
-            // JSON strings may contain only control characters with at most four digits.
+            // Every control character fits into the four digits of a JSON escape.
             escaped.push_str(&format!("\\u{:04x}", u32::from(character)));
         } else {
             escaped.push(character);
@@ -102,7 +102,7 @@ fn without_controls(text: &str, colored: bool) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// Returns the length in bytes of a color escape at the start of a text, such as `ESC [1;31m`.
+/// Returns the length in bytes of a color escape, such as `ESC [1;31m`, at the start of `text`.
 fn color_length(text: &str) -> Option<usize> {
     let numbers = text.strip_prefix("\x1b[")?;
     let end = numbers.find(|c: char| !c.is_ascii_digit() && c != ';')?;
@@ -125,7 +125,7 @@ pub(crate) fn print_message(level: &str, message: &str) {
 /// Prints clap's message about wrong usage, or the requested help.
 pub(crate) fn print_usage(usage: &clap::Error) {
     if !usage.use_stderr() {
-        // If the stream accepts no text, there is nowhere to report the error.
+        // If this fails, there is nowhere to report the error.
         let _ = usage.print();
         return;
     }
@@ -151,8 +151,8 @@ pub(crate) fn print_note(line: &str) {
 /// Two files with the same name count as one model here; `check` reports both. The order follows
 /// the scene, so the output is deterministic.
 ///
-/// Warnings about things the picture would not show anyway are omitted. `is_vector` says whether it
-/// is a line drawing regardless of style.
+/// Warnings about things the picture would not show anyway are omitted. `is_vector` is true if the
+/// output has lines regardless of style.
 pub(crate) fn print_warnings<W: Display>(scene: &Scene, drawing: &[W], is_vector: bool) {
     drawing.iter().for_each(|warning| print_message("warning", &warning.to_string()));
     let mut printed: Vec<&str> = Vec::new();

@@ -10,7 +10,7 @@ use std::ffi::OsString;
 
 /// Returns the words of a command line, with negative numbers joined to the preceding flags.
 ///
-/// The flags are built only if there is such a number, because this takes most of a short command.
+/// The flags are built only if needed, because building them takes most of a short command's time.
 pub(crate) fn join_negative_numbers(
     words: impl IntoIterator<Item = OsString>,
     program: impl FnOnce() -> Command,

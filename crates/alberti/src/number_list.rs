@@ -1,4 +1,4 @@
-//! Lists of numbers as in textbooks: decimals and fractions between commas, spaces or brackets.
+//! Lists of numbers, as in textbooks: decimals and fractions with commas, spaces or brackets.
 
 /// Parses a list of numbers such as `1, -2/3, 0.5` or `[1 0 0 4] [0 1 0 2]`.
 ///

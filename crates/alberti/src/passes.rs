@@ -12,7 +12,7 @@ use scene_file::{Pass, PassEncoding};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Which render passes to write, and in which format.
+/// The render passes to write, and their format.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct PassArgs {
     /// Render passes to write next to the picture, as NAME.PASS.png (or .npy, .exr)

@@ -24,7 +24,7 @@ pub fn run_within(
 }
 
 /// Runs the program like [`run`](crate::run). If memory is limited, the command runs in a second
-/// process, so that it ends with a message if it needs more.
+/// process, so that it ends with a message if it exceeds the limit.
 ///
 /// Use it only in the program itself, because it may start the program again.
 pub fn run_program(arguments: impl IntoIterator<Item = OsString>) -> u8 {

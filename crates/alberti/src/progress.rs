@@ -96,7 +96,7 @@ impl Progress {
         }
     }
 
-    /// The monitor whose progress the line shows.
+    /// Returns the monitor whose progress the line shows.
     pub(crate) fn monitor(&self) -> Arc<dyn Monitor> {
         Arc::<Percentage>::clone(&self.done)
     }

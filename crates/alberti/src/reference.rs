@@ -112,7 +112,7 @@ pub(crate) fn run(args: &FullReferenceArgs, program: Command) -> Result<(), CliE
     let found = match &args.word {
         Some(word) => match (search::find_sections(&sections, word), find_formulas(word)) {
             (Ok(found), formulas) => {
-                // If flags and fields only mention the word, formulas that mention it match equally.
+                // If flags and fields only mention the word, include formulas that mention it.
                 let spoken = search::is_only_mentioned(&found, word);
                 let titled = formulas.into_iter().filter(|(_, in_name)| *in_name || spoken);
                 found.into_iter().chain(formula::list_section(titled)).collect()

@@ -21,7 +21,7 @@ pub(crate) struct RegionArgs {
     crop: Option<PixelRect>,
     /// Render only the I-th of N horizontal bands, counted from the top
     ///
-    /// Stacked from 1/N to N/N, the bands give the whole picture, or the --crop.
+    /// Stacked from 1/N to N/N, the bands form the whole picture, or the area of --crop.
     #[arg(help_heading = "Picture", long, value_name = "I/N", value_parser = parse_band)]
     band: Option<[u32; 2]>,
 }

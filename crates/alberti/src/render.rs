@@ -173,7 +173,7 @@ fn verify_drawing(scene: &Scene, threads: usize) -> Result<Agreement, CliError> 
 /// Returns the message of `--verify`.
 ///
 /// The length is the total of all visible lines, in pixels; the percentage is the part behind the
-/// z-buffer's surface. Up to about 0.2 % is normal, because the image resolves only a quarter of a
+/// z-buffer's surface. Up to about 0.2% is normal, because the image resolves only a quarter of a
 /// pixel, while the drawing is exact.
 fn agreement_message(agreement: &Agreement) -> String {
     let percent = 100.0 * agreement.disagreement_ratio();
@@ -264,8 +264,8 @@ fn check_is_file(input: &Path) -> Result<(), CliError> {
     help.map_or(Ok(()), |help| Err(missing(help)))
 }
 
-/// Returns help for an input that does not name a file: a pattern that the shell did not expand, an
-/// address, or a word that belongs to a flag.
+/// Returns help for an input that does not name a file: a pattern that the shell did not expand, a
+/// URL, or a word that belongs to a flag.
 pub(super) fn missing_input_help(input: &Path) -> Option<String> {
     let word = input.to_string_lossy();
     if word.contains("://") {

@@ -33,7 +33,7 @@ use std::path::{Path, PathBuf};
 /// A resolved scene, with everything else that its output files depend on.
 ///
 /// It borrows everything, because several pictures share the flags, and the report needs the scene
-/// once the files are written.
+/// after the files are written.
 pub(super) struct RenderJob<'a> {
     /// The flags of the command.
     pub(super) args: &'a RenderArgs,

@@ -220,7 +220,7 @@ fn default_output(args: &SheetArgs) -> Result<PathBuf, CliError> {
     Ok(PathBuf::from(stem).with_extension("pdf"))
 }
 
-/// Rasterizes a page at the given dots per inch.
+/// Rasterizes a page at a resolution in dots per inch.
 ///
 /// Other commands with pages use it with [`DEFAULT_DPI`]. The resolution must not depend on the
 /// display: output is the same on every machine.

@@ -4,7 +4,7 @@
 ///
 /// Call it only in the program itself: inside another program, such as Python, signals are handled
 /// by that program. Signals ignored at the start, as with `nohup`, stay ignored. If no thread can
-/// be created for them, they end the program at once.
+/// be created to handle signals, they end the program at once.
 #[cfg(unix)]
 pub fn clean_up_on_signals() {
     use files::remove_partial_files;

@@ -79,7 +79,7 @@ enum VaryArg {
 /// changes one of its parameters. Models are loaded once for all panels.
 ///
 /// # Errors
-/// If the input is invalid, or the parameter does not apply to the projection or leaves its range.
+/// If the input is invalid, or the parameter does not apply to the projection or is out of range.
 pub(crate) fn run(args: &SweepArgs) -> Result<(), CliError> {
     check_panel_output(&args.output)?;
     let progress = Progress::start("loading");

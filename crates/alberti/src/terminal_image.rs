@@ -55,7 +55,7 @@ pub(super) fn print_image(painted: &RenderOutput) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Box-filters a picture over black down to `columns` × `rows`.
+/// Downsamples a picture over black to `columns` × `rows` with a box filter.
 ///
 /// Squared codes approximate linear light: a gamma of 2 is close enough to sRGB here.
 ///
@@ -85,9 +85,9 @@ fn downsample(picture: &Picture, columns: u32, rows: u32) -> Vec<[u8; 3]> {
     shrunk
 }
 
-/// Returns the columns and rows that fit; `cells` is a column's width in rows (0.5 for characters).
+/// Returns the columns and rows that fit; `cells` is a cell's aspect ratio (0.5 for characters).
 ///
-/// At most 400 of each, and no more columns than the picture has pixels.
+/// Both are at most 400, and there are no more columns than the picture has.
 fn fit_columns(picture: &Picture, columns: u32, cells: f64) -> (u32, u32) {
     let columns = columns.clamp(1, 400).min(picture.width.max(1));
     let ratio = f64::from(picture.height) / f64::from(picture.width.max(1));
@@ -118,8 +118,8 @@ fn half_blocks(picture: &Picture, columns: u32) -> String {
 
 /// Returns the picture as characters of [`ASCII_RAMP`], by luminance.
 ///
-/// The weights are from Rec. 709: 0.2126 red, 0.7152 green, 0.0722 blue. They are applied to codes
-/// (luma), which is close to perceived lightness.
+/// The weights are from Rec. 709: 0.2126 red, 0.7152 green, 0.0722 blue. They are applied to the
+/// encoded values (luma), which is close to perceived lightness.
 fn ascii_art(picture: &Picture, columns: u32) -> String {
     let (columns, rows) = fit_columns(picture, columns, 0.5);
     let mut text = String::new();
@@ -170,7 +170,7 @@ fn kitty_graphics(picture: &Picture, columns: u32) -> String {
 mod tests {
     use super::*;
 
-    /// White upper half, black lower half.
+    /// Returns a picture with a white upper half and a black lower half.
     fn two_tone_picture() -> Picture {
         let pixels = (0..64).map(|at| [if at < 32 { 255 } else { 0 }; 3]);
         let pixels = pixels.map(|[r, g, b]| [r, g, b, 255]).collect();

@@ -37,7 +37,7 @@ pub(crate) struct ThumbnailerArgs {
     /// Broken, missing and unsupported parts are skipped if anything is left to show.
     #[arg(required_unless_present_any = ["install", "uninstall", "print"], requires = "output")]
     input: Option<PathBuf>,
-    /// Picture to write: a PNG
+    /// PNG file to write
     output: Option<PathBuf>,
     /// Width and height of the picture in pixels
     #[arg(long, value_name = "N", default_value = "256", value_parser = clap::value_parser!(u32).range(1..=4096))]

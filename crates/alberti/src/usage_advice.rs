@@ -313,7 +313,7 @@ mod tests {
             for quoted in help.split('`').skip(1).step_by(2) {
                 let command = quoted.split(" > ").next().unwrap_or(quoted);
                 let words: Vec<&str> = command.split(' ').collect();
-                // Flags of the program itself end it after printing.
+                // The program's own flags, such as `--version`, end it after printing.
                 if words.iter().any(|word| ["--help", "--version"].contains(word)) {
                     continue;
                 }

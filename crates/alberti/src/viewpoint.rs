@@ -8,7 +8,7 @@ use scene_file::file::{
     CameraFile, FieldOfView, Finite, FromFile, Positive, ProjectionFile, Triple, ViewFile,
 };
 
-/// The position of the camera, and how much it sees.
+/// The position and the field of view of the camera.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(crate) struct ViewpointArgs {
     /// Frame all models from this angle around them: 0 is the front, 90 the right side
@@ -55,7 +55,7 @@ pub(crate) struct ViewpointArgs {
     )]
     target: Option<Triple>,
     /// Direction that points up in the picture, with --eye [default: 0,1,0]
-    // It has its own name because `up` is the axis of models that points up.
+    // It is not called `up`, because `--up` sets the axis of a model that points up.
     #[arg(
         help_heading = "Camera",
         long = "view-up",

@@ -22,7 +22,7 @@ pub struct BareMap {
 }
 
 impl BareMap {
-    /// Creates the map of a matrix for column vectors, given by rows.
+    /// Creates the map of a matrix for column vectors, passed row by row.
     #[must_use]
     pub fn from_rows(rows: [[f64; 4]; 4]) -> Self {
         let map = Projective::from_rows(rows);
@@ -84,7 +84,7 @@ impl BareMap {
     }
 }
 
-/// The images of points, before and after the divide.
+/// Returns the step with the images of points, before and after the divide.
 fn image_step(labels: &[&str], points: &[HPoint<View>], images: &[HPoint<Clip>]) -> Step {
     let mut step = Step::new("image", "The image: M p, divided by its w", Some("HO-1, HO-3"));
     for ((label, point), image) in labels.iter().zip(points).zip(images) {

@@ -27,8 +27,8 @@ pub(super) struct ChapterMatrices {
 }
 
 impl ChapterMatrices {
-    /// The factors of a projection to the textbook's canonical volume; `None` for other kinds, and
-    /// if the far plane is infinite.
+    /// Returns the factors of a projection to the textbook's canonical volume; `None` for other
+    /// kinds, and if the far plane is infinite.
     pub(super) fn from_projection(view_to_clip: Projective<View, Clip>) -> Option<Self> {
         let kind = decompose(view_to_clip, Convention::CHAPTER).ok()?.kind;
         let (window, n, f) = match kind {
@@ -47,7 +47,7 @@ impl ChapterMatrices {
         Some(Self { window, planes: [n, f], p, m_orth, projection })
     }
 
-    /// The ids of the formulas.
+    /// Returns the ids of the formulas.
     pub(super) const fn formula(&self) -> &'static str {
         if self.p.is_some() { "OR-1, PE-1, PE-2, PE-3" } else { "OR-1" }
     }

@@ -61,7 +61,7 @@ impl ApiConventions {
         Self::WebGpu,
     ];
 
-    /// The name on the command line.
+    /// Returns the name on the command line.
     ///
     /// It is in lower case, without spaces; `FromStr` accepts exactly these names.
     #[must_use]
@@ -111,7 +111,7 @@ impl ApiConventions {
         }
     }
 
-    /// The canonical view volume.
+    /// Returns the canonical view volume.
     ///
     /// It holds the NDC range of z, the direction of y and the handedness of view space. None of
     /// these conventions is reversed-z in the sense of Vulkan or Direct3D; the chapter's near plane
@@ -127,8 +127,8 @@ impl ApiConventions {
         }
     }
 
-    /// The map from a view space that looks along −z to the view space of the conventions: diag(1,
-    /// 1, ±1).
+    /// Returns the map from a view space that looks along −z to the view space of the conventions:
+    /// diag(1, 1, ±1).
     ///
     /// It is its own inverse, and its determinant of −1 turns right-handed into left-handed
     /// coordinates.
@@ -151,7 +151,7 @@ impl ApiConventions {
         self.canonical_volume().ndc_y() == NdcY::Down
     }
 
-    /// The positions of pixel centers and the direction of rows.
+    /// Returns the positions of pixel centers and the direction of rows.
     #[must_use]
     pub const fn pixel_convention(self) -> PixelConvention {
         match self {
@@ -162,7 +162,7 @@ impl ApiConventions {
         }
     }
 
-    /// The map from NDC z to the depth of a pixel.
+    /// Returns the map from NDC z to the depth of a pixel.
     ///
     /// OpenGL maps −1 … +1 to 0 … 1, as `glDepthRange(0, 1)` does; conventions with NDC z in 0 … 1,
     /// and the chapter, leave z unchanged.
@@ -176,7 +176,7 @@ impl ApiConventions {
         }
     }
 
-    /// The ids of the formulas of the viewport and its depth.
+    /// Returns the formula ids for the viewport and its depth.
     #[must_use]
     pub const fn viewport_formulas(self) -> &'static str {
         match self {
@@ -187,7 +187,7 @@ impl ApiConventions {
         }
     }
 
-    /// The viewport that covers a whole image.
+    /// Returns the viewport that covers a whole image.
     ///
     /// # Errors
     /// If width or height is 0.
@@ -195,7 +195,7 @@ impl ApiConventions {
         Ok(self.viewport(Rectangle::from_size(width.into(), height.into())?))
     }
 
-    /// The viewport on a rectangle of the image.
+    /// Returns the viewport for a rectangle of the image.
     #[must_use]
     pub const fn viewport(self, area: Rectangle) -> Viewport {
         let range = self.canonical_volume().range();
@@ -212,10 +212,10 @@ impl FromStr for ApiConventions {
     }
 }
 
-/// The common name of a canonical volume.
+/// Returns the common name of a canonical volume.
 ///
-/// Looks the volume up in a table of common ones, plain and reversed. A custom convention
-/// has no entry and is called `another convention`.
+/// Looks up the volume in a table of common volumes, plain and reversed. A custom convention has no
+/// entry and is called `another convention`.
 pub(super) fn volume_name(volume: Convention) -> &'static str {
     const OPENCV: Convention = Convention::OPENGL.left_handed().with_ndc_y(NdcY::Down);
     const NAMES: [(Convention, &str); 16] = [

@@ -106,7 +106,7 @@ pub(super) fn draw_diagrams(
     figures
 }
 
-/// The points of the steps in a space, found by item ids: one, two ends or three vertices.
+/// Finds the points of the steps in a space by item ids: one, two ends or three vertices.
 ///
 /// Accepts the id `space` itself and `space_label`. Skips items of other types, homogeneous points
 /// (four numbers) and coordinates that are not finite, such as a clip-space point near w = 0.
@@ -122,7 +122,7 @@ fn labeled_points(explanation: &Explanation, space: &str) -> Vec<LabeledPoint> {
     marks.collect()
 }
 
-/// The corners of the canonical volume in NDC: x varies fastest, then y, then z.
+/// Returns the corners of the canonical volume in NDC: x varies fastest, then y, then z.
 ///
 /// Corner n has bit 0 for right, bit 1 for top and bit 2 for far; [`BOX_EDGES`] relies on this
 /// order.
@@ -132,7 +132,7 @@ fn canonical_corners(chain: &TransformChain) -> [[f64; 3]; 8] {
     std::array::from_fn(|n| [side(n & 1), side(n >> 1 & 1), if n >> 2 == 0 { near } else { far }])
 }
 
-/// The corners of the view volume in view space; `None` if it is infinite.
+/// Returns the corners of the view volume in view space; `None` if it is infinite.
 ///
 /// Maps the corners of the canonical volume back with the inverse projection, p_view = M⁻¹ p_ndc,
 /// and divides by w. Infinite far planes give w = 0, and singular projections have no inverse;
@@ -166,7 +166,7 @@ const BOX_EDGES: [[usize; 2]; 12] = [
     [3, 7],
 ];
 
-/// The diagram of a volume seen along an axis, with the points of the subject.
+/// Draws the diagram of a volume seen along an axis, with the points of the subject.
 ///
 /// `corners` are already projected to the plane of the diagram; `project` does this for the points.
 /// Diagrams of view space also show the eye, which is the origin there. The window includes points
@@ -203,7 +203,7 @@ fn volume_diagram(
     Diagram { caption: caption.to_owned(), svg }
 }
 
-/// The diagram of the picture with the points of the subject.
+/// Draws the diagram of the picture with the points of the subject.
 ///
 /// The user units of this SVG are pixels of the image, so marks need no scaling, only a change to
 /// the upper left origin. The PNG is embedded as a base64 data URI and may be smaller than the
@@ -226,8 +226,8 @@ fn picture_diagram(chain: &TransformChain, picture: &Picture, marks: &[LabeledPo
     Diagram { caption, svg }
 }
 
-/// The points with their labels, joined to a polygon if there are several; `unit` scales lines and
-/// text.
+/// Draws the points with their labels, joined to a polygon if there are several; `unit` scales
+/// lines and text.
 ///
 /// `positions` are in SVG user units, one for each mark. A segment is a polygon of two points,
 /// drawn as a line. Labels are ids of this program (`a`, `b`, `1`, …) and need no escaping.
@@ -261,7 +261,7 @@ fn subject_svg(marks: &[LabeledPoint], positions: &[[f64; 2]], unit: f64) -> Str
     svg
 }
 
-/// The opening tag of a diagram.
+/// Returns the opening tag of a diagram.
 ///
 /// `role="img"` makes screen readers announce the diagram as one image, described by its caption.
 fn open_svg([width, height]: [f64; 2]) -> String {

@@ -16,8 +16,7 @@ pub struct Explanation {
 
 /// One stage of the pipeline.
 ///
-/// A step may have no items: the divide and the viewport of a chain without points have only their
-/// matrices.
+/// In a chain without points, the steps contain the transforms but no coordinates.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Step {
     /// A stable identifier for programs, such as `camera` or `clip`; it is also the anchor of the

@@ -12,10 +12,10 @@ use homog::{Foreshortening, HPoint, Space};
 const SAMPLES: [(&str, f64); 5] =
     [("f_0", 0.0), ("f_1_4", 0.25), ("f_1_2", 0.5), ("f_3_4", 0.75), ("f_1", 1.0)];
 
-/// The step for f(t) of a segment between two images before the divide.
+/// Returns the step for f(t) of a segment, from the images of its ends before the divide.
 ///
 /// A segment whose ends have w with different signs crosses the plane of the eye. Its image is not
-/// connected and there is no f(t), as the step says.
+/// connected, so the step states that f(t) is not defined.
 pub(super) fn foreshortening_step<S: Space>(start: HPoint<S>, end: HPoint<S>) -> Step {
     let title = "f(t): where its points land between the images of the ends";
     let mut step = Step::new("foreshortening", title, Some("IN-1"))

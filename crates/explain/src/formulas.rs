@@ -31,7 +31,7 @@ pub fn find_formula(id: &str) -> Option<Formula> {
     entries().find(|entry| entry.has_id(id)).or_else(|| table_row(id))
 }
 
-/// All entries, in file order; table rows belong to the entry of their table.
+/// Returns all entries, in file order; table rows belong to the entry of their table.
 pub fn entries() -> impl Iterator<Item = Formula> {
     PAGE.split("\n**").skip(1).filter_map(|part| {
         let (name, rest) = part.split_once("** [")?;
@@ -59,13 +59,13 @@ pub fn find_formulas(words: &str) -> Vec<(Formula, bool)> {
     named.into_iter().map(|entry| (entry, true)).chain(told).collect()
 }
 
-/// The stems of three letters or more of the words in a text.
+/// Returns the stems of all words with at least three letters.
 fn stems(text: &str) -> impl Iterator<Item = String> {
     let words = text.split(|c: char| !c.is_alphabetic()).filter(|word| word.len() >= 3);
     words.map(|word| stem(&word.to_lowercase()))
 }
 
-/// A lowercase word without its ending, so that different forms of a word are equal.
+/// Removes the ending of a lowercase word, so that different forms of the word are equal.
 fn stem(word: &str) -> String {
     const ENDINGS: [&str; 28] = [
         "izations", "ization", "ations", "eously", "ation", "ating", "izing", "eous", "ates",
@@ -91,7 +91,7 @@ impl Formula {
         is_id(id) && words.into_iter().any(|word| word.eq_ignore_ascii_case(id))
     }
 
-    /// The titles of its sources.
+    /// Returns the titles of its sources.
     pub fn sources(&self) -> impl Iterator<Item = &'static str> {
         self.marks.split(", ").filter_map(|mark| {
             let row = format!("| [{mark}] | ");
@@ -100,7 +100,7 @@ impl Formula {
         })
     }
 
-    /// The first three equations of the text: code that contains `=` or `→`.
+    /// Returns the first three equations of the text: code that contains `=` or `→`.
     pub fn equations(&self) -> impl Iterator<Item = &'static str> {
         let code = self.text.split("```").next().unwrap_or_default().split('`').skip(1).step_by(2);
         code.filter(|code| code.contains(" = ") || code.contains(" → ")).take(3)
@@ -130,7 +130,7 @@ fn is_id(word: &str) -> bool {
     })
 }
 
-/// The formula in a table row, with each cell matched to its column name.
+/// Finds the formula in a table row, and combines each cell with its column name.
 fn table_row(id: &str) -> Option<Formula> {
     if !is_id(id) {
         return None;
@@ -146,7 +146,7 @@ fn table_row(id: &str) -> Option<Formula> {
     Some(Formula { name: row.trim_matches(['|', ' ']), marks: "std", text: text.trim(), command })
 }
 
-/// Splits a text into its body and its command.
+/// Splits an entry into its body and its command.
 fn split_command(text: &'static str) -> (&'static str, Option<&'static str>) {
     match text.split_once("\nCommand: `") {
         Some((text, rest)) => (text.trim(), rest.split("`\n").next().map(str::trim)),

@@ -14,8 +14,8 @@ use homog::{Clip, HPoint, World};
 /// Follows a homogeneous world point through every stage up to the divide.
 ///
 /// The four numbers stay undivided until the divide step, so a factor h is visible in all of them.
-/// Outcodes are computed for the multiple with w = 1, since −p and p have different ones. A point
-/// with w = 0 is a direction: it is not clipped, and the divide gives its vanishing point.
+/// Outcodes are computed for the multiple with w = 1, since −p and p have different outcodes. A
+/// point with w = 0 is a direction: it is not clipped, and the divide gives its vanishing point.
 ///
 /// # Errors
 /// If all four numbers are 0, which is not a point.
@@ -53,7 +53,7 @@ pub fn explain_homogeneous_point(
     })
 }
 
-/// The point that four numbers represent.
+/// Returns the step with the point that the four numbers represent.
 pub(super) fn homogeneous_step<S: homog::Space>(point: HPoint<S>) -> Step {
     let step = Step::new("homogeneous", "The four numbers", Some("HO-1, HO-2")).with_item(
         "numbers",

@@ -38,9 +38,9 @@ impl Explanation {
     }
 }
 
-/// One step as a list item with a table of its values.
+/// Formats a step as a list item with a table of its values.
 ///
-/// The id of the step is the anchor, so `page.html#clip` leads to clipping. Formula ids become
+/// The id of the step is the anchor, so `page.html#clip` links to clipping. Formula ids become
 /// `<code>` chips after the title.
 fn step_html(step: &Step) -> String {
     let formulas = step.formula.unwrap_or_default();
@@ -54,7 +54,7 @@ fn step_html(step: &Step) -> String {
     format!("<li id=\"{}\"><h2>{title}{chips}</h2>\n<dl>\n{rows}</dl></li>\n", step.id)
 }
 
-/// One value as a term with its description.
+/// Formats a value as a term with its description.
 ///
 /// Matrices are tables whose left and right borders act as brackets; coordinates are a list in
 /// parentheses. Numbers have at most seven significant digits, as in plain text.
@@ -72,7 +72,7 @@ fn item_html(item: &ExplanationEntry) -> String {
     format!("<dt>{}</dt><dd>{value}</dd>\n", escape_html(&item.name))
 }
 
-/// A matrix as a table.
+/// Formats a matrix as a table.
 fn matrix_html<const N: usize>(rows: &[[f64; N]; N]) -> String {
     let cells = |row: &[f64; N]| -> String {
         row.iter().map(|&entry| format!("<td>{}</td>", format_number(entry))).collect()

@@ -14,8 +14,8 @@ use serde_json::{Value as Json, json};
 ///
 /// Consumers check it before they read anything else; the program also writes other JSON documents.
 pub const SCHEMA_NAME: &str = "alberti-explain";
-/// The version of the schema. It rises when a member changes its meaning or is removed; new members
-/// may be added in any release.
+/// The version of the schema. It increases when a member changes its meaning or is removed; new
+/// members may be added in any release.
 pub const SCHEMA_VERSION: u32 = 1;
 
 impl Explanation {
@@ -36,7 +36,7 @@ impl Explanation {
     }
 }
 
-/// One step with its items.
+/// Formats a step with its items.
 ///
 /// A step without a formula has `"formula": null`, not a missing member.
 fn step_json(step: &Step) -> Json {
@@ -48,7 +48,7 @@ fn step_json(step: &Step) -> Json {
     })
 }
 
-/// One item; a matrix as an object with its rows.
+/// Formats an item. A matrix becomes an object with its rows.
 ///
 /// The object distinguishes a matrix from a list of coordinates without counting numbers.
 fn item_json(item: &ExplanationEntry) -> Json {

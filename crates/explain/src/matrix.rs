@@ -1,10 +1,10 @@
 //! Explains a matrix: its kind, its inverse, its meaning with parameters, and known misprints it
 //! resembles.
 //!
-//! Sixteen numbers can be several projections, each in a different convention: OpenGL's and the
-//! textbook's differ by the sign of z. The most likely reading comes first with all its parameters;
-//! others follow, one per line. A misprint is reported only if the matrix as given is less
-//! plausible; if both are equally plausible, both are listed.
+//! Sixteen numbers can represent several projections, each in a different convention: OpenGL's and
+//! the textbook's differ by the sign of z. The most likely reading comes first with all its
+//! parameters; others follow, one per line. A misprint is reported only if the matrix as given is
+//! less plausible; if both are equally plausible, both are listed.
 
 mod meaning;
 mod planar;
@@ -52,8 +52,8 @@ pub fn explain_matrix(rows: [[f64; 4]; 4]) -> Result<Explanation, String> {
     Ok(Explanation { subject: "A matrix for column vectors".to_owned(), steps, verdict })
 }
 
-/// The reading of the corrected matrix, with its title, if it is clearly more likely and there is
-/// little to say about the matrix as given.
+/// Returns the reading of the corrected matrix, with its title, if it is clearly more likely and
+/// the matrix as given has no meaning worth reporting.
 fn corrected_reading(found: &Recognition) -> Option<(MatrixReading, &'static str)> {
     let slip = found.misprint()?;
     let title = match slip.misprint {
@@ -78,7 +78,7 @@ fn check_finite<const N: usize>(rows: &[[f64; N]; N]) -> Result<(), String> {
     }
 }
 
-/// The inverse matrix, or the reason why there is none.
+/// Returns the step with the inverse matrix, or the reason why there is none.
 fn inverse_step(map: Projective<View, Clip>) -> Step {
     let step = Step::new("inverse", "Inverse", Some("IV-1"));
     match map.inverse() {
@@ -89,9 +89,9 @@ fn inverse_step(map: Projective<View, Clip>) -> Step {
     }
 }
 
-/// The rows of an inverse, with 0 for rounding noise: entries below the error bound of Gaussian
-/// elimination, ε |M⁻¹| |M| |M⁻¹| by entries (Higham 2002, chapter 14), or so small that M M⁻¹ and
-/// M⁻¹ M are the identity without them.
+/// Returns the rows of an inverse, with 0 for rounding noise: entries below the error bound of
+/// Gaussian elimination, ε |M⁻¹| |M| |M⁻¹| by entries (Higham 2002, chapter 14), or so small that M
+/// M⁻¹ and M⁻¹ M are the identity without them.
 #[must_use]
 pub fn without_rounding(matrix: DMat4, inverse: DMat4) -> [[f64; 4]; 4] {
     let size = |m: DMat4| DMat4::from_cols_array(&m.to_cols_array().map(f64::abs));
@@ -107,10 +107,10 @@ pub fn without_rounding(matrix: DMat4, inverse: DMat4) -> [[f64; 4]; 4] {
     std::array::from_fn(|row| std::array::from_fn(|column| clean(4 * column + row)))
 }
 
-/// The kind of map: affine or projective, with its rank and determinant.
+/// Returns the step with the kind of map, affine or projective, and its rank and determinant.
 ///
-/// A rank below 4 loses a dimension, as in a projection onto a plane; the sign of the determinant
-/// shows whether orientation changes, as it does between handednesses.
+/// A rank below 4 means that a dimension is lost, as in a projection onto a plane. A negative
+/// determinant means that orientation is reversed, as between handednesses.
 fn kind_step(rows: [[f64; 4]; 4], map: Projective<View, Clip>) -> Step {
     let found = map.classify();
     Step::new("kind", "Kind of map", Some("HO-3"))
@@ -120,7 +120,7 @@ fn kind_step(rows: [[f64; 4]; 4], map: Projective<View, Clip>) -> Step {
         .with_item("determinant", "determinant", map.raw().determinant())
 }
 
-/// The parts of an affine map: translation, scale of each axis, shear, handedness.
+/// Returns the parts of an affine map: translation, scale of each axis, shear, handedness.
 ///
 /// Only for matrices whose last row is a multiple of (0, 0, 0, 1). With the columns a₁, a₂, a₃ of
 /// the upper left 3 × 3:
@@ -159,7 +159,7 @@ fn affine_step(map: Projective<View, Clip>, meaning: &MatrixMeaning) -> Option<S
     Some(step)
 }
 
-/// A rotation with a translation: a camera, its pose or a model transform.
+/// Whether a map is a rotation with a translation: a camera, its pose or a model transform.
 fn is_rigid(meaning: &MatrixMeaning) -> bool {
     matches!(
         meaning,
@@ -169,7 +169,7 @@ fn is_rigid(meaning: &MatrixMeaning) -> bool {
     )
 }
 
-/// The vanishing points of the three axes.
+/// Returns the step with the vanishing points of the three axes.
 ///
 /// The vanishing point of a direction d is M (d, 0): the columns of the matrix. Finite columns give
 /// one-, two- and three-point perspective (VN-1); 1e-12 is the relative tolerance on w.
@@ -190,7 +190,7 @@ fn vanishing_points_step(map: Projective<View, Clip>) -> Step {
         .fold(step, |step, (axis, point)| step.with_item(axis, axis, words(point)))
 }
 
-/// The readings after the first, beginning with those equally likely.
+/// Returns the step with the readings after the first, beginning with the equally likely ones.
 fn other_readings_step(found: &Recognition) -> Option<Step> {
     let misprint = found.misprint().map(|slip| slip.misprint);
     if matches!(misprint, Some(Misprint::LastRowNegated | Misprint::WrongSign)) {
@@ -199,7 +199,7 @@ fn other_readings_step(found: &Recognition) -> Option<Step> {
     let turned = misprint == Some(Misprint::Transposed);
     let equal = if turned { 0 } else { found.equal_readings().count() };
     let most = found.first().cost + LESS_LIKELY;
-    // Programs use a rigid matrix in all three ways, no matter what its numbers are.
+    // Programs use rigid matrices in all three ways, regardless of their entries.
     let rigid = is_rigid(&found.first().meaning);
     let told = |reading: &&MatrixReading| {
         let likely = reading.cost <= most || (rigid && is_rigid(&reading.meaning));
@@ -222,28 +222,28 @@ fn other_readings_step(found: &Recognition) -> Option<Step> {
     }))
 }
 
-/// A position in a matrix, counted from 1.
+/// Describes a position in a matrix, counted from 1.
 fn place_words(row: usize, column: usize) -> String {
     format!("row {}, column {}", row + 1, column + 1)
 }
 
-/// The entry with the wrong sign.
+/// Describes the entry with the wrong sign.
 fn entry_words(rows: [[f64; 4]; 4], found: &Recognition) -> String {
     let changed = found.misprint().and_then(|slip| changed_entry(rows, slip));
     changed.map_or("one entry".to_owned(), |[row, column]| place_words(row, column))
 }
 
-/// The first entry that the remedy changes, as row and column counted from 0.
+/// Returns the first entry that the remedy changes, as row and column counted from 0.
 fn changed_entry(rows: [[f64; 4]; 4], slip: &Suspicion) -> Option<[usize; 2]> {
     let remedied = slip.remedied?;
     let at = (0..16).find(|at| rows[at / 4][at % 4] != remedied[at / 4][at % 4])?;
     Some([at / 4, at % 4])
 }
 
-/// A known misprint that the matrix resembles, with the correction and its meaning.
+/// Returns the step with a known misprint, its correction, and the meaning of the corrected matrix.
 ///
 /// The corrected matrix is shown only if the sixteen entries determine it. The first misprint has
-/// the id `misprint`, further ones `other_misprint`.
+/// the id `misprint`, later misprints have `other_misprint`.
 fn misprint_step(at: usize, rows: [[f64; 4]; 4], slip: &Suspicion) -> Step {
     let known = slip.misprint.id().unwrap_or("unnumbered");
     let title = match (slip.misprint, slip.strength) {
@@ -285,7 +285,7 @@ fn misprint_step(at: usize, rows: [[f64; 4]; 4], slip: &Suspicion) -> Step {
     }
 }
 
-/// The result in a sentence: the first reading, and the misprint if that explains it better.
+/// States the result in a sentence: the first reading, and the misprint if it is more plausible.
 fn matrix_verdict(map: Projective<View, Clip>, found: &Recognition) -> String {
     let first = found.first();
     let misprint = found.misprint().map(|slip| slip.misprint);

@@ -55,7 +55,7 @@ pub fn explain_node(
     Explanation { subject, steps, verdict: counts.verdict() }
 }
 
-/// The path from the root to the node.
+/// Returns the step with the path from the root to the node.
 ///
 /// Follows the parent indices to the root and prints the path from there. The matrix is the
 /// accumulated node-to-model transform, the product of the local TRS matrices along this path.
@@ -83,7 +83,7 @@ fn tree_step(model: &Model, node: usize) -> Step {
     }
 }
 
-/// The reason for a node without a visible mesh.
+/// Explains why a node has no visible mesh.
 ///
 /// Three causes: the index is out of range, the node has no mesh (a group, joint, light or camera),
 /// or the node is outside the drawn scene.
@@ -107,8 +107,8 @@ struct PrimitiveCounts {
     /// The axis-aligned bounding box in world space: minimum and maximum corners; `None` without
     /// vertices.
     bounds: Option<[DVec3; 2]>,
-    /// The planes of the view volume with every vertex outside: the AND of all outcodes. A plane in
-    /// it rejects the whole mesh, which suggests the simplest remedy.
+    /// The view volume planes that all vertices are outside of: the AND of all outcodes. Each of
+    /// these planes rejects the whole mesh, which suggests the simplest remedy.
     common_outcode: Option<Outcode>,
     /// All points, lines and triangles of the node's mesh.
     total: usize,
@@ -130,7 +130,7 @@ impl PrimitiveCounts {
     ///
     /// Positions are skinned, mapped to world and clip space in f64, then assembled by topology. A
     /// transform with a negative determinant mirrors the mesh: triangles that were counterclockwise
-    /// appear clockwise, so the culled side is exchanged as the glTF specification requires.
+    /// appear clockwise, so the opposite side is culled, as the glTF specification requires.
     fn count_primitive(
         &mut self,
         chain: &TransformChain,
@@ -167,8 +167,8 @@ impl PrimitiveCounts {
         self.bounds = Some([least.min(point), most.max(point)]);
     }
 
-    /// Counts one point, line or triangle. `culled` says whether a front face (`true`) or a back
-    /// face is culled.
+    /// Counts one point, line or triangle. `culled` returns whether front faces (`true`) or back
+    /// faces (`false`) are culled.
     ///
     /// The tests in order: trivial rejection (the AND of the vertices' outcodes is not 0), facing
     /// (edge-on if the area is 0), culling, alpha. A primitive outside several planes is counted at
@@ -201,9 +201,9 @@ impl PrimitiveCounts {
         }
     }
 
-    /// The bounding box and its relation to the view volume.
+    /// Returns the step with the bounding box and its relation to the view volume.
     ///
-    /// It is in world units. If the box is outside one plane, this step alone explains the mesh.
+    /// The box is in world units. If it is outside one plane, this step explains the missing mesh.
     fn bounds_step(&self) -> Step {
         let step = Step::new("bounds", "Bounding box", Some("CL-1"));
         let Some([min, most]) = self.bounds else {
@@ -219,7 +219,7 @@ impl PrimitiveCounts {
             .with_item("outside", "the whole mesh is", describe_outcode(common))
     }
 
-    /// The counts as a step.
+    /// Returns the step with the counts.
     ///
     /// Planes that reject nothing are omitted from the list. Primitives that cross a plane count as
     /// visible: they are clipped only in part.
@@ -238,7 +238,7 @@ impl PrimitiveCounts {
             .with_item("left", "in the view volume", self.visible as f64)
     }
 
-    /// The result in a sentence: the stage that removes everything, or the visible fraction.
+    /// States the result in a sentence: the stage that removes everything, or the visible fraction.
     ///
     /// The first condition that explains everything wins: an empty mesh, one plane that rejects
     /// all, a visible remainder, culling, alpha. A mesh that is rejected partly by one plane and

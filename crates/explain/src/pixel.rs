@@ -57,7 +57,7 @@ pub fn explain_pixel(
     Ok(Explanation { subject, steps, verdict: pixel_verdict(&pixel) })
 }
 
-/// A fragment, with its source primitive, weights, color and world position.
+/// Returns the step for a fragment: source primitive, weights, color and world position.
 ///
 /// A fragment without a source comes from the environment, backdrop or ground and has no position.
 /// Its color is linear RGB, premultiplied by alpha.
@@ -95,14 +95,14 @@ fn source_name(scene: &Scene, owner: FragmentSource) -> String {
     )
 }
 
-/// The glTF primitive that a fragment comes from; `None` if an index is out of range.
+/// Finds the glTF primitive that a fragment comes from; `None` if an index is out of range.
 fn find_primitive(scene: &Scene, owner: FragmentSource) -> Option<&model::Primitive> {
     let model = &scene.models.get(owner.model)?.model;
     let mesh = model.meshes.get(model.nodes.get(owner.node)?.mesh?)?;
     mesh.primitives.get(owner.primitive)
 }
 
-/// The world position of a triangle's fragment: its vertices blended by the barycentric weights.
+/// Returns the world position of a fragment: the triangle's vertices, blended by the weights.
 ///
 /// p = w₀ p₀ + w₁ p₁ + w₂ p₂, with the vertices skinned and mapped to world space in f64. The
 /// weights are f32, so the position is exact to about 1e-7 of the triangle's size. Points and lines
@@ -124,7 +124,7 @@ fn fragment_position(scene: &Scene, seen: &ShadedFragment) -> Option<Point<World
     Some(Point::from_raw(position))
 }
 
-/// The resolved color of the pixel.
+/// Returns the step with the resolved color of the pixel.
 ///
 /// Samples are averaged in linear light; an average of sRGB values would darken edges. The result
 /// has 8 bits per channel and straight alpha, as the PNG stores it.
@@ -135,16 +135,16 @@ fn color_step(makeup: &PixelFragments) -> Step {
         .with_item("hex", "in hexadecimal", format!("#{r:02x}{g:02x}{b:02x}, alpha {alpha}"))
 }
 
-/// The result in a sentence.
+/// States the result in a sentence.
 ///
 /// Names the color in hexadecimal and the number of distinct fragments: more than one is an
 /// antialiased edge or blending.
 fn pixel_verdict(makeup: &PixelFragments) -> String {
     let [r, g, b, alpha] = makeup.color;
     let what = match makeup.fragments.len() {
-        0 => "only the background is in it".to_owned(),
-        1 => "one surface is visible in it".to_owned(),
-        count => format!("{count} surfaces share it or overlap in it"),
+        0 => "only the background is visible".to_owned(),
+        1 => "one surface is visible".to_owned(),
+        count => format!("{count} surfaces contribute to it"),
     };
     format!("The pixel is #{r:02x}{g:02x}{b:02x} with alpha {alpha}: {what}.")
 }

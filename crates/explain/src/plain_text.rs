@@ -45,7 +45,7 @@ fn write_wrapped(f: &mut Formatter<'_>, words: &str) -> fmt::Result {
     writeln!(f, "{line}")
 }
 
-/// The formula ids of a step in parentheses.
+/// Formats the formula ids of a step in parentheses.
 ///
 /// Prints ` (CA-1, CA-2)`, or nothing for a step without a formula.
 struct FormulaSuffix<'a>(&'a Step);
@@ -56,7 +56,7 @@ impl Display for FormulaSuffix<'_> {
     }
 }
 
-/// Writes an item, its label padded to `width`.
+/// Writes an item with its label padded to `width`.
 ///
 /// The label is on the first line only; the other rows of a matrix are indented below it. `width`
 /// counts characters, not bytes, for labels such as `x, y = ±distance`.

@@ -20,7 +20,8 @@ use model::{MeshInstance, Model};
 pub fn explain_transforms(chain: &TransformChain) -> Explanation {
     let [_, screen] = chain.screen_steps(&[]);
     let steps = vec![chain.camera_step(&[]), chain.projection_step(&[]), screen];
-    let verdict = "Use --point, --segment or --node to follow something through it.".to_owned();
+    let verdict =
+        "Use --point, --segment or --node to trace a subject through the chain.".to_owned();
     Explanation { subject: "The transform chain from world to screen".to_owned(), steps, verdict }
 }
 
@@ -80,7 +81,7 @@ pub fn explain_vertex(
     Ok(explain_world_point(chain, world, subject, vec![step]))
 }
 
-/// The steps of a world point, after the steps that led to it.
+/// Explains a world point, and puts the steps that led to it first.
 ///
 /// The verdict is positive only if the outcode is 0 and w is not 0. The outcode is tested instead
 /// of the NDC, because after the divide a point behind the eye can appear inside the image.
@@ -108,7 +109,7 @@ fn explain_world_point(
     Explanation { subject, steps, verdict }
 }
 
-/// The model transform: mesh to world, for labeled points.
+/// Returns the step with the model transform from mesh to world, for labeled points.
 ///
 /// `to_model` is the accumulated node transform, or the identity for a skinned mesh: its joints
 /// already map to model space. The product is applied in one multiplication.
@@ -145,7 +146,7 @@ pub(super) fn model_step(
 /// Finds the first instance of a node's mesh, and one of its primitives.
 ///
 /// # Errors
-/// If there is none; the message lists the existing nodes or counts the primitives.
+/// If either does not exist; the message lists the existing nodes or counts the primitives.
 ///
 /// A node outside the drawn scene has no instance. The message lists up to twelve nodes that have
 /// one.
@@ -178,7 +179,7 @@ pub(super) fn describe_node(model: &Model, node: usize) -> String {
     }
 }
 
-/// A vertex position in f64.
+/// Returns a vertex position in f64.
 ///
 /// The conversion is exact; everything after it is computed in f64.
 pub(super) fn model_point(position: [f32; 3]) -> Point<ModelSpace> {

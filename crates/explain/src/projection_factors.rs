@@ -15,7 +15,7 @@ use projection::{Classical, Decomposed, decompose};
 /// Adds the kind of a projection, and its factors in the order in which they apply to a point.
 ///
 /// The product of the factors equals the projection matrix up to rounding. A projection that cannot
-/// be decomposed adds nothing. One whose kind has no textbook factorization adds only its kind.
+/// be decomposed adds nothing. A projection without a textbook factorization adds only its kind.
 ///
 /// The shear of a frustum moves the center of the window onto the axis, x' = x + z (l + r)/(2n);
 /// for a symmetric frustum it is the identity. The shear of an oblique projection makes its
@@ -99,16 +99,16 @@ fn describe_projection(kind: &Decomposed) -> String {
     }
 }
 
-/// The formula ids of a projection in the pipeline's own conventions, numbered as in the chapter.
+/// Returns the formula ids of a projection in the pipeline's own conventions, as in the chapter.
 ///
-/// An example is `PE-1, PE-3, VV-2`; `None` for a matrix that is not recognized.
+/// For example `PE-1, PE-3, VV-2`, or `None` for a matrix that is not recognized.
 #[must_use]
 pub fn formula_ids(view_to_clip: Projective<View, Clip>) -> Option<&'static str> {
     let decomposition = decompose(view_to_clip, ApiConventions::Alberti.canonical_volume()).ok()?;
     formula_ids_of_kind(&decomposition.kind, ApiConventions::Alberti)
 }
 
-/// The formula ids of a kind of projection in the given conventions.
+/// Returns the formula ids for a kind of projection in some conventions.
 ///
 /// Perspective and orthographic matrices have separate formulas for the volumes of graphics APIs
 /// (GL-1, GL-3); the classical projections are numbered once.

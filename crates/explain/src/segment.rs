@@ -51,10 +51,10 @@ pub fn explain_segment(chain: &TransformChain, ends: [Point<World>; 2]) -> Expla
     Explanation { subject: "A segment from a to b".to_owned(), steps, verdict }
 }
 
-/// The clipping step: the planes through which the visible part enters and leaves.
+/// Returns the clipping step: the planes through which the visible part enters and leaves.
 ///
-/// `left` is `None` for a segment rejected trivially or because its interval is empty (t₀
-/// > t₁); the step then names the planes that it is outside.
+/// `left` is `None` for a segment rejected trivially or because its interval is empty (t₀ > t₁);
+/// the step then names the planes that the segment is outside of.
 fn clip_step(
     chain: &TransformChain,
     a: HPoint<Clip>,

@@ -36,8 +36,7 @@ pub struct TransformChain {
     size: [u32; 2],
     /// The transform from world to clip to screen in these conventions.
     transform: ViewTransform,
-    /// Whether the window exchanges left and right, or bottom and top; front faces then wind
-    /// clockwise.
+    /// Whether the window swaps left and right, or bottom and top; front faces then wind clockwise.
     is_mirrored: bool,
 }
 
@@ -50,8 +49,8 @@ impl TransformChain {
     /// # Errors
     /// If the picture has no pixels.
     ///
-    /// The projection is converted from the pipeline's own volume by `Convention::convert`; the
-    /// camera is composed with the flip of z of left-handed conventions. World to clip is their
+    /// The projection is converted from the pipeline's own volume by `Convention::convert`; in
+    /// left-handed conventions, the camera is composed with a flip of z. World to clip is their
     /// product in f64.
     pub fn new(
         view_projection: &ViewProjection,
@@ -74,25 +73,25 @@ impl TransformChain {
         Ok(Self { camera, view_to_clip, conventions, viewport, size, transform, is_mirrored })
     }
 
-    /// World to view space, which looks along −z, or along +z in left-handed conventions.
+    /// Returns the transform from world to view space (looking along +z if left-handed, else −z).
     #[must_use]
     pub fn world_to_view(&self) -> Affine<World, View> {
         self.camera.world_to_view().then(self.conventions.view_flip())
     }
 
-    /// World to clip space.
+    /// Returns the transform from world to clip space.
     #[must_use]
     pub fn world_to_clip(&self) -> Projective<World, Clip> {
         self.transform.world_to_clip()
     }
 
-    /// The viewport transform: normalized device coordinates to pixels.
+    /// Returns the viewport transform: normalized device coordinates to pixels.
     #[must_use]
     pub fn ndc_to_screen(&self) -> Affine<Ndc, Screen> {
         self.transform.ndc_to_screen()
     }
 
-    /// The view volume in clip space, used for clipping.
+    /// Returns the view volume in clip space, which is used for clipping.
     #[must_use]
     pub fn clip_volume(&self) -> Volume {
         match self.conventions {
@@ -106,7 +105,7 @@ impl TransformChain {
         }
     }
 
-    /// The perspective divide and viewport transform of a clip-space point; `None` if w is 0.
+    /// Applies the divide and the viewport transform to a clip-space point; `None` if w is 0.
     #[must_use]
     pub fn project_to_screen(&self, point: HPoint<Clip>) -> Option<Point<Screen>> {
         self.transform.project_to_screen(point)
@@ -129,7 +128,7 @@ impl TransformChain {
         (upright_volume != 0.0).then_some(upright_volume > 0.0)
     }
 
-    /// The depth of a point in the pipeline's own volume: larger is nearer, in any convention.
+    /// Returns a point's depth in the pipeline's own volume: larger is nearer, in any convention.
     ///
     /// Points with w = 0 give −∞ and are never the nearest.
     pub(super) fn nearness(&self, point: Point<World>) -> f64 {
@@ -139,12 +138,12 @@ impl TransformChain {
         clip.divide().map_or(f64::NEG_INFINITY, Point::z)
     }
 
-    /// The position of the eye.
+    /// Returns the position of the eye.
     pub(super) fn eye(&self) -> Point<World> {
         self.camera.eye()
     }
 
-    /// The projection matrix: view to clip space.
+    /// Returns the projection matrix: view to clip space.
     pub(super) fn view_to_clip(&self) -> Projective<View, Clip> {
         self.view_to_clip
     }
@@ -154,7 +153,7 @@ impl TransformChain {
         self.conventions.looks_along_z()
     }
 
-    /// The NDC z of the near and far planes.
+    /// Returns the NDC z of the near and far planes.
     pub(super) fn depth_range(&self) -> [f64; 2] {
         match self.conventions {
             ApiConventions::Alberti | ApiConventions::Chapter | ApiConventions::ChapterYDown => {
@@ -167,25 +166,25 @@ impl TransformChain {
         }
     }
 
-    /// The textbook's matrices, in its conventions and for the projections it covers.
+    /// Returns the textbook's matrices, in its conventions and for the projections it covers.
     fn chapter_matrices(&self) -> Option<ChapterMatrices> {
         let is_textbook = self.conventions.is_textbook();
         is_textbook.then(|| ChapterMatrices::from_projection(self.view_to_clip)).flatten()
     }
 
-    /// The width and height of the picture in pixels.
+    /// Returns the width and height of the picture in pixels.
     pub(super) fn image_size(&self) -> [f64; 2] {
         [self.viewport.area().width(), self.viewport.area().height()]
     }
 
-    /// Screen coordinates as pixels from the upper left corner of the picture, y down.
+    /// Converts screen coordinates to pixels from the upper left corner of the picture, y down.
     pub(super) fn image_coordinates(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let border = self.viewport.convention().centers.image_border();
         let (x, y) = (x - border, y - border);
         [x, if self.rows_run_up() { self.image_size()[1] - y } else { y }]
     }
 
-    /// The view transform's two factors, and the points in view space.
+    /// Returns the step with the view transform's two factors, and the points in view space.
     ///
     /// M_cam = R · T (CA-1): the translation of the eye to the origin, then the rotation whose rows
     /// are u, v, w. Left-handed conventions add diag(1, 1, −1). The distance of a point is measured
@@ -226,7 +225,7 @@ impl TransformChain {
         step
     }
 
-    /// The projection's factors, and the points in clip space.
+    /// Returns the step with the projection's factors, and the points in clip space.
     ///
     /// The formula ids depend on the kind of projection and are added with the factors. Clip
     /// coordinates have four components; w is the distance ahead for a perspective and 1 for a
@@ -262,14 +261,14 @@ impl TransformChain {
         step.add_item(id, label, <[f64; 4]>::from(clip));
     }
 
-    /// The intrinsic parameters of a perspective that looks straight ahead, with picture rows
-    /// counted from the top.
+    /// Returns the intrinsics of a perspective that looks straight ahead, with picture rows counted
+    /// from the top.
     fn intrinsics(&self) -> Option<Intrinsics> {
         let volume = self.conventions.canonical_volume();
         Intrinsics::from_view_to_clip(self.view_to_clip, volume, self.size).ok()
     }
 
-    /// The outcodes of clip-space points.
+    /// Returns the step with the outcodes of clip-space points.
     ///
     /// A bit is set if the signed distance of the point from a plane is negative, such as w − x
     /// < 0 for right (Cohen and Sutherland). The bits are printed in binary and as plane names.
@@ -288,11 +287,11 @@ impl TransformChain {
         step
     }
 
-    /// The perspective divide and viewport transform of clip-space points.
+    /// Divides clip-space points by w and maps them to the viewport.
     ///
     /// Returns the divide step and the viewport step. A point at infinity appears only in the
     /// first. Points outside the volume are mapped too: their coordinates show how far outside they
-    /// are. Depth is 0 … 1, its direction given by the conventions.
+    /// are. Depth is 0 … 1; the conventions determine its direction.
     pub(super) fn screen_steps(&self, points: &[NamedPoint<'_, HPoint<Clip>>]) -> [Step; 2] {
         let mut divide = Step::new("divide", "The divide by w", Some("HO-1"));
         let mut screen = Step::new(
@@ -366,10 +365,10 @@ impl TransformChain {
     }
 }
 
-/// The item for a point whose w is 0.
+/// Returns the item for a point whose w is 0.
 ///
-/// It has the id of the NDC coordinates, but contains text; a direction or a point in the plane of
-/// the eye has no image.
+/// It has the id of the NDC coordinates but contains text, because a direction or a point in the
+/// plane of the eye has no image.
 fn infinity_item(name: &str) -> ExplanationEntry {
     let words = "w is 0: the point is at infinity and has no screen position";
     ExplanationEntry {
@@ -389,14 +388,14 @@ pub(super) fn describe_outcode(code: Outcode) -> String {
     format!("outside the {} {planes}", names.join(", "))
 }
 
-/// The suffix of an item's id for a labeled point.
+/// Returns the suffix of an item's id for a labeled point.
 ///
 /// It is `_a` for the point a, and empty for a single point.
 fn id_suffix(name: &str) -> String {
     if name.is_empty() { String::new() } else { format!("_{name}") }
 }
 
-/// The label of an item for a labeled point.
+/// Returns the label of an item for a labeled point.
 ///
 /// It is `clip of a` for the point a, and `clip` for a single point.
 fn label_with_name(what: &str, name: &str) -> String {

@@ -25,8 +25,7 @@ use model::Topology;
 /// If the model does not show such a triangle; the message lists what exists.
 ///
 /// Vertices keep the labels a, b, c through the transforms; vertices of the clipped polygon are
-/// numbered from 1. The area covers the visible part, in square pixels, before samples decide
-/// coverage.
+/// numbered from 1. The area is measured for the visible part in square pixels, before sampling.
 pub fn explain_triangle(
     chain: &TransformChain,
     model_instance: &ModelInstance,
@@ -88,10 +87,11 @@ pub fn explain_triangle(
     Ok(Explanation { subject, steps, verdict })
 }
 
-/// The clipping step: the planes, and the vertices of the clipped polygon with their weights.
+/// Returns the clipping step: the planes, and the vertices of the clipped polygon with their
+/// weights.
 ///
 /// The weights of a vertex sum to 1 and are affine in the world, since clipping comes before the
-/// divide. 1, 0, 0 is the vertex a itself; two nonzero entries are a cut edge.
+/// divide. The weights 1, 0, 0 mean the vertex a itself; two nonzero weights mean a cut edge.
 fn clip_step(left: &ClippedPolygon) -> Step {
     let mut step = Step::new("clip", "Clipping, in homogeneous space", Some("CL-3"))
         .with_item("cut", "cut by", plane_list(left.outcomes.clipped, "no plane"))
@@ -111,7 +111,7 @@ fn clip_step(left: &ClippedPolygon) -> Step {
     step
 }
 
-/// The planes of an outcode as a list, or `none`.
+/// Lists the planes of an outcode, or returns `none`.
 fn plane_list(code: clip::Outcode, none: &str) -> String {
     if code.is_inside() {
         return none.to_owned();
@@ -120,7 +120,7 @@ fn plane_list(code: clip::Outcode, none: &str) -> String {
     names.join(", ")
 }
 
-/// The signed area on the screen in pixels (shoelace formula): positive if the vertices run
+/// Returns the signed area on the screen in pixels (shoelace formula): positive if the vertices run
 /// clockwise, with y down.
 ///
 /// A = ½ Σ (xᵢ yᵢ₊₁ − xᵢ₊₁ yᵢ). The clipped polygon is convex and has w > 0, so no vertex is
@@ -136,10 +136,10 @@ fn screen_area(chain: &TransformChain, left: &ClippedPolygon) -> f64 {
     0.5 * ring.map(|(p, q)| p.perp_dot(*q)).sum::<f64>()
 }
 
-/// The area and winding on the screen.
+/// Returns the step with the area and winding on the screen.
 ///
-/// The turn is described by axes instead of as clockwise, since y points up in some conventions and
-/// down in others.
+/// The direction is described by axes instead of as clockwise, because y points up in some
+/// conventions and down in others.
 fn area_step(area: f64) -> Step {
     let orientation = match area {
         area if area > 0.0 => "from +x toward +y",

@@ -3,7 +3,7 @@
 //! ```sh
 //! cargo run -p alberti-explorer --example answer -- scenes 'what=world&lesson=frustum&format=png' > world.png
 //! ```
-//! It also answers further requests. The times go to standard error.
+//! Further requests are answered too. Their times are written to standard error.
 
 use explorer::Explorer;
 use std::error::Error;

@@ -3,7 +3,7 @@
 import { resourceUrl, server } from './resources.js';
 import { currentLanguage } from './texts.js';
 
-/** Milliseconds after which a silent worker is considered dead: large models load slowly. */
+/** Milliseconds after which a silent worker is considered dead, long enough to load large models. */
 const TIME_LIMIT = 120_000;
 
 /** An error to show: a message, a remedy and a code for programs. */

@@ -38,7 +38,7 @@ export class State {
     else this.values.set(key, value);
   }
 
-  /** Takes all values from another query, as one undo step. */
+  /** Replaces all values with another query's values, as one undo step. */
   replace(query) {
     this.remember();
     this.lastChange = { key: '', time: -Infinity };

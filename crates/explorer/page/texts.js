@@ -55,7 +55,7 @@ const TEXTS = {
   copyByHand: ['Copy this text', '请复制以下文字'],
   cursorAt: ['pixel {0}, {1}', '像素 {0}, {1}'],
   footer: [
-    'Alberti computes everything on this page with the code of the program, so a saved picture has the same bytes.',
+    'This page runs the same code as the program, so a saved picture has the same bytes.',
     '此处一切均由 Alberti 计算，与命令行程序使用同一代码：保存的图像逐字节相同。',
   ],
   native: ['Computed by the server.', '由服务器计算。'],

@@ -1,4 +1,5 @@
 //! Demonstrations of the viewing pipeline for lessons, computed by the stages of the pipeline.
+//!
 //! | subject | start with |
 //! | --- | --- |
 //! | one subject in every projection of the textbooks | [`projection_panels`] |

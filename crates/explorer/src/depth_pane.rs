@@ -25,7 +25,7 @@ const SAMPLES: u32 = 400;
 /// Draws the curve as SVG.
 ///
 /// # Errors
-/// The view volume has no far plane.
+/// If the view volume has no far plane.
 pub(crate) fn depth_svg(
     facts: &Facts,
     conventions: ApiConventions,

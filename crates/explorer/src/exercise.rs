@@ -53,7 +53,7 @@ pub struct Exercise {
     pub mistakes: &'static [Mistake],
     shape: AnswerShape,
     multiples: Multiples,
-    /// Values of the symbols, for each of which an answer is compared.
+    /// Sample values of the symbols; an answer is compared for each sample.
     samples: &'static [&'static [f64]],
     /// Returns the correct answer for values of the symbols, or `None` if it does not exist.
     answer: fn(&[f64]) -> Option<Entries>,
@@ -71,7 +71,7 @@ pub fn find_exercise(number: u32) -> Option<&'static Exercise> {
     exercises().iter().copied().find(|exercise| exercise.number == number)
 }
 
-/// For exercises without symbols: a single comparison.
+/// A single sample without values, for exercises without symbols.
 const NUMBERS: &[&[f64]] = &[&[]];
 
 impl Exercise {

@@ -80,8 +80,8 @@ impl Explorer {
     /// Answers a request: a query string with the keys listed in the README.
     ///
     /// # Errors
-    /// An unknown, repeated or malformed key, a missing or broken model, or an invalid scene. The
-    /// explorer is unchanged.
+    /// If a key is unknown, repeated or malformed, a model is missing or broken, or the scene is
+    /// invalid. The explorer is unchanged.
     pub fn answer(&mut self, query: &str) -> Result<Answer, ExplorerError> {
         self.answer_unless_canceled(query, &CancelToken::default())
     }
@@ -90,7 +90,7 @@ impl Explorer {
     /// drawings and model loading run to completion first.
     ///
     /// # Errors
-    /// As `answer`, and `cannot_render` for a canceled picture.
+    /// As for `answer`, and `cannot_render` if the picture is canceled.
     pub fn answer_unless_canceled(
         &mut self,
         query: &str,
@@ -211,7 +211,7 @@ impl Explorer {
         let is_world = *question == Question::World;
         let orbit = if is_world { state.orbit() } else { state.volume_orbit() };
         let observer = Observer { orbit, size: *size, samples: *samples };
-        // The picture of the state has a different shape than the pane.
+        // The picture of the state has a different aspect ratio than the pane.
         let (text, loaded) = self.load(state, DEFAULT_SIZE, 4)?;
         let key = format!("{observer:?} {} {text}", state.to_link());
         let known = if is_world { &self.world.scene } else { &self.volume.scene };

@@ -17,7 +17,7 @@ pub(crate) struct Facts {
     pub(crate) size: [u32; 2],
     pub(crate) view_projection: ViewProjection,
     pub(crate) survey: Survey,
-    /// The number of triangles in the models, and the number that were counted.
+    /// The number of triangles in the models, and the number that were classified.
     pub(crate) triangles: [usize; 2],
     /// The center of projection in view space; `None` in a parallel projection.
     pub(crate) apex: Option<Point<View>>,

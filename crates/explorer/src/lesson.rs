@@ -31,9 +31,9 @@ pub(crate) struct Lesson {
     pub(crate) orbit: [f64; 2],
     /// The conventions of all reported numbers.
     pub(crate) conventions: ApiConventions,
-    /// Builds the scene for some values. The request sets the picture size, sampling and style.
+    /// Builds the scene from the values. The request sets the picture size, sampling and style.
     pub(crate) describe: fn(&Values<'_>) -> LessonScene,
-    /// A remark for readers of the scene file, after its title.
+    /// A remark for readers of the scene file, placed after its title.
     pub(crate) remark: &'static str,
     /// The first viewport that shows the model.
     pub(crate) first_view: usize,

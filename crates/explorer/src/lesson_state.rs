@@ -55,11 +55,11 @@ impl PartialEq for &'static Lesson {
 }
 
 impl LessonState {
-    /// Takes the state from the keys of a query.
+    /// Reads the state from the keys of a query and removes them.
     ///
     /// # Errors
-    /// An unsupported version, an unknown lesson or style, a malformed number, or a value out of
-    /// range.
+    /// If the version is unsupported, the lesson or style is unknown, or a value is malformed or
+    /// out of range.
     pub(crate) fn take_from(query: &mut Query) -> Result<Self, ExplorerError> {
         check_version(query.take("v"))?;
         let language = take_language(query)?;
@@ -77,7 +77,7 @@ impl LessonState {
         Ok(Self { lesson, parameters, pin, orbit, volume_orbit, style, model, language })
     }
 
-    /// Returns this lesson with default numbers and the same choices.
+    /// Returns this state with default numbers and the same choices.
     pub(crate) fn with_defaults(&self) -> Self {
         let default = |(parameter, value): (&Parameter, &ParameterValue)| match *value {
             ParameterValue::Number(_) => parameter.default_value(),
@@ -241,7 +241,7 @@ fn parse_number(key: &str, text: &str) -> Result<f64, ExplorerError> {
     })
 }
 
-/// Takes a list of numbers, all within the limit.
+/// Removes a key and parses its `N` numbers, whose magnitudes must not exceed `limit`.
 fn take_numbers<const N: usize>(
     query: &mut Query,
     key: &str,

@@ -41,7 +41,7 @@ pub(crate) static LESSONS: [&Lesson; 23] = [
     &own_scene::SCENE,
 ];
 
-/// The model of most lessons. It is 4.75 m high, and its front is at z = 2.8.
+/// The model that most lessons show. It is 4.75 m high, and its front is at z = 2.8.
 pub(crate) const HOUSE: &str = "models/house.glb";
 
 /// The panes of a lesson about one perspective.

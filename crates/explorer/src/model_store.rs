@@ -83,7 +83,7 @@ impl ModelStore {
     /// the scene.
     ///
     /// # Errors
-    /// A mistake in the scene, or a model that cannot be loaded.
+    /// If the scene is invalid, or a model cannot be loaded.
     pub(crate) fn resolve(
         &mut self,
         key: String,

@@ -1,4 +1,4 @@
-//! Pane pictures, rendered whole or in bands with the same memory.
+//! Pane pictures, rendered whole or in bands, with buffers that are reused.
 
 use crate::ExplorerError;
 use homog::PixelRect;
@@ -33,7 +33,7 @@ impl PanePicture {
     /// on.
     ///
     /// # Errors
-    /// The renderer's errors.
+    /// If the picture cannot be rendered.
     pub(crate) fn whole(&mut self, key: &str, drawn: Drawn<'_>) -> Result<&Picture, ExplorerError> {
         let known = self.whole.as_ref().is_some_and(|(known, _)| known == key);
         if !known {
@@ -51,7 +51,7 @@ impl PanePicture {
     /// picture, for all bands.
     ///
     /// # Errors
-    /// The renderer's errors.
+    /// If the picture cannot be rendered.
     pub(crate) fn band(
         &mut self,
         key: &str,

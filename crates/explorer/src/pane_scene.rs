@@ -69,7 +69,7 @@ impl PaneGeometry {
     /// Returns the scene, framed around points.
     ///
     /// # Errors
-    /// There are no points, or a point is not finite.
+    /// If there are no points, or a point is not finite.
     pub(crate) fn into_scene(
         self,
         observer: Observer,

@@ -16,7 +16,8 @@ impl Query {
     /// Parses a query string, with or without a leading `#` or `?`.
     ///
     /// # Errors
-    /// A pair without `=`, a broken percent-encoding, a duplicate key, or a query that is too long.
+    /// If a pair lacks `=`, percent-encoding is broken, a key is repeated, or the query is too
+    /// long.
     pub(crate) fn parse(text: &str) -> Result<Self, ExplorerError> {
         if text.len() > MAX_QUERY_BYTES {
             let message = format!("the request has {} bytes", text.len());

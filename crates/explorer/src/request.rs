@@ -72,7 +72,7 @@ impl Request {
     /// Parses a request.
     ///
     /// # Errors
-    /// An unknown key, a malformed value, or a band of a PNG.
+    /// If a key is unknown, a value is malformed, or a band of a PNG is requested.
     pub(crate) fn parse(text: &str) -> Result<Self, ExplorerError> {
         let mut query = Query::parse(text)?;
         let question = find_question(query.take("what").as_deref())?;
@@ -129,7 +129,7 @@ fn check_rows(rows: Option<[u32; 2]>, height: u32, is_png: bool) -> Result<(), E
     Err(malformed("rows", &text, &format!("use rows within 0-{height}")))
 }
 
-/// Takes two whole numbers.
+/// Removes a key and parses its two whole numbers.
 fn take_pair(
     query: &mut Query,
     key: &str,

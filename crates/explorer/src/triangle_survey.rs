@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 /// The maximum number of triangles drawn in the panes next to the main picture.
 const MAX_DRAWN: usize = 10_000;
-/// The maximum number of triangles that are counted individually.
+/// The maximum number of triangles that are classified individually.
 const MAX_COUNTED: usize = 300_000;
 /// The number of cells along the longest side of the first vertex-merging grid.
 const FIRST_GRID: f64 = 96.0;
@@ -20,9 +20,9 @@ pub(crate) type WorldTriangle = [Point<World>; 3];
 /// The triangles of models in world space.
 #[derive(Debug)]
 pub(crate) struct WorldTriangles {
-    /// The number of triangles of the models.
+    /// The number of triangles in the models.
     pub(crate) count: usize,
-    /// The counted triangles: all triangles, or only the drawn triangles of very large models.
+    /// The classified triangles: all of them, or only the drawn triangles of very large models.
     pub(crate) counted: Vec<WorldTriangle>,
     /// A smaller set for drawing; `None` if the full set is small.
     reduced: Option<Vec<WorldTriangle>>,

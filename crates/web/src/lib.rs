@@ -23,7 +23,7 @@ impl Explorer {
     /// Adds a file from which models can be loaded, or replaces the file of that name.
     ///
     /// # Errors
-    /// An object `{code, message, help}`, if the name points outside the folder of files.
+    /// Throws `{code, message, help}` if the name points outside the folder of files.
     pub fn add_file(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), JsValue> {
         self.0.add_file(name, bytes).map_err(|error| error_object(&error))
     }
@@ -31,7 +31,7 @@ impl Explorer {
     /// Answers a request (a query string) with an object `{content_type, bytes}`.
     ///
     /// # Errors
-    /// An object `{code, message, help}`.
+    /// Throws `{code, message, help}` if the request cannot be answered.
     pub fn answer(&mut self, query: &str) -> Result<JsValue, JsValue> {
         let answer = self.0.answer(query).map_err(|error| error_object(&error))?;
         let object = Object::new();

@@ -99,10 +99,10 @@ impl FrameSink {
 
     /// Opens an animated PNG: RGB if every frame is opaque, otherwise RGBA.
     ///
-    /// The delay of a frame is a fraction of two 16-bit numbers, 1000 / (1000 fps).
+    /// A frame's delay is stored as a fraction of two 16-bit numbers: 1000 / (1000 fps).
     ///
-    /// The numerator is 1000, so that rates such as 23.976 are exact to a thousandth. The
-    /// denominator also has 16 bits, so rates above 65.535 frames per second play at 65.535.
+    /// The factor 1000 makes rates such as 23.976 exact to a thousandth. Rates above 65.535 frames
+    /// per second do not fit and play at 65.535.
     ///
     /// Whether all frames are opaque must be known before the first one is written, because the
     /// color type is in the header. The scene's background determines it. The file loops forever (0

@@ -1,4 +1,4 @@
-//! The flags of a picture: from the command, or from the line of a job list that overrides them.
+//! The flags of a picture, from the command and from the job list line, which overrides them.
 //!
 //! ```text
 //!  command: --size 64x64 --view front      line: {"input": "a.glb", "camera": "left"}
@@ -26,7 +26,7 @@ impl RenderFlags {
     /// Parses arguments such as `--size=64x64`.
     ///
     /// # Errors
-    /// If a flag does not accept its value, or two flags conflict; the message is clap's.
+    /// If a flag does not accept its value, or two flags conflict; the message comes from clap.
     pub(super) fn parse(words: &[String]) -> Result<Self, String> {
         let command = declaration().no_binary_name(true).color(clap::ColorChoice::Never);
         let parsed = command.try_get_matches_from(words);
@@ -39,7 +39,7 @@ impl RenderFlags {
     }
 }
 
-/// The declaration of the flags.
+/// Returns the command that declares the flags.
 fn declaration() -> Command {
     RenderFlags::augment_args(Command::new("batch").disable_help_flag(true))
 }
@@ -104,13 +104,13 @@ impl GivenFlags {
         self.words.remove(at).1.map(PathBuf::from)
     }
 
-    /// Returns the flags as arguments, for keys and workers.
+    /// Returns the flags as arguments, for job keys and for workers.
     pub(super) fn to_words(&self) -> Vec<String> {
         self.words.iter().map(|(name, value)| flag_word(name, value.as_deref())).collect()
     }
 }
 
-/// The table of all flags of a picture.
+/// Returns the table of all picture flags and their conflicts.
 pub(super) fn flag_table() -> FlagTable {
     let mut command = declaration();
     command.build();

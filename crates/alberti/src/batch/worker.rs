@@ -189,8 +189,7 @@ fn write_picture(path: &Path, partial: &Path, png: &[u8]) -> Result<(), PictureE
     }
     let written = create_partial_file(partial).and_then(|mut file| {
         file.write_all(png)?;
-        // The data is synced before the rename, so a crash leaves either the old picture or the new
-        // one intact.
+        // The data is synced before the rename, so a crash leaves the old picture or the new one.
         file.sync_all()?;
         std::fs::rename(partial, path)
     });

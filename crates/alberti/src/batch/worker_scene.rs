@@ -19,7 +19,7 @@ const INPUT_PATH: &str = "{input}";
 
 /// Loads scenes and keeps the last scene's models.
 pub(super) struct SceneLoader {
-    /// The worker's memory, which limits what may be loaded.
+    /// The worker's memory limit in bytes, from which the importer's limits follow.
     memory: Option<u64>,
     /// The most recently loaded models, with the key of their source.
     loaded: Option<(LoadKey, Vec<ModelInstance>)>,
@@ -91,7 +91,7 @@ impl SceneLoader {
 
 /// Opens a scene file and replaces each model whose path is `{input}` with the input.
 ///
-/// The user named the input, so it may be anywhere; other models must be below the scene's folder.
+/// The user chose the input, so it may be anywhere. Other models must be below the scene's folder.
 fn open_scene_around(
     scene: &Path,
     input: &Path,

@@ -1,6 +1,6 @@
 //! Collects the files that a model or a scene refers to, so that they can all be sent to a browser.
 //!
-//! Whether they are used correctly is left to the importer. A name that points outside the model's
+//! The importer checks whether they are used correctly. A name that points outside the model's
 //! folder, even through a symbolic link, is skipped.
 
 use crate::CliError;

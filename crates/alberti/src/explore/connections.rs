@@ -149,7 +149,7 @@ impl Connection {
         };
     }
 
-    /// Writes a response while its client keeps reading.
+    /// Writes a response for as long as its client keeps reading.
     fn write(&mut self, response: &Response<'_>, is_head: bool) -> std::io::Result<()> {
         let body = if is_head { &[] } else { response.bytes() };
         let mebibytes = u32::try_from(body.len() >> 20).unwrap_or(u32::MAX);

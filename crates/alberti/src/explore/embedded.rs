@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 /// Paths and compressed contents; see `build.rs`.
 const FILES: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/explorer_files.rs"));
 
-/// All files by their URL paths, without the leading slash.
+/// Returns all files by their URL paths, without the leading slash.
 pub(super) fn embedded_files() -> BTreeMap<String, Vec<u8>> {
     let unpack = |(path, bytes): &(&str, &[u8])| {
         let bytes = miniz_oxide::inflate::decompress_to_vec_zlib(bytes);

@@ -30,8 +30,8 @@ fn random_bytes() -> std::io::Result<[u8; TOKEN_BYTES]> {
     Ok(bytes)
 }
 
-/// Makes random bytes from the standard library, which has no generator but seeds the hash keys of
-/// its maps from the system: without the key, the hash of a number cannot be guessed.
+/// Derives random bytes from the standard library. It has no generator, but it seeds the hash keys
+/// of its maps from the system, and without the key, the hash of a number cannot be guessed.
 #[cfg(not(unix))]
 fn random_bytes() -> std::io::Result<[u8; TOKEN_BYTES]> {
     use std::hash::{BuildHasher as _, RandomState};

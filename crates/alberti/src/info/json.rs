@@ -140,7 +140,7 @@ fn skin_json(skin: &Skin) -> Value {
 
 /// Returns an animation: its name, duration and channels.
 ///
-/// `duration` is the time of the last keyframe of any channel.
+/// `duration` is the time of the last keyframe in any channel.
 fn animation_json(model: &Model, animation: &Animation) -> Value {
     json!({
         "name": animation.name,

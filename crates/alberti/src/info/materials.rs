@@ -81,7 +81,7 @@ fn material_extensions_json(material: &Material) -> Value {
     all.filter_map(|(name, value)| Some((name.to_owned(), value?))).collect()
 }
 
-/// Returns the extensions that add or replace a layer of the BRDF, or `None` without any.
+/// Returns the extensions that add or replace a layer of the BRDF; missing ones are `None`.
 ///
 /// The thickness of iridescence is a pair in nanometers: minimum and maximum.
 fn material_layers_json(more: &MaterialExtensions) -> [(&'static str, Option<Value>); 7] {

@@ -153,7 +153,7 @@ const FLAGS: [BuilderFlag; 16] = [
 /// The flags on the command line with their numbers, in the order written.
 #[derive(Clone, Debug, Default)]
 pub(super) struct BuildArgs {
-    /// Indices of flags, and their numbers.
+    /// Each flag's index in [`FLAGS`], and its numbers.
     calls: Vec<(usize, NumberList)>,
 }
 
@@ -297,11 +297,11 @@ pub(super) struct BuiltMatrix {
     pub(super) matrix: DMat4,
     /// A remark on the matrix.
     pub(super) note: Option<&'static str>,
-    /// Names and matrices, in the order of their application to a point; the product is the matrix.
+    /// Names and matrices, in the order in which they are applied; the product is the matrix.
     pub(super) factors: Vec<(&'static str, DMat4)>,
     /// The ids of the factors' formulas.
     pub(super) factor_formula: Option<&'static str>,
-    /// The matrices of a product, in the order of their application; empty for a single matrix.
+    /// The matrices of a product, in order of application; empty for a single matrix.
     pub(super) product_of: Vec<(String, DMat4)>,
 }
 

@@ -53,7 +53,7 @@ fn perspective_formula(volume: Convention, by_angle: bool, infinite: bool) -> &'
     }
 }
 
-/// Returns the formula id of an orthographic box in a convention; windowing for rare ones.
+/// Returns the formula id of an orthographic box in a convention; WI-3 for rare conventions.
 fn box_formula(volume: Convention) -> &'static str {
     match volume {
         Convention::CHAPTER => "OR-1",
@@ -64,7 +64,7 @@ fn box_formula(volume: Convention) -> &'static str {
     }
 }
 
-/// Replaces rounding noise with 0: entries below 1e-15, and offsets below 1e-15 of the largest.
+/// Replaces rounding noise with 0: entries below 1e-15, and offsets below 1e-15 times the largest.
 fn without_noise(matrix: DMat4) -> DMat4 {
     let clean = |column: glam::DVec4| {
         let kept = column.to_array().map(|entry| if entry.abs() < 1e-15 { 0.0 } else { entry });

@@ -22,7 +22,7 @@ fn type_section(entry: &TypeEntry) -> ReferenceSection {
 
 /// Returns the entry for one field.
 ///
-/// Optional fields need no note, because nearly all are.
+/// Optional fields need no note, because nearly all fields are optional.
 fn field_entry(field: &FieldEntry) -> ReferenceEntry {
     ReferenceEntry {
         term: field.name.to_owned(),

@@ -9,7 +9,7 @@ use scene_file::file::{EnvironmentFile, ViewportsScale};
 
 /// Sets the view of a scene to the smallest scale of all `--views`.
 ///
-/// The other views are resolved around this view's models, without viewports and backdrops, which
+/// The other views reuse this view's models and are resolved without viewports and backdrops, which
 /// do not affect the scale.
 ///
 /// # Errors

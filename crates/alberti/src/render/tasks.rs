@@ -16,12 +16,12 @@ use std::path::{Path, PathBuf};
 
 /// The text and number fields of an output name template.
 ///
-/// All except `stem` have the value of a flag, or `default` if the flag is not set. They differ
-/// between calls, not between pictures, except `view` with `--views`.
+/// All except `stem` have the value of a flag, or `default` if the flag is not set. Their values
+/// are the same for all pictures of a call, except `view` with `--views`.
 const WORD_FIELDS: [&str; 6] = ["stem", "camera", "view", "style", "projection", "variant"];
 /// The number fields of an output name template.
 ///
-/// `frame` starts at 0 for each input; `index` does not.
+/// `frame` restarts at 0 for each input; `index` does not.
 const NUMBER_FIELDS: [&str; 2] = ["index", "frame"];
 
 /// One picture to render.

@@ -39,7 +39,7 @@ pub(super) fn repeat(
         return Err(CliError::Usage(message.to_owned()));
     }
     loop {
-        // Stamped before rendering, so that a change during it causes another run.
+        // Stamped before rendering, so that a change during rendering causes another run.
         let before = stamp_files(inputs);
         if let Err(error) = make() {
             print_message("error", &error.to_message());

@@ -42,7 +42,7 @@ struct ScalarRange {
 impl ColormapArgs {
     /// Replaces the depth colors and the colors of all models in a scene.
     ///
-    /// Another attribute has another range of values, so `--scalars` discards the scene's range.
+    /// Each attribute has its own range of values, so `--scalars` discards the scene's range.
     pub(crate) fn apply_to(&self, file: &mut SceneFile) {
         file.depth_colormap = self.colormap.or(file.depth_colormap);
         for model in &mut file.models {

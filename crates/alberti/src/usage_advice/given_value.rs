@@ -9,9 +9,9 @@ use clap::{Command, Error};
 pub(super) enum Given {
     /// The value is missing, or the flag here accepts none.
     Nothing,
-    /// The flag here accepts it: the advice with the value.
+    /// The advice with the value, which the flag here accepts.
     Fits(String),
-    /// The flag here, which does not accept it.
+    /// The flag here, which does not accept the value.
     FitsNot(String),
 }
 

@@ -201,7 +201,7 @@ fn chosen_folder(stem: &str, words: &[String], command: &Command) -> Option<Stri
     Some(folder.trim_end_matches('/').to_owned())
 }
 
-/// Whether the value in a piece of advice is an unlikely name for the user's model or folder.
+/// Whether the value in a piece of advice is only an example, unlikely to exist for this user.
 fn is_only_an_example(advice: &str) -> bool {
     let flags = ["environment", "scalars", "compare", "camera", "animation", "variant", "pose"];
     let flag = advice.split(' ').next().and_then(|flag| flag.strip_prefix("--"));

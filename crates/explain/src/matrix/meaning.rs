@@ -6,7 +6,7 @@ use super::super::plain_text::format_number;
 use projection::{Classical, Convention, Oblique, PrincipalPlane, ProjectionClass, Window};
 use recognition::{CameraReading, Lens, MatrixMeaning, MatrixReading, ViewportReading};
 
-/// A reading in one sentence without a period: meaning, parameters, convention and factor.
+/// Describes a reading without a final period: meaning, parameters, convention and factor.
 pub(super) fn describe_meaning(reading: &MatrixReading) -> String {
     let meaning = &reading.meaning;
     let convention = match meaning.convention() {
@@ -58,7 +58,7 @@ fn oblique_words(oblique: &Oblique) -> String {
     format!("length {length}, angle {phi}° (receding lines are drawn toward {recedes}°)")
 }
 
-/// The name of an oblique projection by its length: `an oblique projection (cabinet)`.
+/// Names an oblique projection by its length: `an oblique projection (cabinet)`.
 fn oblique_name(oblique: &Oblique, what: &str) -> String {
     match Classical::Oblique(*oblique).class() {
         class @ (ProjectionClass::Cavalier | ProjectionClass::Cabinet) => {
@@ -138,7 +138,7 @@ fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
     })
 }
 
-/// The handedness of the world, if unusual.
+/// Describes the handedness of the world if it is left-handed.
 fn world_words(meaning: &MatrixMeaning) -> &'static str {
     let left_handed = meaning.convention().is_some_and(|convention| convention.ahead() > 0.0);
     if left_handed { ", in a left-handed world" } else { "" }
@@ -276,7 +276,7 @@ fn describe_transform(meaning: &MatrixMeaning) -> String {
     }
 }
 
-/// The first reading with all its parameters; nothing for a map without a name.
+/// Returns the step with the first reading and all its parameters; `None` for a map without a name.
 pub(super) fn meaning_steps(reading: &MatrixReading) -> Option<Step> {
     let meaning = &reading.meaning;
     if !meaning.is_named() {

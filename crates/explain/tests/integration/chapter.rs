@@ -25,7 +25,7 @@ fn render_scene(scene: &Scene) -> Picture {
     render(scene, 1).expect("a picture")
 }
 
-/// The pixel position of a world point.
+/// Returns the pixel position of a world point.
 fn pixel_position(scene: &Scene, place: Point<World>) -> [f64; 2] {
     let viewport =
         viewport::Viewport::image_for(scene.image.width, scene.image.height, ClipRange::CHAPTER);
@@ -41,7 +41,7 @@ fn c3_c84_c101_a_point_passes_model_view_projection_divide_and_viewport_in_this_
         "Scene(models: [(path: \"crate.glb\", translation: (1, 2, 3), rotation_degrees: (0, 90, 0), scale: 2)],
          camera: (view: LookAt(eye: (6, 5, 9), target: (1, 2, 3))), image: (size: (320, 200)))",
     );
-    // Scaled by 2, turned from x to −z, moved.
+    // Scaled by 2, rotated from x to −z, and translated.
     let corner =
         scene.models[0].model_to_world.transform_point(Point::<Model>::new(0.5, 1.0, 0.25));
     assert!((corner - Point::new(1.5, 4.0, 2.0)).length() < 1e-14);
@@ -95,7 +95,7 @@ fn c2_c10_c13_c28_every_edge_of_a_box_is_drawn_hidden_or_not_in_parallel_and_in_
 }
 
 #[test]
-fn c35_a_ball_beside_the_line_of_sight_is_drawn_as_the_ellipse_that_its_cone_cuts_out() {
+fn c35_an_off_axis_ball_is_drawn_as_an_ellipse() {
     let scene = resolve_text(
         "Scene(models: [(path: \"spheres.glb\", translation: (0, -0.5, 0))], style: Flat,
          camera: (view: LookTo(eye: (0, 0, 4), gaze: (0, 0, -1)),

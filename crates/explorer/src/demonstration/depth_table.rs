@@ -119,7 +119,7 @@ impl DepthTable {
     ///
     /// # Errors
     /// If the distance is not positive and finite, or its depth cannot be distinguished from the
-    /// next depth.
+    /// next representable depth.
     pub fn row_at(&self, distance: f64) -> Result<DepthRow, ProjectionError> {
         let step = |curve: DepthCurve| curve.resolution(distance, self.format);
         let steps = [step(self.curves[0])?, step(self.curves[1])?];
@@ -281,7 +281,7 @@ mod tests {
         assert_eq!((open.notes().len(), open.distance_range()), (2, [1.0, 1e4]));
     }
 
-    /// ZP-1: a fixed step in depth is a distance of D²(F−N)/(FN) times its fraction of the range.
+    /// ZP-1: a depth step spans a distance of D²(F−N)/(FN) times its fraction of the depth range.
     #[test]
     fn steps_grow_with_the_square_of_the_distance() {
         let table = table(0.1, 1000.0, Convention::WEBGPU, DepthFormat::FixedPoint(24));

@@ -112,7 +112,7 @@ fn projection_notes(
     notes
 }
 
-/// Returns the first equation among some formulas, in characters of the stroke font.
+/// Returns the equations of the first formula that has any, in characters of the stroke font.
 fn formula_in_full(ids: &str) -> Option<String> {
     let (id, equation) = ids.split(", ").find_map(|id| {
         let equation = find_formula(id)?.equations().collect::<Vec<_>>().join(", ");
@@ -123,8 +123,7 @@ fn formula_in_full(ids: &str) -> Option<String> {
     Some(format!("{id}: {spelled}"))
 }
 
-/// Returns the path of classes from below the root to this class, such as `parallel, oblique,
-/// cavalier`.
+/// Returns the path of classes that ends at this class, such as `parallel, oblique, cavalier`.
 ///
 /// The root, which all classes share, is omitted.
 fn class_path(class: ProjectionClass) -> String {
@@ -278,8 +277,9 @@ mod tests {
         panels.panels[0].notes.clone()
     }
 
-    /// √(2/3) in isometric, √(8)/3 and √(2)/3 in the dimetric projection with 42° and 7°, depth at
-    /// full and half length in cavalier and cabinet, and an undistorted plan in military.
+    /// Factors are √(2/3) in isometric, and √(8)/3 and √(2)/3 in the dimetric projection with 42°
+    /// and 7°. Depth has full and half length in cavalier and cabinet, and military keeps the plan
+    /// undistorted.
     #[test]
     fn parallel_projections_foreshorten_axes_as_in_the_textbooks() {
         let cases = [

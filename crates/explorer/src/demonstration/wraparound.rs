@@ -70,7 +70,7 @@ struct Board {
 /// Draws the floor three times: from the side, divided without clipping, and clipped first.
 ///
 /// # Errors
-/// None in practice, because the camera and projection are constants.
+/// Never in practice, because the camera and projection are constants.
 ///
 /// The page depends only on the constants in this file. The notes state w and the images of two
 /// pairs of points, and the number of boards left after clipping.
@@ -177,7 +177,7 @@ fn side_panel(boards: &[Board]) -> Panel {
     Panel { id, title, notes, page }
 }
 
-/// Draws the perspective divide without clipping: the connected images of the corners.
+/// Draws the boards divided without clipping: the connected images of their corners.
 ///
 /// This is the mistake that the lesson demonstrates: if w has different signs at two corners, the
 /// segment between their images is the complement of the true image. The drawing is clipped to the
@@ -198,9 +198,9 @@ fn divided_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
 
 /// Draws the boards clipped against the view volume and then divided.
 ///
-/// Polygon clipping in homogeneous space (Sutherland and Hodgman, 1974; CL-3). Every remaining
-/// vertex has w ≥ near, and the smallest w is printed. Boards behind the eye disappear, and
-/// crossing boards keep their front part.
+/// Clips polygons in homogeneous space (Sutherland and Hodgman, 1974; CL-3). Every remaining vertex
+/// has w ≥ near, and the smallest w is printed. Boards behind the eye disappear, and crossing
+/// boards keep their front part.
 fn clipped_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
     let ring = |board: &Board| {
         clip_convex(&board.corners.map(|corner| map.transform_point(corner)), &Volume::CHAPTER)

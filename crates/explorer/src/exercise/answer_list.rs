@@ -12,8 +12,8 @@ pub(super) struct FactoredList<'a> {
 }
 
 impl<'a> FactoredList<'a> {
-    /// Finds the list in a text that contains exactly one. `count` entries separated by spaces form
-    /// a list.
+    /// Finds the list in text that contains exactly one list. `count` entries separated by spaces
+    /// form a list.
     pub(super) fn find(text: &'a str, count: usize) -> Option<Self> {
         if split_at_top(text, is_separator).len() > 1 {
             return None;
@@ -73,7 +73,7 @@ const fn is_separator(c: char) -> bool {
     matches!(c, ',' | ';')
 }
 
-/// Returns the beginnings and ends of top-level parentheses.
+/// Returns the positions of each pair of top-level parentheses.
 fn top_groups(text: &str) -> Vec<(usize, usize)> {
     let (mut groups, mut depth, mut begin) = (Vec::new(), 0_i32, 0);
     for (at, c) in text.char_indices() {
@@ -108,7 +108,7 @@ pub(super) fn without_outer_parentheses(text: &str) -> &str {
     text
 }
 
-/// Splits a text into the rows of a matrix or into several parts.
+/// Splits text into the rows of a matrix or into several parts.
 pub(super) fn split_rows(text: &str, shape: AnswerShape) -> Result<Vec<Vec<String>>, AnswerError> {
     let text = match shape {
         AnswerShape::Matrix(..) => without_matrix_name(text),

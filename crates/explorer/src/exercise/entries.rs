@@ -8,7 +8,7 @@ pub(super) type Entries = Vec<Vec<f64>>;
 /// The multiples of the correct answer that are also correct.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Multiples {
-    /// None: every entry must match.
+    /// No multiple: every entry must match.
     None,
     /// All except 0, because the answer is a point or a map in homogeneous coordinates.
     All,

@@ -95,14 +95,14 @@ impl Parser<'_> {
         self.characters.get(self.at).copied()
     }
 
-    /// Skips the next character if it is this one.
+    /// Consumes the next character if it is the expected character; returns whether it is.
     fn pass(&mut self, expected: char) -> bool {
         let found = self.peek() == Some(expected);
         self.at += usize::from(found);
         found
     }
 
-    /// Takes the characters that form the next token.
+    /// Consumes and returns the longest run of characters that belong to a token.
     fn word(&mut self, belongs: fn(char) -> bool) -> String {
         let rest = self.characters.get(self.at..).unwrap_or_default();
         let word: String = rest.iter().copied().take_while(|c| belongs(*c)).collect();

@@ -23,7 +23,7 @@ pub(super) enum Wrong {
     Transposed,
     /// All signs are flipped.
     Negated,
-    /// Two symbols, given by their positions in the list of symbols, are swapped.
+    /// Two symbols, identified by their positions in the list of symbols, are swapped.
     Exchanged(usize, usize),
     /// Some entries are replaced: the row and column, from 0, and the wrong entry.
     Places(&'static [(usize, usize, &'static str)]),
@@ -47,7 +47,7 @@ pub(super) const fn mistake(
     Mistake { id, sentence: words(en, zh), wrong }
 }
 
-/// A matrix for row vectors.
+/// The mistake of writing a matrix for row vectors.
 pub(super) const TRANSPOSED: Mistake = mistake(
     "transposed",
     Wrong::Transposed,

@@ -15,7 +15,7 @@ pub(super) static PERSPECTIVE: Lesson = Lesson {
     items: &["C61", "C62", "C70", "C92", "C94"],
     title: words("Perspective", "透视投影"),
     statement: words(
-        "A smaller field of view enlarges. An aspect ratio that differs from the picture's distorts. The near and far planes only clip and do not move anything.",
+        "A smaller field of view enlarges the picture. An aspect ratio that differs from the picture's distorts it. The near and far planes only clip and do not move anything.",
         "视场角越小，物体越大。宽高比与图像不一致时，物体会变形。近平面和远平面只裁剪，不移动任何物体。",
     ),
     parameters: &[
@@ -150,7 +150,7 @@ pub(super) static ORTHO: Lesson = Lesson {
     items: &["C90", "C94"],
     title: words("Orthographic projection", "正交投影"),
     statement: words(
-        "A box in the world is shown without foreshortening: an object twice as far away has the same size. A smaller window enlarges. Near and far only clip, and near may even be behind the camera.",
+        "A box in the world is shown without foreshortening: an object twice as far away has the same size. A smaller window enlarges the picture. Near and far only clip, and near may even be behind the camera.",
         "长方体视见体中的物体没有近大远小：远一倍的物体同样大。窗口越小，物体越大；近平面和远平面只裁剪，近平面甚至可以在相机后面。",
     ),
     parameters: &[

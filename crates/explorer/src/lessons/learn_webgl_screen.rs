@@ -93,7 +93,7 @@ pub(super) static VIEWPORT: Lesson = Lesson {
     items: &["C59", "C99"],
     title: words("Viewport", "视口"),
     statement: words(
-        "The viewport transform maps x and y from −1 … 1 to a rectangle of the picture, like glViewport(x, y, width, height), where y is counted from the bottom. A rectangle whose shape differs from the window distorts.",
+        "The viewport transform maps x and y from −1 … 1 to a rectangle of the picture, like glViewport(x, y, width, height), where y is counted from the bottom. A rectangle whose shape differs from the window's distorts the picture.",
         "视口变换把 −1 … 1 的 x、y 映射到图像中的一个矩形，如 glViewport(x, y, width, height)；y 自下而上数。矩形与窗口的宽高比不同时，物体会变形。",
     ),
     parameters: &[

@@ -92,7 +92,7 @@ pub(super) static AXONOMETRIC: Lesson = Lesson {
     items: &["C76"],
     title: words("Axonometric projection", "轴测投影"),
     statement: words(
-        "The object is rotated by α about y and tilted by β about x, and then projected orthographically, so all three axes are visible. If all three axes have equal foreshortening the projection is isometric, if two do it is dimetric, and otherwise it is trimetric. The squares of the factors always sum to 2.",
+        "The object is rotated by α about y and tilted by β about x, and then projected orthographically, so all three axes are visible. If all three axes have equal foreshortening, the projection is isometric; if only two do, it is dimetric; otherwise it is trimetric. The squares of the factors always sum to 2.",
         "物体先绕 y 轴旋转 α，再绕 x 轴旋转 β，然后正交投影：三个轴都可见。三个轴向伸缩系数相等为正等测，两个相等为正二测，都不等为正三测；系数的平方和恒为 2。",
     ),
     parameters: &[

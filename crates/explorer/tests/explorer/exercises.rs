@@ -137,7 +137,7 @@ fn chinese_verdicts_name_the_entry_without_stray_spaces() {
     }
 }
 
-/// The effect of the third row in OpenGL on z-coordinates: copied unchanged, or for N = −n and F =
+/// OpenGL's third row has the same effect on n and f whether it is copied or uses N = −n and F =
 /// −f.
 #[test]
 fn third_rows_in_exercise_2_map_near_and_far_as_the_verdicts_state() {
@@ -153,7 +153,7 @@ fn third_rows_in_exercise_2_map_near_and_far_as_the_verdicts_state() {
     assert_ne!(copied, [1.0, -1.0]);
 }
 
-/// Whether a text contains a Han character.
+/// Whether text contains a Han character.
 fn is_chinese(text: &str) -> bool {
     text.chars().any(|c| ('\u{4e00}'..='\u{9fff}').contains(&c))
 }

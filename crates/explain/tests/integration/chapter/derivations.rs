@@ -16,14 +16,14 @@ fn scene_with(projection: &str) -> scene::Scene {
 }
 
 #[test]
-fn c23_p_shrinks_x_and_y_keeps_lines_and_makes_rays_of_the_eye_parallel() {
+fn c23_p_shrinks_x_and_y_keeps_lines_and_makes_rays_from_the_eye_parallel() {
     let (n, f) = (-2.0, -6.0);
     let p = BareMap::from_planes(n, f).expect("two planes ahead");
     let image = |x: f64, y: f64, z: f64| -> [f64; 3] {
         let explained = p.explain_points(&[HPoint::<View>::new(x, y, z, 1.0)]).expect("a point");
         numbers(&explained, "divided").try_into().expect("three numbers")
     };
-    // x and y by n/z, and z by n + f − f n/z: the grid is squeezed and its planes bent together.
+    // x and y are scaled by n/z, and z becomes n + f − f n/z, so planes move closer together.
     for z in [-2.0, -3.0, -4.5, -6.0] {
         assert!(close(&image(3.0, -1.0, z), &[3.0 * n / z, -n / z, n + f - f * n / z]), "{z}");
     }
@@ -50,7 +50,7 @@ fn c57_the_trace_of_a_frustum_has_the_steps_of_its_derivation() {
     };
     let [shear, scale, depth] = ["shear", "scale", "depth"].map(matrix);
     let (x, y, z) = (1.3, 0.4, -3.7);
-    // The center line of the window moves to the axis, its sides to 45°.
+    // The center line of the window moves to the axis, and its sides to 45°.
     let sheared = shear * Point::<View>::new(x, y, z).raw().extend(1.0);
     assert!(close(&[sheared.x], &[x + z * (l + r) / (2.0 * near)]));
     assert!(close(&[sheared.y], &[y + z * (b + t) / (2.0 * near)]));
@@ -76,7 +76,7 @@ fn c57_the_trace_of_a_frustum_has_the_steps_of_its_derivation() {
 }
 
 #[test]
-fn c66_the_lessons_frustum_is_its_five_steps_one_after_the_other() {
+fn c66_the_lessons_frustum_is_the_product_of_its_five_steps() {
     let (l, r, b, t, near, far) = (-1.0, 3.0, -1.0, 2.0, 2.0, 6.0);
     let scene =
         scene_with("ApexMovedFrustum(left: -1, right: 3, bottom: -1, top: 2, near: 2, far: 6)");
@@ -92,11 +92,11 @@ fn c66_the_lessons_frustum_is_its_five_steps_one_after_the_other() {
     assert!(close(&numbers(&explained, "view_to_clip"), eq9.as_flattened()));
     let chain = chain_of(&scene, ApiConventions::OpenGl);
     for (x, y, z) in [(1.3, 0.4, -3.7), (-1.0, -1.0, -2.0), (4.0, 5.0, -6.0)] {
-        // 1 the apex to the origin, 2 the divide by the distance, 3 the window to [−1, 1],
+        // 1: the apex to the origin; 2: the divide by the distance; 3: the window to [−1, 1];
         let (x1, y1) = (x - f64::midpoint(l, r), y - f64::midpoint(b, t));
         let (x2, y2) = (near * x1 / -z, near * y1 / -z);
         let (x3, y3) = (2.0 * x2 / (r - l), 2.0 * y2 / (t - b));
-        // 4 and 5 depth as c1/D + c2, which has reversed z.
+        // 4 and 5: depth as c1/D + c2, which has reversed z.
         let depth = c1 / -z + c2;
         let clip = chain.world_to_clip().transform_point(Point::new(x, y, z));
         let ndc = clip.divide().expect("ahead");
@@ -104,7 +104,7 @@ fn c66_the_lessons_frustum_is_its_five_steps_one_after_the_other() {
     }
 }
 
-/// The leaves of the tree, as scene files name them.
+/// The leaves of the classification tree, by their names in scene files.
 const LEAVES: [(ProjectionClass, &str); 11] = [
     (ProjectionClass::Multiview, "Multiview(Front)"),
     (ProjectionClass::Isometric, "Isometric"),
@@ -119,7 +119,7 @@ const LEAVES: [(ProjectionClass, &str); 11] = [
     (ProjectionClass::ThreePoint, "ThreePoint()"),
 ];
 
-/// The homogeneous images of the three axes' directions.
+/// Returns the homogeneous images of the three axis directions.
 fn axis_images(projection: &str) -> [HPoint<homog::Clip>; 3] {
     let scene = resolve_text(&format!(
         "Scene(models: [(path: \"crate.glb\")], camera: (projection: {projection}),
@@ -129,8 +129,8 @@ fn axis_images(projection: &str) -> [HPoint<homog::Clip>; 3] {
     [Vector::X, Vector::Y, Vector::Z].map(|axis| map.transform_direction(axis))
 }
 
-/// The drawn length of a unit of each axis, and Gauss's sum of the squares of their images as
-/// complex numbers: it is 0 only for an orthographic projection.
+/// Returns the drawn length of each axis unit, and Gauss's sum of the squares of their images as
+/// complex numbers, which is 0 only for an orthographic projection.
 fn drawn_lengths(images: [HPoint<homog::Clip>; 3]) -> ([f64; 3], f64) {
     let drawn = images.map(|image| DVec2::new(image.x(), image.y()));
     let square = |c: DVec2| DVec2::new(c.x * c.x - c.y * c.y, 2.0 * c.x * c.y);

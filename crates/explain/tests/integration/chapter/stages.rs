@@ -9,13 +9,13 @@ use homog::{ClipRange, Point, World};
 use scene::Scene;
 use viewport::Viewport;
 
-/// The stages of a scene's camera in the project's own conventions.
+/// Returns the transform chain of a scene's camera in these conventions.
 pub(super) fn chain_of(scene: &Scene, conventions: ApiConventions) -> TransformChain {
     let size = (scene.image.width, scene.image.height);
     TransformChain::new(&scene.view_projection, size, conventions).expect("a viewport")
 }
 
-/// The numbers in an item.
+/// Returns the numbers in an item.
 pub(super) fn numbers(explanation: &Explanation, id: &str) -> Vec<f64> {
     let mut items = explanation.steps.iter().flat_map(|step| &step.items);
     match &items.find(|item| item.id == id).expect(id).value {
@@ -32,8 +32,8 @@ pub(super) fn close(a: &[f64], b: &[f64]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12 * size)
 }
 
-/// Whether the ray meets the crate, grown by `margin` on all sides: the interval of the ray between
-/// opposite sides is not empty.
+/// Whether the ray hits the crate, enlarged by `margin` on all sides: the intervals between
+/// opposite sides overlap.
 fn meets_crate(origin: [f64; 3], direction: [f64; 3], margin: f64) -> bool {
     let [low, high] = [[-0.5, 0.0, -0.5], [0.5, 1.0, 0.5]];
     let (mut enters, mut leaves) = (0.0_f64, f64::INFINITY);
@@ -45,9 +45,9 @@ fn meets_crate(origin: [f64; 3], direction: [f64; 3], margin: f64) -> bool {
     enters <= leaves
 }
 
-/// Rendering by objects and by rays agree: a pixel is covered if and only if its ray meets the box.
+/// Rasterization and ray casting agree: a pixel is covered if and only if its ray hits the box.
 #[test]
-fn c1_rays_of_pixels_meet_what_the_forward_map_draws_there() {
+fn c1_pixel_rays_hit_what_the_forward_map_draws() {
     for projection in
         ["Perspective(fov_y_degrees: 40)", "Orthographic()", "Cabinet()", "TwoPoint()"]
     {
@@ -69,7 +69,7 @@ fn c1_rays_of_pixels_meet_what_the_forward_map_draws_there() {
             let gap = (back_x - center[0]).abs().max((back_y - center[1]).abs());
             assert!(
                 gap < 1e-9,
-                "{projection}: the ray's points are seen in the pixel, not {gap} off"
+                "{projection}: points on the ray project to {gap} pixels from the pixel"
             );
             let (origin, direction): ([f64; 3], [f64; 3]) = (
                 [ray.origin.x(), ray.origin.y(), ray.origin.z()],
@@ -120,9 +120,9 @@ fn c54_clipping_comes_between_the_two_steps_of_projecting() {
     assert!(close(&[wrapped.x(), wrapped.y()], &[-1.0, -2.0 / 3.0]), "{wrapped:?}");
 }
 
-/// C84 as well: a vertex passes through model, camera, projection, outcodes, divide and viewport.
+/// Also C84: a vertex passes through model, camera, projection, outcodes, divide and viewport.
 #[test]
-fn c103_the_stages_follow_each_other_and_each_starts_from_the_last() {
+fn c103_each_stage_starts_from_the_result_of_the_previous_stage() {
     let scene = resolve_text(
         "Scene(models: [(path: \"crate.glb\", translation: (1, 2, 3), rotation_degrees: (0, 90, 0), scale: 2)],
          camera: (view: LookTo(eye: (1, 3, 11), gaze: (0, 0, -1)),
@@ -137,7 +137,7 @@ fn c103_the_stages_follow_each_other_and_each_starts_from_the_last() {
     let file = scene.models[0].model.meshes[0].primitives[0].positions[0].map(f64::from);
     let [x, y, z] = <[f64; 3]>::try_from(&numbers(&explained, "mesh")[..]).expect("a point");
     assert_eq!([x, y, z], file, "the vertex as the file has it");
-    // Scaled by 2, turned by 90° about y (x to −z, z to x), moved by (1, 2, 3).
+    // Scaled by 2, rotated by 90° about y (x to −z, z to x), and translated by (1, 2, 3).
     let world = [2.0 * z + 1.0, 2.0 * y + 2.0, -2.0 * x + 3.0];
     assert!(close(&numbers(&explained, "world"), &world));
     // The eye at (1, 3, 11) looks along −z, x to the right.
@@ -155,7 +155,7 @@ fn c103_the_stages_follow_each_other_and_each_starts_from_the_last() {
 }
 
 #[test]
-fn c14_twice_the_distance_is_half_the_size_in_pixels() {
+fn c14_twice_the_distance_halves_the_size_in_pixels() {
     // The front of the crate, one unit high, at these distances from the eye.
     let focal = 100.0 / libm::tan(20_f64.to_radians());
     for distance in [2.0, 4.0, 8.0] {

@@ -40,13 +40,13 @@ fn c88_a_scenes_frustum_becomes_the_box_and_nearer_stays_nearer() {
         count += 1;
     }
     assert!(count > 1000);
-    // A box in the middle of the frustum is distorted: its far side is narrower than its near one.
+    // A box in the middle of the frustum is distorted: its far side is narrower than its near side.
     let width = |z: f64| ndc(1.0, 0.0, z).x() - ndc(0.0, 0.0, z).x();
     assert!((width(-2.0) / width(-6.0) - 3.0).abs() < 1e-12);
 }
 
 #[test]
-fn c98_the_mexican_hat_stands_over_the_grid_of_indices_and_has_its_height() {
+fn c98_the_mexican_hat_covers_the_index_grid_and_has_its_heights() {
     let scene = resolve_text("Scene(models: [(path: \"mexican_hat.glb\")])");
     let positions = &scene.models[0].model.meshes[0].primitives[0].positions;
     let grid = PointGrid::new(49, 49).expect("a grid");
