@@ -1,4 +1,4 @@
-//! Scene file errors: each points at its position in the text and says what to do.
+//! Scene file errors, each with its position in the text and, if possible, a correction.
 
 use super::source_text::SourceText;
 #[cfg(feature = "terminal")]

@@ -136,7 +136,7 @@ mod tests {
     fn check(text: &str, expected: &str) {
         let once = format_source("scene.ron", text).expect("a scene");
         assert_eq!(once, expected);
-        assert_eq!(format_source("scene.ron", &once).expect("a scene"), once, "laid out again");
+        assert_eq!(format_source("scene.ron", &once).expect("a scene"), once, "formatted again");
     }
 
     #[test]

@@ -23,8 +23,8 @@ use std::path::{Path, PathBuf};
 
 /// The maximum number of files that a scene includes, counting each inclusion.
 const MAX_INCLUDED_FILES: usize = 64;
-/// The maximum total size of included files in bytes, counting each inclusion. Otherwise, a few
-/// lines could request a gigabyte of text.
+/// The maximum total size of included files in bytes, counting each inclusion. Without a limit, a
+/// few lines could request a gigabyte of text.
 const MAX_INCLUDED_BYTES: usize = 4 << 20;
 
 /// The fields of a scene that are replaced as a whole.
@@ -206,7 +206,7 @@ impl IncludeResolver<'_> {
                 format!("the path \"{}\" points outside the scene's folder", path.display());
             return Err((message, Some(help)));
         }
-        // Reported only once.
+        // The limit was already reported.
         if self.is_full {
             return Ok(MergedScene::default());
         }
@@ -270,7 +270,7 @@ fn rebase_paths(file: &mut SceneFile, folder: &Path) {
 /// Merges a scene over another: lists are concatenated, other fields replaced as a whole if `above`
 /// sets them.
 ///
-/// Lights are an optional list: if it is absent, the other list is unchanged.
+/// The list of lights is optional: if one scene has none, the other's list is used unchanged.
 fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
     // Lists all fields by name, so that a new scene field must be concatenated or replaced here.
     let SceneFile {

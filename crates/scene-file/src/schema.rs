@@ -159,7 +159,7 @@ pub(super) enum Form {
     Number,
     /// A string.
     Text,
-    /// Any of these, or values of the returned type in brackets.
+    /// Any of the above, or a bracketed list of values of the type that the function returns.
     Any(fn() -> ValueType),
 }
 
@@ -190,7 +190,7 @@ pub struct VariantEntry {
     pub doc: &'static str,
     /// The fields in its brackets.
     pub fields: &'static [FieldEntry],
-    /// Returns the type of the value in its brackets, if that has no fields.
+    /// Returns the type of the value in its brackets, if the variant has one.
     pub value_type: Option<fn() -> ValueType>,
 }
 

@@ -17,7 +17,7 @@ scene_struct! {
         /// Left, top, width and height as fractions of the picture without its caption, from 0 to
         /// 1, measured from the upper left corner. Default: from `pixels`.
         pub at: Option<(Fraction, Fraction, Fraction, Fraction)> = None,
-        /// Left, top, width and height in pixels, above the caption of the picture. Default: from
+        /// Left, top, width and height in pixels, in the picture without its caption. Default: from
         /// `at`.
         pub pixels: Option<(u32, u32, u32, u32)> = None,
         /// The camera. Default: the scene's.
