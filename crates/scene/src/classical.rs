@@ -56,8 +56,8 @@ impl CameraResolver<'_> {
         self.frame_on_picture_plane(camera, projection, padding)
     }
 
-    /// Returns a classical projection for a camera with its own position; the window is fitted with
-    /// a margin of 5%.
+    /// Returns a classical projection for a camera with an explicit position; the window is fitted
+    /// with a margin of 5%.
     ///
     /// # Errors
     /// Returns an error for perspectives from vanishing points, which determine the eye themselves.

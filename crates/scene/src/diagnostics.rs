@@ -18,12 +18,12 @@ pub(super) struct Diagnostics {
 }
 
 impl Diagnostics {
-    /// Returns the value, or keeps the mistake and returns `None`.
+    /// Returns the value, or records the mistake and returns `None`.
     pub(super) fn take<T>(&mut self, result: Result<T, impl Into<ResolveError>>) -> Option<T> {
         result.map_err(|error| self.report(error)).ok()
     }
 
-    /// Keeps one or more mistakes.
+    /// Records one or more mistakes.
     pub(super) fn report(&mut self, error: impl Into<ResolveError>) {
         match error.into() {
             ResolveError::Scene(errors) => self.errors.extend(Vec::from(errors)),

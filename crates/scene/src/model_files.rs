@@ -104,7 +104,7 @@ pub(super) fn load_models(
         faults.report(origin.error_at(&[Field("models")], "a scene needs a model", help));
         return None;
     }
-    // Checked first, because it costs nothing and loading models does.
+    // Checked first, because it costs nothing compared with loading models.
     faults.take(instances::check_instance_counts(origin, file))?;
     let (mut loaded, mut models) = (LoadedModels::default(), Some(Vec::new()));
     for (number, entry) in file.models.iter().enumerate() {

@@ -82,7 +82,7 @@ impl Origin {
         (origin, SceneFile::from_model_path(name.to_owned()))
     }
 
-    /// Returns the source, so that its files can be parsed into it.
+    /// Returns the source for parsing, which adds the included files to it.
     pub(super) const fn source_mut(&mut self) -> &mut SceneSource {
         &mut self.source
     }

@@ -67,7 +67,7 @@ fn with_errors_of_description(
     let mut faults = Diagnostics::default();
     check_description(origin, file, allowed, &mut faults);
     check_model_paths(origin, file, allowed, &mut faults);
-    // An error that contains a mistake, or is part of one, may be caused by it.
+    // An error whose range contains a mistake, or is inside one, may be caused by it.
     let is_independent = |error: &SceneError| {
         mistakes.iter().all(|FileMistake { error: mistake, scope }| {
             let (outer, inner) = (&error.span, scope);

@@ -220,7 +220,8 @@ impl<'a> Picking<'a> {
     }
 }
 
-/// Returns a point in a box: the corner with the smallest coordinates is at 0, the largest at 1.
+/// Returns a point in a box, where 0 is the corner with the smallest coordinates and 1 the opposite
+/// corner.
 fn point_of_box(bounds: Bounds<World>, fraction: [f64; 3]) -> DVec3 {
     bounds.min().raw() + bounds.size().raw() * DVec3::from(fraction)
 }
