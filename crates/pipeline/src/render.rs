@@ -116,7 +116,7 @@ pub enum RenderError {
     #[error(transparent)]
     Draw(hidden_line::DrawError),
     /// The [monitor](raster::Monitor) requested cancellation.
-    #[error("the picture was canceled")]
+    #[error("rendering was canceled")]
     Canceled,
     /// Ambient occlusion needs the whole depth buffer, and the picture is larger than one tile.
     #[error("ambient occlusion supports pictures up to {0} x {0} pixels", raster::MAX_SIDE)]

@@ -136,8 +136,8 @@ impl Sequence {
         Ok(sequence)
     }
 
-    /// Returns whether a view is the same in all frames. View 0 is the picture, and the insets
-    /// follow from 1. This holds for an automatic view and, in a turntable, for a camera of the
+    /// Returns whether a view is the same in all frames. View 0 is the picture; the insets are
+    /// views 1 and up. This holds for an automatic view and, in a turntable, for a camera of the
     /// model, which would otherwise turn with it.
     fn keeps_view(&self, index: usize) -> bool {
         let own = index.checked_sub(1).and_then(|inset| self.file.viewports.get(inset));
@@ -466,7 +466,8 @@ impl Motion {
 /// Finds instances that share the model of their predecessor, as pairs of an index and the first
 /// index of the run.
 ///
-/// Instances of one file are consecutive, so comparing neighbors by pointer is enough and O(n).
+/// Instances of one file are consecutive, so it is enough to compare neighbors by pointer, which
+/// takes O(n).
 fn shared_models(models: &[ModelInstance]) -> Vec<(usize, usize)> {
     let mut first = 0;
     let mut shared = Vec::new();

@@ -26,7 +26,7 @@ pub(super) struct DrawCall<'a> {
     pub(super) transform: &'a ScreenTransform,
     /// The culled and projected vertices.
     pub(super) mesh: &'a ProjectedMesh,
-    /// The frame that gets the primitives.
+    /// The frame that receives the primitives.
     pub(super) frame: &'a mut Frame,
     /// The opacity: opaque, alpha-tested or translucent.
     pub(super) opacity: Opacity,

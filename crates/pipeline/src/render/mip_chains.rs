@@ -68,8 +68,8 @@ impl<'a> Textures<'a> {
         Textures { mip_chains, chain_indices: self.chain_indices }
     }
 
-    /// Returns the chain of a model's texture for a material slot. The model is given by its index
-    /// in the scene.
+    /// Returns the chain of a model's texture for a material slot. The model is identified by its
+    /// index in the scene.
     pub(super) fn mip_chain(
         &self,
         model: usize,

@@ -18,7 +18,7 @@ const PICTURE_SCALE: u32 = 2;
 /// change the result.
 ///
 /// # Errors
-/// As [`render`](crate::render()).
+/// The same as [`render`](crate::render()).
 pub fn render_panel(
     scene: &Scene,
     id: impl Into<String>,

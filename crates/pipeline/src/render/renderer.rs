@@ -60,7 +60,7 @@ impl Renderer {
     ///
     /// let textures = Textures::for_scene(&scene);
     /// let context = RenderContext::new(&scene, &textures, 2);
-    /// let mut picture = Picture::<u16>::default(); // 16 bits a channel
+    /// let mut picture = Picture::<u16>::default(); // 16 bits per channel
     /// let warnings = Renderer::default().render(&context, &mut picture)?;
     /// assert!(warnings.is_empty());
     /// assert_eq!(picture.pixels.len(), 64 * 48);
@@ -68,7 +68,7 @@ impl Renderer {
     /// ```
     ///
     /// # Errors
-    /// The picture's size is out of range, the scene has too many primitives, or the context was
+    /// The picture's size is out of range, the scene has too many primitives, or rendering was
     /// canceled.
     pub fn render<C: FrameChannel>(
         &mut self,
@@ -86,7 +86,7 @@ impl Renderer {
     /// warnings about missing parts.
     ///
     /// # Errors
-    /// As [`render`](Self::render).
+    /// The same as [`render`](Self::render).
     pub fn render_png(
         &mut self,
         context: &RenderContext<'_>,

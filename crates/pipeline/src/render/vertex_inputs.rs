@@ -62,8 +62,8 @@ impl VertexInputs {
             (OpacityRule::Force(opacity), _) => opacity,
             (OpacityRule::AlphaMode | OpacityRule::CutOut, AlphaMode::Opaque) => Opacity::Opaque,
             (OpacityRule::CutOut, AlphaMode::Blend) => Opacity::Masked,
-            // Its color already includes the background, so it can hide it: only visible fragments
-            // are shaded, without the cost of layers.
+            // Such glass already includes the background in its color, so it can be drawn as
+            // opaque: only visible fragments are shaded, without the cost of layers.
             (_, AlphaMode::Opaque) if material.bends_transmitted_light() => Opacity::Opaque,
             _ => material_opacity(material),
         }

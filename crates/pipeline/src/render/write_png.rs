@@ -92,8 +92,8 @@ impl PreparedScene<'_> {
         })
     }
 
-    /// Returns whether all bands are opaque. They are over an opaque background; otherwise bands
-    /// are rendered until a translucent pixel is found.
+    /// Returns whether all bands are opaque. Unless the background is opaque, bands are rendered
+    /// until a translucent pixel is found.
     fn bands_are_opaque<C: FrameChannel>(
         &mut self,
         bands: impl Iterator<Item = PixelRect>,

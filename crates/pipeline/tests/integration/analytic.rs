@@ -356,7 +356,7 @@ fn transparent_pictures_over_a_color_match_opaque_pictures() {
     }
 }
 
-/// A sphere in surroundings of 1 must not create light and may lose only a little.
+/// A sphere in surroundings of radiance 1 must not create light and may lose only a little.
 #[test]
 fn surfaces_in_white_surroundings_create_no_light() {
     let material = |metallic: f64, roughness: f64| {

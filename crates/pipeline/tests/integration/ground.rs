@@ -171,7 +171,7 @@ fn shadows_behind_models_darken_every_background() {
     }
 }
 
-/// Counts the pixels that differ by more than rounding.
+/// Counts the pixels that differ by more than a rounding error.
 fn count_differing(one: &Picture, other: &Picture) -> usize {
     let differs = |(a, b): &(&[u8; 4], &[u8; 4])| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 2);
     one.pixels.iter().zip(&other.pixels).filter(differs).count()

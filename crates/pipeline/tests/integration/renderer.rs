@@ -1,4 +1,4 @@
-//! A renderer's second picture has the bits of a separate rendering and needs no new large
+//! A renderer's second picture is bit-identical to a separate rendering and needs no new large
 //! allocations.
 
 use pipeline::{

@@ -86,8 +86,8 @@ impl<'a> CasterPass<'a, '_> {
     }
 
     /// Draws both faces of a primitive's triangles and returns the number of triangles, or 0 if the
-    /// primitive casts no shadow. Back faces also cast shadows, because an open surface has no
-    /// other side.
+    /// primitive casts no shadow. Back faces also cast shadows, because an open surface may turn
+    /// only back faces toward the light.
     fn draw_primitive(
         &mut self,
         placed: PlacedPrimitive<'a>,
