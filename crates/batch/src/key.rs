@@ -54,7 +54,7 @@ struct HashCache {
 }
 
 impl KeyMaker {
-    /// Creates a maker of keys for jobs with these settings.
+    /// Prepares to compute the keys of jobs with these settings.
     ///
     /// `settings` is the debug output of the flags. A new flag changes it, so everything is
     /// rendered again, which is the safe choice. Files in `allowed`, such as the `--environment`
