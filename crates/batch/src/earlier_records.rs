@@ -47,7 +47,7 @@ struct PackedRecord {
     key: u64,
 }
 
-/// The kind of a record. Among records of one run, pictures come last.
+/// The kind of a record. Among records of one run, pictures sort last.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum RecordKind {
     Failed = 0,

@@ -127,7 +127,7 @@ impl HashCache {
 
 /// Hashes a model with the buffers, material libraries and images it refers to.
 ///
-/// The file is read as bytes, not imported, so a key costs reading the files but not parsing the
+/// The file is read as bytes, not imported, so a key requires reading the files but not parsing the
 /// meshes. Files in folders above the model are also hashed, since only their bytes matter here;
 /// the importer decides whether they may be read.
 fn hash_model(hash: &mut Sha256, path: &Path) {

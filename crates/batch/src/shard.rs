@@ -1,4 +1,4 @@
-//! Shards, which divide the jobs of a batch between several machines.
+//! Shards, which divide the jobs of a batch among several machines.
 //!
 //! Every machine runs the same command with its own shard, and needs nothing from the others except
 //! the same inputs. Each machine goes through all jobs in the same order and takes the jobs that

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 /// A name with fields in braces; `{{` and `}}` are literal braces.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct NameTemplate {
-    /// The pieces of the name, in order; literal text is never empty and never adjacent.
+    /// The pieces of the name, in order; literal pieces are never empty and never adjacent.
     parts: Vec<TemplatePart>,
 }
 

@@ -34,9 +34,8 @@
 //! A [`Monitor`] observes a rendering and a [`CancelToken`] stops it; a sequence stops if the
 //! function that receives its pictures returns an error.
 //!
-//! The crate prints nothing and has no global state: any number of scenes, renderers and pictures
-//! can coexist, and each can be sent to another thread. Errors are typed and state the problem, its
-//! location and a remedy.
+//! The crate prints nothing. Any number of scenes, renderers and pictures can coexist, and each can
+//! be sent to another thread. Errors are typed and state the problem, its location and a remedy.
 
 mod cancel;
 pub mod render;

@@ -57,7 +57,7 @@ pub struct FileMistake {
 
 impl SceneSource {
     /// Parses the text and the files it includes, which must be inside its folder or an `allowed`
-    /// folder. Parts with mistakes are left out of the scene.
+    /// folder. Parts with mistakes are omitted from the scene.
     pub fn parse_recovering(&mut self, allowed: &[PathBuf]) -> (SceneFile, Vec<FileMistake>) {
         let GatheredScene { file, includes, mistakes } = gather_includes(self, allowed);
         self.includes = includes;
@@ -189,8 +189,8 @@ impl IncludeResolver<'_> {
     /// Loads an included file and merges it over the files it includes; `path` is relative to the
     /// scene's folder.
     ///
-    /// A file may be included several times, but must not include itself; the message for that
-    /// shows the cycle.
+    /// A file may be included several times, but must not include itself; the error message shows
+    /// the cycle.
     ///
     /// # Errors
     /// Returns the message and the help if the path leaves the allowed folders, there are too many

@@ -291,7 +291,7 @@ fn offset_of(source: &str, position: Position) -> usize {
     before + column.map_or(line.len(), |(offset, _)| offset)
 }
 
-/// Whether a value has round brackets, as a scene does, whatever their contents.
+/// Whether a value has round brackets, as a scene does; the contents do not matter.
 fn is_scene(root: &Node<'_>) -> bool {
     root.group().is_some_and(|group| group.open == '(')
 }

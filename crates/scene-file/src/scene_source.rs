@@ -67,8 +67,8 @@ impl SceneSource {
     /// folder.
     ///
     /// Errors point into the text. For a scene built in Rust, pass the text from
-    /// [`SceneFile::to_ron`](super::SceneFile::to_ron), or an empty one; errors then name a field
-    /// without its line.
+    /// [`SceneFile::to_ron`](super::SceneFile::to_ron), or an empty string; errors then name a
+    /// field but not a line.
     #[must_use]
     pub fn from_text(file: impl Into<String>, text: impl Into<String>, folder: PathBuf) -> Self {
         Self {

@@ -35,7 +35,7 @@ use super::syntax::Node;
 
 /// A type of values in scene files.
 pub(super) trait SceneValue: Sized + PartialEq {
-    /// Whether a field of this type may be omitted even if its declaration gives no default.
+    /// Whether a field of this type may be omitted even if its declaration specifies no default.
     const IS_OPTIONAL: bool = false;
 
     /// Returns the type as the reference names it. This is a function rather than a constant
@@ -45,7 +45,7 @@ pub(super) trait SceneValue: Sized + PartialEq {
     /// Reads a value.
     ///
     /// # Errors
-    /// Returns the reason, in words, if it is not a value of this type.
+    /// Returns the reason, in words, if the data is not a value of this type.
     fn from_data(data: &Data) -> Result<Self, String>;
 
     /// Writes the value, omitting fields with default values.

@@ -174,8 +174,8 @@ fn own_eye_error(origin: &Origin) -> SceneError {
 /// `None` for other projections.
 ///
 /// The coordinates of the points are relative to the center of the picture, in units of half its
-/// height, with y up. The inner error reports points that no orthogonal axes can have, such as
-/// three in an obtuse triangle.
+/// height, with y up. The inner error reports points that orthogonal axes cannot have, such as
+/// three that form an obtuse triangle.
 fn vanishing_point_construction(
     projection: &ProjectionFile,
 ) -> Option<Result<ConstructedPerspective, ProjectionError>> {

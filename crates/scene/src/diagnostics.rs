@@ -1,4 +1,4 @@
-//! The mistakes in a scene: collected during resolution, reported in text order.
+//! Collects the mistakes in a scene during resolution, and reports them in text order.
 //!
 //! ```text
 //!  part ─resolve─► Ok(value)    ─► Some(value)

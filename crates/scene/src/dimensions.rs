@@ -1,4 +1,4 @@
-//! Resolution of the dimensions of a sheet: the points they measure in the world.
+//! Resolves the dimensions of a sheet to the world-space points that they measure.
 //!
 //! ```text
 //!   Length(from: Edge(near: …), to: Node(name: "lid"))

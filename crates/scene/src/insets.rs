@@ -1,4 +1,4 @@
-//! Resolution of viewports and stereo pairs to insets: scenes within the scene.
+//! Resolves viewports and stereo pairs to insets, which are scenes within the scene.
 //!
 //! ```text
 //!   ┌───────────────┬───────┐   Each is a separate scene with the models of the
@@ -182,8 +182,8 @@ fn resolve_border(
     Ok(Some((border.color.0, border.width)))
 }
 
-/// Returns the two insets of a stereo pair, made with off-axis projections, which, unlike toed-in
-/// cameras, have no vertical parallax.
+/// Returns the two insets of a stereo pair. Unlike toed-in cameras, their off-axis projections have
+/// no vertical parallax.
 ///
 /// ```text
 ///  side by side   left half, right half       the halves of an odd width share a column

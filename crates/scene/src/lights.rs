@@ -138,7 +138,7 @@ const fn mapped_shadow(light: &mut Light) -> Option<&mut Shadow> {
     }
 }
 
-/// Returns the path of the size that a scene sets for the shadow map of one light or of all lights.
+/// Returns the path of a shadow map size that the scene sets, for one light or for all lights.
 fn chosen_size_path(file: &SceneFile) -> Option<Vec<PathStep<'static>>> {
     let is_chosen =
         |shadows: &ShadowsFile| matches!(shadows, ShadowsFile::On { size: Some(_), .. });

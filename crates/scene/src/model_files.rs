@@ -29,8 +29,7 @@ struct ColoredModel<'a> {
     model: Arc<Model>,
 }
 
-/// The loaded models. Entries with the same pose and materials share a model; otherwise each has a
-/// separate model.
+/// The loaded models. Entries with the same pose and materials share a model.
 #[derive(Default)]
 struct LoadedModels<'a> {
     by_pose: BTreeMap<Pose, Vec<ColoredModel<'a>>>,

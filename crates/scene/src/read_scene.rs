@@ -24,7 +24,7 @@ impl Origin {
     /// an `allowed` folder.
     ///
     /// # Errors
-    /// The same as [`read_scene`](Self::read_scene).
+    /// Returns the same errors as [`read_scene`](Self::read_scene).
     pub fn read_scene_allowing(
         path: &Path,
         allowed: &[PathBuf],
@@ -39,7 +39,7 @@ impl Origin {
     /// possible, so that all mistakes are reported at once.
     ///
     /// # Errors
-    /// The same as [`read_scene`](Self::read_scene).
+    /// Returns the same errors as [`read_scene`](Self::read_scene).
     pub fn parse_with_includes(
         mut self,
         allowed: &[PathBuf],

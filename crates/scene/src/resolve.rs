@@ -147,7 +147,7 @@ impl Scene {
     /// `allowed` folders.
     ///
     /// # Errors
-    /// The same as [`from_models`](Self::from_models).
+    /// Returns the same errors as [`from_models`](Self::from_models).
     pub fn from_models_allowing(
         origin: &Origin,
         file: &SceneFile,
@@ -179,7 +179,7 @@ impl Scene {
     /// Returns the scene with its models in their pose; `access` provides the files.
     ///
     /// # Errors
-    /// The same as [`from_models`](Self::from_models).
+    /// Returns the same errors as [`from_models`](Self::from_models).
     pub fn resolve_posed(
         origin: &Origin,
         file: &SceneFile,

@@ -86,8 +86,8 @@ impl Scene {
         model::world_points(&self.models)
     }
 
-    /// Whether every pixel of the picture is certainly opaque: the backgrounds of the scene and of
-    /// all insets are opaque.
+    /// Whether every pixel of the picture must be opaque, because the backgrounds of the scene and
+    /// of all insets are.
     #[must_use]
     pub fn has_opaque_background(&self) -> bool {
         let is_opaque = |scene: &Self| scene.image.background[3] >= 1.0;

@@ -374,7 +374,7 @@ impl<'a> CameraResolver<'a> {
                 )
             } else {
                 "use `--view front` or `--eye 4,3,6 --target 0,0,0` instead, and `--projection` \
-                 for projections; in a scene write `view: Frame(from: Front)`"
+                 for the projection; in a scene, write `view: Frame(from: Front)`"
                     .to_owned()
             };
             let message = format!("there is no camera `{wanted}`: the models have no cameras");

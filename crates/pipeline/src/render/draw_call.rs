@@ -1,5 +1,4 @@
-//! Submission of one draw call: back-face culling, clipping, snapping and adding the result to the
-//! frame.
+//! Submits one draw call: culls back faces, clips, snaps, and adds the result to the frame.
 //!
 //! ```text
 //!  clusters inside the guard band ───────────────────────────────────────────► frame

@@ -51,7 +51,7 @@ const OVERLAY_INK: Ink = [20, 24, 30];
 /// ```
 ///
 /// # Errors
-/// The same as [`render`](crate::render()).
+/// Returns the same errors as [`render`](crate::render()).
 pub fn draw_lines<'a>(
     scene: &Scene,
     workers: impl Into<Workers<'a>>,

@@ -28,7 +28,7 @@ type ColorAndData<'a> = [Option<MipChain<'a>>; 2];
 pub struct Textures<'a> {
     /// The chains of each distinct model, by texture index.
     mip_chains: Vec<Vec<ColorAndData<'a>>>,
-    /// For each model of the scene, the index into `mip_chains`: instances of one model share them.
+    /// For each model of the scene, the index into `mip_chains`, shared by all its instances.
     chain_indices: Vec<usize>,
 }
 

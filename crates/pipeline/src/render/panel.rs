@@ -18,7 +18,7 @@ const PICTURE_SCALE: u32 = 2;
 /// change the result.
 ///
 /// # Errors
-/// The same as [`render`](crate::render()).
+/// Returns the same errors as [`render`](crate::render()).
 pub fn render_panel(
     scene: &Scene,
     id: impl Into<String>,

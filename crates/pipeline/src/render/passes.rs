@@ -61,7 +61,7 @@ use shade::FrameChannel;
 /// ```
 ///
 /// # Errors
-/// The same as [`render`](crate::render()).
+/// Returns the same errors as [`render`](crate::render()).
 pub fn render_passes(
     scene: &Scene,
     region: PixelRect,
@@ -79,7 +79,7 @@ impl Renderer {
     /// [`render_passes`] but with this renderer's memory and existing textures.
     ///
     /// # Errors
-    /// The same as [`render`](Self::render).
+    /// Returns the same errors as [`render`](Self::render).
     pub fn render_passes(
         &mut self,
         context: &RenderContext<'_>,

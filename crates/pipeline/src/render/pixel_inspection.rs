@@ -75,7 +75,7 @@ pub struct FragmentSource {
 /// ```
 ///
 /// # Errors
-/// The same as [`render`](crate::render()).
+/// Returns the same errors as [`render`](crate::render()).
 pub fn inspect_pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelFragments>, RenderError> {
     let image = scene.image;
     if !scene.style.draws_surfaces() || x >= image.width || y >= image.height {

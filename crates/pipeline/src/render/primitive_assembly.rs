@@ -257,8 +257,8 @@ impl<'a> PrimitiveAssembler<'a> {
         arrays.write_vertices(count, selections, model_to_world, self.threads, vertices);
     }
 
-    /// Returns the back-face culling of a draw call. Front faces are counterclockwise in the
-    /// picture unless exactly one of the model matrix and the projection reverses orientation.
+    /// Returns which winding a draw call culls. Front faces are counterclockwise in the picture
+    /// unless exactly one of the model matrix and the projection reverses orientation.
     pub(super) fn cull_mode(&self, draw: &Draw<'_>) -> CullMode {
         let shows_both_faces = draw.material.double_sided || self.inputs.shows_back_faces;
         match (shows_both_faces, draw.flips_winding == self.transform.is_mirrored) {

@@ -86,7 +86,7 @@ impl Renderer {
     /// warnings about missing parts.
     ///
     /// # Errors
-    /// The same as [`render`](Self::render).
+    /// Returns the same errors as [`render`](Self::render).
     pub fn render_png(
         &mut self,
         context: &RenderContext<'_>,

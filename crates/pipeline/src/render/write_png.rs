@@ -74,8 +74,7 @@ impl PreparedScene<'_> {
         let mut bands = region.bands(rows);
         let mut picture = Picture::<C>::default();
         self.render_region(bands.next().unwrap_or(region), &mut picture)?;
-        // The color type precedes the pixels, so it must be known first whether all bands are
-        // opaque.
+        // The color type precedes the pixels, so the opacity of all bands must be known first.
         let is_opaque =
             picture.is_opaque() && self.bands_are_opaque::<C>(region.bands(rows).skip(1))?;
         encode_png(out, [region.width, region.height], is_opaque, C::BITS, |png| {

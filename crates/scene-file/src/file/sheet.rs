@@ -122,7 +122,7 @@ named_enum! {
         Letter = "8½ × 11 inches.",
         Tabloid = "11 × 17 inches.",
         Auto = "The smallest of A4 to A0 that holds the views at 1:1 or larger, or at the given \
-                scale. If A0 is too small, the smallest size for which the next larger one allows \
+                scale. If A0 is too small, the smallest size at which a larger sheet would allow \
                 no larger scale.",
     }
 }

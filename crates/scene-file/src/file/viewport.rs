@@ -70,8 +70,8 @@ scene_enum! {
             /// picture. Default: the distance to the center of the models.
             convergence: Option<Positive>,
         },
-        /// One on top of the other, for red and cyan glasses: red from the left eye's picture,
-        /// green and blue from the right eye's.
+        /// One on top of the other, for red-cyan glasses: red from the left eye's picture, green
+        /// and blue from the right eye's.
         Anaglyph {
             /// The interocular distance, in world units. Default: a thirtieth of the convergence.
             eye_distance: Option<Positive>,

@@ -66,7 +66,7 @@ impl<'a> Checker<'a> {
 
     /// Reports every mistake in a value of this type.
     ///
-    /// Stops one mistake after the maximum number that is reported.
+    /// Stops once there is one more mistake than can be reported.
     pub(crate) fn check(&mut self, node: &Node<'_>, value_type: &ValueType) {
         if self.is_full() {
             return;
@@ -87,7 +87,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Whether there are more mistakes than the maximum number that is reported.
+    /// Whether there are more mistakes than can be reported.
     fn is_full(&self) -> bool {
         self.mistakes.len() > MAX_MISTAKES
     }

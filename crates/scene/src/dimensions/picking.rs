@@ -1,4 +1,4 @@
-//! Picking: points, edges, faces and circles by position and name, or an error that points at them.
+//! Picks points, edges, faces and circles by position and by name.
 
 use super::super::Origin;
 use super::super::named_nodes::{node_names, objects_below};
@@ -159,7 +159,7 @@ impl<'a> Picking<'a> {
         })
     }
 
-    /// Returns the point of a position, and the objects in which to pick, or `None` for all.
+    /// Returns the point that a position specifies, and the objects to pick from; `None` means all.
     fn place(
         &self,
         place: &PlaceFile,
