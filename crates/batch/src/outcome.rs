@@ -54,7 +54,7 @@ impl FailureList {
         self.first.truncate(MAX_TOLD);
     }
 
-    /// Passes on the failures one by one.
+    /// Passes the failures to `tell`, one by one:
     ///
     /// ```text
     /// failed: models/broken.glb: …

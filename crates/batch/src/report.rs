@@ -165,7 +165,7 @@ impl ReportWriter {
             return open.file.sync_all().map_err(|cause| write_error(&self.path, &cause));
         }
         drop(open);
-        // An empty report that remains is read as one without records.
+        // If an empty report remains, readers find no records in it.
         let _ = std::fs::remove_file(&self.path);
         Ok(())
     }

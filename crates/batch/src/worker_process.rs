@@ -35,7 +35,7 @@ pub(super) struct WorkerProcess {
 pub(super) enum WorkerEnd {
     /// It exceeded its time limit and was killed.
     TimedOut,
-    /// A signal ended it, from inside or outside.
+    /// A signal ended it, sent by itself or by another process.
     Signal(i32),
     /// It exited with this code.
     Exit(Option<i32>),
@@ -44,7 +44,7 @@ pub(super) enum WorkerEnd {
 impl WorkerProcess {
     /// Starts a worker: this program with the hidden command `batch-worker`.
     ///
-    /// The starting thread must live as long as the worker, which ends with it.
+    /// The worker ends with the thread that starts it, so this thread must live as long.
     ///
     /// # Errors
     /// Returns an error if the system cannot start another process.
@@ -74,7 +74,7 @@ impl WorkerProcess {
         Ok(Self { child, requests, answers, error_text, error_reader, answer_count: 0 })
     }
 
-    /// Returns whether the worker has not answered any request yet, so no earlier job can have
+    /// Returns whether the worker has not answered any request yet, so that no earlier job can have
     /// corrupted it.
     pub(super) const fn is_fresh(&self) -> bool {
         self.answer_count == 0

@@ -28,12 +28,12 @@ const INDENT_WIDTH: usize = 4;
 /// # Ok::<(), scene_file::SceneErrors>(())
 /// ```
 ///
+/// The result is parsed again and compared with the original scene, so that a bug in the formatter
+/// cannot damage a file. Formatting is idempotent, and comments are never lost.
+///
 /// # Errors
 /// Returns the mistakes in the text if it is not a scene file, or an error if formatting would
 /// change its meaning.
-///
-/// The result is parsed again and compared with the original scene, so that a bug in the formatter
-/// cannot damage a file. Formatting is idempotent, and comments are never lost.
 pub fn format_source(file: &str, text: &str) -> Result<String, SceneErrors> {
     let scene = parse_scene(file, text)?;
     let top = tree::group_tokens(&tokenize(text));

@@ -30,7 +30,7 @@ use std::sync::LazyLock;
 /// Assembles the visible parts of a scene into an empty frame.
 ///
 /// # Errors
-/// The scene has more primitives than there are ids.
+/// Returns an error if the scene has more primitives than there are ids.
 pub(super) fn assemble_scene<'a>(
     context: &RenderContext<'a>,
     memory: FrameMemory<'a>,

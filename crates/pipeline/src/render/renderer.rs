@@ -68,8 +68,8 @@ impl Renderer {
     /// ```
     ///
     /// # Errors
-    /// The picture's size is out of range, the scene has too many primitives, or rendering was
-    /// canceled.
+    /// Returns an error if the picture's size is out of range, the scene has too many primitives,
+    /// or rendering was canceled.
     pub fn render<C: FrameChannel>(
         &mut self,
         context: &RenderContext<'_>,
@@ -101,7 +101,7 @@ impl Renderer {
     /// region that needs them.
     ///
     /// # Errors
-    /// The lines cannot be drawn.
+    /// Returns an error if the lines cannot be drawn.
     pub fn prepare<'a>(
         &'a mut self,
         context: &RenderContext<'a>,

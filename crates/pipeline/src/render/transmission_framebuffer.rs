@@ -41,7 +41,8 @@ pub(super) fn needs_framebuffer(scene: &Scene) -> bool {
 /// surfaces.
 ///
 /// # Errors
-/// The picture is larger than one image tile, or the scene has too many primitives.
+/// Returns an error if the picture is larger than one image tile, or the scene has too many
+/// primitives.
 pub(super) fn compute_whole_occlusion(
     context: &RenderContext<'_>,
 ) -> Result<Option<AmbientOcclusion>, RenderError> {
@@ -61,7 +62,7 @@ pub(super) fn compute_whole_occlusion(
 /// Renders the framebuffer of a scene's whole picture, or returns `None` if none is needed.
 ///
 /// # Errors
-/// The scene has too many primitives.
+/// Returns an error if the scene has too many primitives.
 pub(super) fn render_framebuffer(
     context: &RenderContext<'_>,
     shadows: &ShadowMapRenderer,

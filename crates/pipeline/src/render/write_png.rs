@@ -43,8 +43,8 @@ impl PreparedScene<'_> {
     /// band, and then again from the start.
     ///
     /// # Errors
-    /// A band cannot be rendered (see [`render_region`](Self::render_region)), or the file cannot
-    /// be written.
+    /// Returns an error if a band cannot be rendered (see [`render_region`](Self::render_region)),
+    /// or the file cannot be written.
     pub fn write_png(
         &mut self,
         out: &mut dyn Write,

@@ -64,7 +64,7 @@ impl<'a> CasterPass<'a, '_> {
     /// Draws the opaque and masked triangles of all models.
     ///
     /// # Errors
-    /// The scene has more triangles than there are ids.
+    /// Returns an error if the scene has more triangles than there are ids.
     pub(super) fn draw_scene(&mut self, context: &RenderContext<'a>) -> Result<(), RenderError> {
         let RenderContext { scene, textures, threads, .. } = *context;
         let mut first_id = 0_u32;
