@@ -1,8 +1,8 @@
-//! Rendering of the transmission framebuffer: everything that may be visible behind refracting and
-//! rough glass, in linear light.
+//! Renders the transmission framebuffer: everything that may be visible behind refracting and rough
+//! glass, in linear light.
 //!
-//! It covers the whole picture even if only a region is rendered, because refracted rays and rough
-//! glass reach beyond the borders of the region. The lookup is `shade::TransmissionFramebuffer`.
+//! It covers the whole picture even if only a region is rendered, because refraction and roughness
+//! bring in light from beyond the region's borders. The lookup is `shade::TransmissionFramebuffer`.
 
 use super::RenderError;
 use super::ambient_occlusion::{OcclusionBuffers, compute_full_occlusion, compute_occlusion};
