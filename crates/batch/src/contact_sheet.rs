@@ -25,7 +25,7 @@ const PAGE_RECORDS: u64 = 500;
 /// left over from a longer sheet are removed.
 ///
 /// # Errors
-/// If the report cannot be read or a page cannot be written.
+/// Returns an error if the report cannot be read or a page cannot be written.
 pub(super) fn write_contact_sheet(out_dir: &Path, counts: &MergeCounts) -> Result<(), BatchError> {
     let report = out_dir.join(MERGED_REPORT);
     let mut sheet = ContactSheet::new(out_dir, counts);

@@ -20,7 +20,7 @@ impl ContentDigest {
     /// Hashes everything from a reader, in blocks of 64 KiB.
     ///
     /// # Errors
-    /// If the reader fails.
+    /// Returns an error if the reader fails.
     pub fn of_reader(reader: &mut dyn Read) -> std::io::Result<Self> {
         let (mut hash, mut bytes, mut piece) = (Sha256::new(), 0, vec![0; PIECE_BYTES]);
         loop {

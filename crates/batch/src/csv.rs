@@ -13,7 +13,7 @@ impl CsvRecord {
     /// Adds a line, with or without its line break; returns whether the record is complete.
     ///
     /// # Errors
-    /// If a quote is misplaced.
+    /// Returns an error if a quote is misplaced.
     pub(super) fn add_line(&mut self, line: &str) -> Result<bool, String> {
         let is_quoted_before = std::mem::take(&mut self.is_open);
         let mut state = if is_quoted_before {

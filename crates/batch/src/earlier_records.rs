@@ -24,10 +24,10 @@ pub(super) enum EarlierRecord {
 
 /// The records of earlier runs, by output and key.
 ///
-/// A picture is a separate file or in a tar file. An output file holds the picture of its last
-/// record, whatever the key. An older record with another key, for example from other flags, is
-/// superseded and no longer counts, even if both pictures have the same size. Tar files are never
-/// rewritten, and each picture in them counts.
+/// A picture is either a separate file or part of a tar file. An output file holds the picture of
+/// its last record, whatever the key. An older record with another key, for example from other
+/// flags, is superseded and no longer counts, even if both pictures have the same size. Tar files
+/// are never rewritten, and each picture in them counts.
 ///
 /// Records are found by 64-bit hashes. Among ten million outputs, the probability that two share a
 /// hash is 1 in 400,000; those two would be rendered again.
@@ -47,7 +47,7 @@ struct PackedRecord {
     key: u64,
 }
 
-/// The kind of a record. Among records of one run, pictures come last.
+/// The kind of a record. Among records of one run, pictures sort last.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum RecordKind {
     Failed = 0,
@@ -99,7 +99,7 @@ impl EarlierRecords {
     /// Records of pictures in tar files that no longer exist are skipped.
     ///
     /// # Errors
-    /// If a report cannot be read.
+    /// Returns an error if a report cannot be read.
     pub(super) fn read(out_dir: &Path) -> Result<Self, BatchError> {
         let mut records = Self { entries: Vec::new() };
         let mut tars: BTreeMap<String, bool> = BTreeMap::new();

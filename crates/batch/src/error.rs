@@ -1,9 +1,8 @@
-//! The reason why a batch cannot continue. Errors in individual jobs are recorded in its report
-//! instead.
+//! Errors that end a batch. Errors in individual jobs are recorded in its report instead.
 
 use files::OutputError;
 
-/// A list that cannot be read, or an output folder that cannot be written.
+/// An error that ends a batch, such as an unreadable list or an unwritable output folder.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum BatchError {

@@ -18,8 +18,8 @@ const MAX_DEPTH: usize = 64;
 /// accepted with any extension; the importer then reports those it cannot read.
 ///
 /// # Errors
-/// If a folder or a list cannot be read. A listed file that does not exist is not an error here:
-/// its job fails, and the others run.
+/// Returns an error if a folder or a list cannot be read. A listed file that does not exist is not
+/// an error here: its job fails, and the others run.
 pub(super) fn find_jobs(
     inputs: &[PathBuf],
     scene: Option<&Path>,
@@ -76,7 +76,7 @@ fn lowercase_extension(path: &Path) -> Option<String> {
 
 /// Adds the files in a list, relative to its folder. Empty lines and `#` comments are skipped.
 ///
-/// Pairs are the path to read and the name below the output folder. A line is a literal path,
+/// Each pair holds the path to read and the name below the output folder. A line is a literal path,
 /// without quotes or escapes; spaces at both ends are removed.
 fn add_listed(list: &str, folder: &Path, found: &mut Vec<(PathBuf, PathBuf)>) {
     let lines =
@@ -108,7 +108,7 @@ impl<'a> FolderSearch<'a> {
     /// Adds all models.
     ///
     /// # Errors
-    /// If a folder cannot be read. A run must not silently skip some of its models.
+    /// Returns an error if a folder cannot be read. A run must not silently skip models.
     fn run(mut self, found: &mut Vec<(PathBuf, PathBuf)>) -> Result<(), BatchError> {
         self.visit(self.root, 0, found)?;
         while let Some((link, depth)) = self.links.pop_front() {
@@ -185,7 +185,7 @@ fn name_outputs(found: Vec<(PathBuf, PathBuf)>) -> Vec<(PathBuf, String)> {
 /// Names the picture of each file by a template.
 ///
 /// # Errors
-/// If two files would get the same name.
+/// Returns an error if two files would get the same name.
 fn name_by_template(
     found: Vec<(PathBuf, PathBuf)>,
     template: &PictureName,

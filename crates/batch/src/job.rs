@@ -13,7 +13,7 @@ pub(super) struct BatchJob {
     pub(super) input: PathBuf,
     /// The picture's path below the output folder, with `/` between its parts.
     pub(super) output: String,
-    /// The scene that is rendered with the input as its model `{input}`.
+    /// The scene whose model `{input}` is replaced by the input.
     pub(super) scene: Option<PathBuf>,
     /// The flags of its line, such as `--size=64x64`, which override the command's.
     pub(super) flags: Vec<String>,

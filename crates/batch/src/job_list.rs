@@ -46,14 +46,15 @@ pub(super) struct JobList {
 impl JobList {
     /// Opens a list; `-` is the standard input. `flags` are the flags that lines may set.
     ///
-    /// A name that ends in `.csv` means CSV, any other JSON lines; the standard input is JSON lines
-    /// if it begins with a brace.
+    /// A file whose name ends in `.csv` is read as CSV, any other file as JSON lines. Standard
+    /// input is read as JSON lines if it begins with a brace.
     ///
     /// A file is read once beforehand to find lines with the same output. In a pipe, the second of
     /// two such lines is an error.
     ///
     /// # Errors
-    /// If it cannot be read, a CSV file has no column `input`, or two lines have the same output.
+    /// Returns an error if it cannot be read, a CSV has no column `input`, or two outputs are
+    /// equal.
     pub(super) fn open(
         path: &Path,
         scene: Option<PathBuf>,
@@ -71,7 +72,7 @@ impl JobList {
     /// Reads the list to its end and checks its outputs.
     ///
     /// # Errors
-    /// If it cannot be read, or two lines have the same output.
+    /// Returns an error if it cannot be read, or two lines have the same output.
     fn check_outputs(mut self) -> Result<(), BatchError> {
         let mut outputs = OutputNames::default();
         while let Some((number, members)) = self.next_members()? {
@@ -170,7 +171,7 @@ impl JobList {
     /// Returns the next line with its line break, or `None` at the end.
     ///
     /// # Errors
-    /// If the list cannot be read, or the line is too long.
+    /// Returns an error if the list cannot be read, or the line is too long.
     fn next_line(&mut self) -> Result<Option<Vec<u8>>, BatchError> {
         let mut line = Vec::new();
         let mut limited = self.reader.by_ref().take(MAX_LINE_BYTES + 1);

@@ -1,5 +1,5 @@
-//! A stream of the jobs of a run: first those from inputs and folders, then those from a list,
-//! restricted to this shard.
+//! A stream of the jobs of a run that belong to this shard: first from inputs and folders, then
+//! from a list.
 
 use super::flag_table::FlagTable;
 use super::inputs::find_jobs;
@@ -14,11 +14,11 @@ use std::path::{Path, PathBuf};
 pub(super) struct JobSource<'a> {
     /// Files, folders and lists of names.
     pub(super) inputs: &'a [PathBuf],
-    /// The list of `--list`.
+    /// The job list from `--list`.
     pub(super) list: Option<&'a Path>,
-    /// The scene of `--scene`.
+    /// The scene from `--scene`.
     pub(super) scene: Option<&'a Path>,
-    /// The template of `--name`.
+    /// The template from `--name`.
     pub(super) picture_name: Option<&'a PictureName>,
     /// The flags that list lines may set.
     pub(super) flags: &'a FlagTable,
@@ -43,7 +43,7 @@ impl JobStream {
     /// Finds the inputs and opens the list.
     ///
     /// # Errors
-    /// If a folder or the list cannot be read.
+    /// Returns an error if a folder or the list cannot be read.
     pub(super) fn open(source: &JobSource<'_>, shard: Shard) -> Result<Self, BatchError> {
         let (scene, name) = (source.scene, source.picture_name);
         let inputs = find_jobs(source.inputs, scene, name)?;

@@ -54,7 +54,7 @@ struct HashCache {
 }
 
 impl KeyMaker {
-    /// Creates a maker of keys for jobs with these settings.
+    /// Prepares to compute the keys of jobs with these settings.
     ///
     /// `settings` is the debug output of the flags. A new flag changes it, so everything is
     /// rendered again, which is the safe choice. Files in `allowed`, such as the `--environment`
@@ -127,7 +127,7 @@ impl HashCache {
 
 /// Hashes a model with the buffers, material libraries and images it refers to.
 ///
-/// The file is read as bytes, not imported, so a key costs reading the files but not parsing the
+/// The file is read as bytes, not imported, so a key requires reading the files but not parsing the
 /// meshes. Files in folders above the model are also hashed, since only their bytes matter here;
 /// the importer decides whether they may be read.
 fn hash_model(hash: &mut Sha256, path: &Path) {

@@ -26,7 +26,7 @@ fn process_of(name: &str, host: &str) -> Option<u32> {
     process.parse().ok().filter(|_| of == host)
 }
 
-/// Returns whether the system reports that the process does not exist; not all systems can.
+/// Returns whether the process is known not to exist; not all systems report this.
 fn is_dead(process: u32) -> bool {
     Path::new("/proc/self").exists() && !Path::new("/proc").join(process.to_string()).exists()
 }

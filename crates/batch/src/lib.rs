@@ -29,7 +29,7 @@
 //! | `pool`, `worker_process`, `protocol`, `outcome` | workers, and how they end |
 //! | `report`, `report_reader`, `merge`, `contact_sheet` | job results |
 //! | `progress`, `metrics` | progress of a run |
-//! | `shard`, `tar_output`, `verify` | jobs divided between machines; tar files; verification |
+//! | `shard`, `tar_output`, `verify` | jobs divided among machines; tar files; verification |
 
 mod contact_sheet;
 mod content_digest;

@@ -15,9 +15,9 @@ const OWN_MEMBERS: [&str; 5] = ["input", "output", "scene", "bytes", "pictures"]
 pub(super) struct ListContext {
     /// The folder that inputs and scenes are relative to.
     pub(super) folder: PathBuf,
-    /// The scene of `--scene`.
+    /// The scene from `--scene`.
     pub(super) scene: Option<PathBuf>,
-    /// The template of `--name`.
+    /// The template from `--name`.
     pub(super) picture_name: Option<PictureName>,
     /// The flags of a picture.
     pub(super) flags: FlagTable,
@@ -27,7 +27,7 @@ impl ListContext {
     /// Checks that a member is known.
     ///
     /// # Errors
-    /// If it is unknown; the message suggests the name that was probably meant.
+    /// Returns an error if it is unknown; the message suggests the name that was probably meant.
     pub(super) fn check_member(&self, name: &str) -> Result<(), String> {
         if OWN_MEMBERS.contains(&name) || self.flags.has_flag(name) {
             return Ok(());
@@ -54,7 +54,7 @@ impl LineReader<'_> {
     /// Returns the jobs of a line.
     ///
     /// # Errors
-    /// If a member is unknown, missing, or of the wrong type.
+    /// Returns an error if a member is unknown, missing, or of the wrong type.
     pub(super) fn read_group(&self, members: &Map<String, Value>) -> Result<JobGroup, String> {
         let given = text_member(members, "input")?;
         let given = given.ok_or("missing member `input`")?;

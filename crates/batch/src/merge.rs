@@ -70,8 +70,8 @@ impl CurrentJobs {
 /// the same key. With `current`, records of other jobs and keys are omitted.
 ///
 /// # Errors
-/// If a report cannot be read, or the merged report cannot be written; the old merged report is
-/// then unchanged.
+/// Returns an error if a report cannot be read, or the merged report cannot be written; the old
+/// merged report is then unchanged.
 pub(super) fn merge_reports(
     out_dir: &Path,
     current: Option<CurrentJobs>,

@@ -97,7 +97,7 @@ fn head(text: &mut String, name: &str, kind: &str, help: &str) {
     let _ = writeln!(text, "# TYPE alberti_batch_{name} {kind}");
 }
 
-/// The file of `--metrics`.
+/// The `--metrics` file.
 pub(super) struct MetricsFile {
     path: PathBuf,
 }
@@ -113,7 +113,7 @@ impl MetricsFile {
     /// It is not flushed to disk, because the next version follows within a second.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// Returns an error if it cannot be written.
     pub(super) fn write_counts(&self, counts: RunCounts, elapsed: f64) -> Result<(), BatchError> {
         let mut name = self.path.file_name().unwrap_or_default().to_owned();
         // A collector reads files that end in .prom.

@@ -13,7 +13,7 @@ pub(super) type Outcome = Result<(), RunStop>;
 /// The reason why a run ends before all jobs are done.
 #[derive(Debug)]
 pub(super) enum RunStop {
-    /// A list cannot be read, or the output folder cannot be written: not an error of a job.
+    /// An error outside the jobs: a list cannot be read, or the output folder cannot be written.
     Fault(BatchError),
     /// This signal interrupted a worker and the run with it.
     Signal(i32),
@@ -42,8 +42,8 @@ impl FailureList {
     pub(super) fn add(&mut self, record: &JobRecord) {
         self.count += 1;
         let at = self.first.partition_point(|(output, _)| *output < record.output);
-        // The message for a wrong line names the line, and the message for a model often names its
-        // file.
+        // The message for an invalid line names the line, and the message for a model often names
+        // its file.
         let name = format!("{}: ", visible_text(&record.input));
         let text = if record.input.is_empty() || record.message.starts_with(&name) {
             record.message.clone()
@@ -54,7 +54,7 @@ impl FailureList {
         self.first.truncate(MAX_TOLD);
     }
 
-    /// Passes on the failures one by one.
+    /// Passes the failures to `tell`, one by one:
     ///
     /// ```text
     /// failed: models/broken.glb: …
@@ -114,8 +114,8 @@ impl WorkerEnd {
         }
     }
 
-    /// Returns whether it was killed, either by a system that is out of memory or by someone who
-    /// kills all processes.
+    /// Returns whether the worker was killed, either by a system that is out of memory or by
+    /// someone who kills all processes.
     pub(super) fn is_killed(&self) -> bool {
         *self == Self::Signal(9)
     }
@@ -130,7 +130,7 @@ pub(super) fn worker_end_message(end: &WorkerEnd, text: &str, policy: JobPolicy)
             return format!("timed out after {seconds} s\n  = help: raise --job-seconds");
         }
         WorkerEnd::Signal(9) => {
-            "the worker was killed twice (SIGKILL), which is how the system stops programs that \
+            "the worker was killed twice (SIGKILL), which is what the system does to programs that \
              use up the memory"
                 .to_owned()
         }

@@ -12,7 +12,7 @@ impl OutputNames {
     /// Records the output of a line.
     ///
     /// # Errors
-    /// If an earlier line has the same output; the error is the number of that line.
+    /// Returns the number of the earlier line with the same output, if there is such a line.
     pub(super) fn claim(&mut self, output: &str, line: u64) -> Result<(), u64> {
         // This is the hash that records use, so collisions are just as unlikely.
         let hash = super::earlier_records::record_hash(&same_file_name(output), "");
@@ -23,8 +23,7 @@ impl OutputNames {
     }
 }
 
-/// Returns the name of an output as the file system compares it: the file systems on these
-/// platforms ignore case.
+/// Returns the name of an output as the file system compares it: Windows and macOS ignore case.
 fn same_file_name(output: &str) -> String {
     if cfg!(any(windows, target_os = "macos")) { output.to_lowercase() } else { output.to_owned() }
 }

@@ -36,10 +36,10 @@ impl PictureName {
         Self(Self::parse_fields(text).unwrap_or_else(|_| NameTemplate::default()))
     }
 
-    /// Parses the template of `--name`.
+    /// Parses the `--name` template.
     ///
     /// # Errors
-    /// If a field is unknown, or the name does not end in `.png`.
+    /// Returns an error if a field is unknown, or the name does not end in `.png`.
     pub fn parse(text: &str) -> Result<Self, String> {
         if !has_png_extension(text) {
             return Err("pictures are PNG files; end the name in .png".to_owned());
@@ -103,7 +103,7 @@ pub(super) fn normal_parts(path: &Path) -> String {
 /// Checks the name that a list assigns to a picture.
 ///
 /// # Errors
-/// If it points outside the output folder, or does not end in `.png`.
+/// Returns an error if it points outside the output folder, or does not end in `.png`.
 pub(super) fn check_picture_name(name: &str) -> Result<(), String> {
     let (path, shown) = (Path::new(name), visible_text(name));
     let is_normal = path.components().all(|part| matches!(part, Component::Normal(_)));

@@ -49,9 +49,9 @@ pub(super) struct BatchRun<'a> {
     pub(super) earlier: Option<EarlierRecords>,
     /// The report of this run.
     pub(super) report: &'a ReportWriter,
-    /// The tar files that the pictures go to.
+    /// The tar files that receive the pictures.
     pub(super) tar: Option<&'a TarOutput>,
-    /// The counter of the jobs.
+    /// The job counter.
     pub(super) progress: &'a RunProgress,
     /// The output folder.
     pub(super) out_dir: &'a Path,
@@ -180,9 +180,9 @@ impl BatchRun<'_> {
         }
     }
 
-    /// Makes a worker run jobs; answered jobs are recorded and removed from the list.
+    /// Sends jobs to a worker; answered jobs are recorded and removed from the list.
     ///
-    /// The inner error says how the worker ended while running the first job left in the list.
+    /// The inner error describes how the worker ended while it ran the first job left in the list.
     fn ask_worker(
         &self,
         slot: usize,
@@ -211,7 +211,7 @@ impl BatchRun<'_> {
             let name = format!("{}.{slot}.part", self.report.run_name());
             let partial: PathBuf =
                 [self.out_dir, "reports".as_ref(), name.as_ref()].iter().collect();
-            // The worker may be killed before it can remove it.
+            // The worker may be killed before it can remove this file.
             register_partial_file(partial.clone());
             PictureTarget::File { path: self.out_dir.join(&job.output), partial }
         };
@@ -237,7 +237,7 @@ impl BatchRun<'_> {
 /// Creates the record for an answer.
 ///
 /// # Errors
-/// If the output folder cannot be written, which is not a job error.
+/// Returns an error if the output folder cannot be written, which is not a job error.
 fn answered_record(job: &BatchJob, key: String, answer: WorkAnswer) -> Result<JobRecord, RunStop> {
     match answer {
         WorkAnswer::Done { seconds, warnings, message, bytes, sha256 } => Ok(JobRecord {

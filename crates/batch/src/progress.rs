@@ -64,7 +64,7 @@ impl RunProgress {
     /// Starts counting and starts the display thread.
     ///
     /// # Errors
-    /// If the `--metrics` file cannot be written; this is detected here, before any work is done.
+    /// Returns an error if the `--metrics` file cannot be written, before any work is done.
     pub(super) fn start(
         metrics: Option<&Path>,
         display: ProgressDisplay,
@@ -112,7 +112,7 @@ impl RunProgress {
     /// Removes the line from the terminal and writes the metrics one last time.
     ///
     /// # Errors
-    /// If the `--metrics` file cannot be written.
+    /// Returns an error if the `--metrics` file cannot be written.
     pub(super) fn finish(mut self) -> Result<RunCounts, BatchError> {
         self.end_display();
         let counts = lock(&self.state).counts;

@@ -99,7 +99,7 @@ impl ReportWriter {
     /// runs left there.
     ///
     /// # Errors
-    /// If the file cannot be created; this is detected here, before any work is done.
+    /// Returns an error if the file cannot be created, before any work is done.
     pub(super) fn create(out_dir: &Path, shard: Shard) -> Result<Self, BatchError> {
         let folder = out_dir.join(REPORTS_FOLDER);
         std::fs::create_dir_all(&folder).map_err(|cause| write_error(&folder, &cause))?;
@@ -134,7 +134,7 @@ impl ReportWriter {
     /// half-written state.
     ///
     /// # Errors
-    /// If it cannot be written, for example because the disk is full or the folder is gone.
+    /// Returns an error if it cannot be written, for example because the disk is full.
     pub(super) fn append_record(&self, record: &JobRecord) -> Result<(), BatchError> {
         self.append_records(std::slice::from_ref(record))
     }
@@ -142,7 +142,7 @@ impl ReportWriter {
     /// Appends several records in one call.
     ///
     /// # Errors
-    /// If they cannot be written; some of them may then be in the report.
+    /// Returns an error if they cannot be written; some of them may then be in the report.
     pub(super) fn append_records(&self, records: &[JobRecord]) -> Result<(), BatchError> {
         let lines: String = records.iter().map(JobRecord::to_line).collect();
         let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
@@ -158,14 +158,14 @@ impl ReportWriter {
     /// Flushes the report to disk; an empty one is removed.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// Returns an error if it cannot be written.
     pub(super) fn finish(self) -> Result<(), BatchError> {
         let open = self.open.into_inner().unwrap_or_else(PoisonError::into_inner);
         if open.has_records {
             return open.file.sync_all().map_err(|cause| write_error(&self.path, &cause));
         }
         drop(open);
-        // An empty report that remains is read as one without records.
+        // If an empty report remains, readers find no records in it.
         let _ = std::fs::remove_file(&self.path);
         Ok(())
     }

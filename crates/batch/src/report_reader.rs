@@ -52,7 +52,7 @@ pub(super) struct RecordLine<'a> {
 }
 
 impl<'a> RecordLine<'a> {
-    /// Parses a line; `None` if it is truncated or has another schema.
+    /// Parses a line; returns `None` if it is truncated or has another schema.
     pub(super) fn parse(line: &'a [u8]) -> Option<Self> {
         let record: Self = serde_json::from_slice(line).ok()?;
         matches!(&*record.status, DONE | FAILED).then_some(record)
@@ -69,8 +69,8 @@ impl<'a> RecordLine<'a> {
 /// Calls `visit` for each record with its line, which has no line break.
 ///
 /// # Errors
-/// If a report cannot be read, or `visit` fails. Skipped records would be rendered again, or be
-/// missing from a merged report. A folder that does not exist yet has no reports.
+/// Returns an error if a report cannot be read, or `visit` fails. Skipped records would be rendered
+/// again, or be missing from a merged report. A folder that does not exist yet has no reports.
 pub(super) fn read_reports(
     out_dir: &Path,
     mut visit: impl FnMut(&RecordLine<'_>, &[u8]) -> Result<(), BatchError>,
@@ -84,7 +84,7 @@ pub(super) fn read_reports(
 /// Reads one report, if it exists and is a file; see [`read_reports`].
 ///
 /// # Errors
-/// If it cannot be read, or `visit` fails.
+/// Returns an error if it cannot be read, or `visit` fails.
 pub(super) fn read_report(
     path: &Path,
     mut visit: impl FnMut(&RecordLine<'_>, &[u8]) -> Result<(), BatchError>,
@@ -119,7 +119,7 @@ pub(super) fn read_report(
 /// Returns the paths of all reports: the merged one, then the runs by number and name.
 ///
 /// # Errors
-/// If the folder cannot be read.
+/// Returns an error if the folder cannot be read.
 pub(super) fn report_paths(out_dir: &Path) -> Result<Vec<PathBuf>, BatchError> {
     let folder = out_dir.join(REPORTS_FOLDER);
     let mut paths = Vec::new();

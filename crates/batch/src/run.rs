@@ -55,7 +55,7 @@ pub struct BatchOptions {
     pub tar: Option<u32>,
     /// The file with counts and times for Prometheus.
     pub metrics: Option<PathBuf>,
-    /// The number of workers at a time.
+    /// The number of concurrent workers.
     pub threads: usize,
 }
 
@@ -63,7 +63,7 @@ impl BatchOptions {
     /// Finds the inputs and opens the list; returns the jobs of this shard.
     ///
     /// # Errors
-    /// If a folder or the list cannot be read.
+    /// Returns an error if a folder or the list cannot be read.
     pub fn open_jobs(&self) -> Result<ShardJobs, BatchError> {
         let source = JobSource {
             inputs: &self.inputs,
@@ -75,7 +75,7 @@ impl BatchOptions {
         JobStream::open(&source, self.shard).map(ShardJobs)
     }
 
-    /// Creates the maker of the keys that identify finished jobs.
+    /// Returns the key maker, whose keys identify finished jobs.
     fn keys(&self) -> KeyMaker {
         KeyMaker::new(&format!("{:?}", self.flags), self.allowed.clone())
     }
@@ -102,7 +102,7 @@ pub enum RunEnd {
 /// Merges the reports of all runs, and writes the contact sheet.
 ///
 /// # Errors
-/// If a report cannot be read, or the results cannot be written.
+/// Returns an error if a report cannot be read, or the results cannot be written.
 pub fn merge_reports(out_dir: &Path) -> Result<MergeCounts, BatchError> {
     let counts = merge::merge_reports(out_dir, None)?;
     contact_sheet::write_contact_sheet(out_dir, &counts)?;
@@ -113,7 +113,7 @@ pub fn merge_reports(out_dir: &Path) -> Result<MergeCounts, BatchError> {
 /// one line per picture, and then the counts. Returns true if there are no problems.
 ///
 /// # Errors
-/// If a list or a report cannot be read, or `tell` fails.
+/// Returns an error if a list or a report cannot be read, or `tell` fails.
 pub fn verify_jobs<E: From<BatchError>>(
     options: &BatchOptions,
     jobs: ShardJobs,
@@ -128,8 +128,8 @@ pub fn verify_jobs<E: From<BatchError>>(
 /// different number of shards.
 ///
 /// # Errors
-/// If a list cannot be read, or the output folder cannot be written. A job that fails is not an
-/// error: it is a record in the report.
+/// Returns an error if a list cannot be read, or the output folder cannot be written. A job that
+/// fails is not an error: it is a record in the report.
 pub fn run_jobs(
     options: &BatchOptions,
     jobs: ShardJobs,

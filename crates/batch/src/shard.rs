@@ -1,4 +1,4 @@
-//! Shards, which divide the jobs of a batch between several machines.
+//! Shards, which divide the jobs of a batch among several machines.
 //!
 //! Every machine runs the same command with its own shard, and needs nothing from the others except
 //! the same inputs. Each machine goes through all jobs in the same order and takes the jobs that
@@ -89,8 +89,8 @@ impl ShardBalance {
 /// Parses `I/N`; `auto` and `auto/N` take the index from the environment.
 ///
 /// # Errors
-/// If the text is not `I/N` with `1 <= I <= N`, or `auto` is used outside an array job, or the
-/// number of tasks in the array job is not `N`.
+/// Returns an error if the text is not `I/N` with `1 <= I <= N`, or `auto` is used outside an array
+/// job, or the number of tasks in the array job is not `N`.
 pub fn parse_shard(text: &str) -> Result<Shard, String> {
     parse_shard_with(text, |name| std::env::var(name).ok().as_deref().and_then(parse_count))
 }
@@ -220,7 +220,7 @@ const SCHEDULERS: &[Scheduler] = &[
 impl Scheduler {
     /// Returns the index of this task, from 0, and the number of tasks if known.
     ///
-    /// `None` outside an array job, or if the index does not match the other variables.
+    /// Returns `None` outside an array job, or if the index does not match the other variables.
     fn task(&self, variable: &impl Fn(&str) -> Option<usize>) -> Option<(usize, Option<usize>)> {
         let own = variable(self.index)?;
         let first = match self.first {
@@ -242,7 +242,7 @@ impl Scheduler {
 /// Returns the shard of the first scheduler whose variables are set.
 ///
 /// `wanted` is the number of shards in `auto/N`. If the number of tasks is known, it must be the
-/// same: jobs of shards without a task would never be rendered.
+/// same; otherwise, jobs of shards without a task would never be rendered.
 fn shard_of_task(
     variable: impl Fn(&str) -> Option<usize>,
     wanted: Option<usize>,

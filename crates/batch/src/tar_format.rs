@@ -28,7 +28,7 @@ const PREFIX: Range<usize> = 345..500;
 /// Appends a file to an archive.
 ///
 /// # Errors
-/// If it cannot be written, or has 8 GiB or more.
+/// Returns an error if it cannot be written, or has 8 GiB or more.
 pub(super) fn append_file(writer: &mut impl Write, name: &str, content: &[u8]) -> Result<()> {
     let mut header = [0; BLOCK_BYTES];
     if let Some((prefix, name)) = split_name(name) {
@@ -51,7 +51,7 @@ pub(super) fn append_file(writer: &mut impl Write, name: &str, content: &[u8]) -
 /// Finishes an archive.
 ///
 /// # Errors
-/// If it cannot be written.
+/// Returns an error if it cannot be written.
 pub(super) fn finish_archive(writer: &mut impl Write) -> Result<()> {
     writer.write_all(&[0; 2 * BLOCK_BYTES])
 }
@@ -88,7 +88,7 @@ fn append_block(
     writer.write_all(&[0; BLOCK_BYTES][..padding])
 }
 
-/// Returns the sum of a header's bytes, with spaces where the sum goes.
+/// Returns the checksum of a header: the sum of its bytes, with spaces in the checksum field.
 fn header_sum(header: &[u8; BLOCK_BYTES]) -> u32 {
     let spaces = CHECKSUM.len() as u32 * u32::from(b' ');
     let all: u32 = header.iter().map(|byte| u32::from(*byte)).sum();
@@ -96,8 +96,8 @@ fn header_sum(header: &[u8; BLOCK_BYTES]) -> u32 {
     all - own + spaces
 }
 
-/// Splits a name into the two fields of a header, which are joined by a slash; `None` if it is too
-/// long.
+/// Splits a name into the two fields of a header, which are joined by a slash; returns `None` if it
+/// is too long.
 fn split_name(name: &str) -> Option<(&str, &str)> {
     if name.len() <= NAME.len() {
         return Some(("", name));
@@ -123,7 +123,7 @@ fn pax_record(key: &str, value: &str) -> String {
 /// and need not read the content to the end.
 ///
 /// # Errors
-/// If it cannot be read, is truncated, or has a damaged header.
+/// Returns an error if it cannot be read, is truncated, or has a damaged header.
 pub(super) fn read_archive(
     reader: &mut impl Read,
     mut visit: impl FnMut(&str, &mut dyn Read) -> Result<()>,

@@ -64,7 +64,7 @@ impl TarOutput {
     /// Once the tar file is full, it is renamed, and its records are appended to the report.
     ///
     /// # Errors
-    /// If a file cannot be written.
+    /// Returns an error if a file cannot be written.
     pub(super) fn add_sample(
         &self,
         record: JobRecord,
@@ -94,7 +94,7 @@ impl TarOutput {
     /// Finishes the last tar file, which may have fewer samples.
     ///
     /// # Errors
-    /// If a file cannot be written.
+    /// Returns an error if a file cannot be written.
     pub(super) fn finish(self, report: &ReportWriter) -> Result<(), BatchError> {
         let mut state = self.lock();
         let last = state.open.take();

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 /// A name with fields in braces; `{{` and `}}` are literal braces.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct NameTemplate {
-    /// The pieces of the name, in order; literal text is never empty and never adjacent.
+    /// The pieces of the name, in order; literal pieces are never empty and never adjacent.
     parts: Vec<TemplatePart>,
 }
 
@@ -58,8 +58,8 @@ impl NameTemplate {
     /// a field up to the next `}`.
     ///
     /// # Errors
-    /// If a brace is unmatched, a field is unknown, or the name contains another program's counter,
-    /// `%04d` or `####`. The message about an unknown field lists the known ones.
+    /// Returns an error if a brace is unmatched, a field is unknown, or the name contains another
+    /// program's counter, `%04d` or `####`. The message lists the known fields.
     pub fn parse(
         text: &str,
         words: &[&'static str],
@@ -142,7 +142,7 @@ fn push_text(parts: &mut Vec<TemplatePart>, text: &str) {
 ///
 /// # Errors
 ///
-/// If the field is unknown, or a text field has digits; the message shows how to write it.
+/// Returns an error, with a fix, if the field is unknown or a text field has digits.
 fn parse_field(
     text: &str,
     field: &str,

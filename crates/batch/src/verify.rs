@@ -1,4 +1,4 @@
-//! `batch --verify`: every job has a record with its key, and its picture is intact.
+//! `batch --verify`: checks that every job has a record with its key and an intact picture.
 
 use super::earlier_records::record_hash;
 use super::job::{BatchJob, JobGroup};
@@ -27,7 +27,7 @@ const BUFFER_BYTES: usize = 1 << 16;
 /// The models are hashed as for a run, and the pictures are read completely.
 ///
 /// # Errors
-/// If a list or a report cannot be read, or `tell` fails.
+/// Returns an error if a list or a report cannot be read, or `tell` fails.
 pub(super) fn verify_jobs<E: From<BatchError>>(
     groups: impl Iterator<Item = Result<JobGroup, BatchError>>,
     keys: &KeyMaker,

@@ -15,7 +15,7 @@ const MAX_ERROR_BYTES: usize = 2_048;
 /// The maximum size of a picture that is sent through the pipe.
 const MAX_PICTURE_BYTES: u64 = 1 << 32;
 
-/// Creates the command for the program, whose hidden command `batch-worker` is a worker.
+/// A function that creates the command; its hidden subcommand `batch-worker` runs a worker.
 pub type WorkerProgram<'a> = &'a (dyn Fn() -> std::io::Result<Command> + Sync);
 
 /// A running worker.
@@ -35,7 +35,7 @@ pub(super) struct WorkerProcess {
 pub(super) enum WorkerEnd {
     /// It exceeded its time limit and was killed.
     TimedOut,
-    /// A signal ended it, from inside or outside.
+    /// A signal ended it, sent by itself or by another process.
     Signal(i32),
     /// It exited with this code.
     Exit(Option<i32>),
@@ -44,10 +44,10 @@ pub(super) enum WorkerEnd {
 impl WorkerProcess {
     /// Starts a worker: this program with the hidden command `batch-worker`.
     ///
-    /// The starting thread must live as long as the worker, which ends with it.
+    /// The worker ends with the thread that starts it, so this thread must live as long.
     ///
     /// # Errors
-    /// If the system cannot start another process.
+    /// Returns an error if the system cannot start another process.
     pub(super) fn start(
         program: WorkerProgram<'_>,
         memory: Option<u64>,
@@ -74,16 +74,17 @@ impl WorkerProcess {
         Ok(Self { child, requests, answers, error_text, error_reader, answer_count: 0 })
     }
 
-    /// Returns whether the worker has not answered any request yet, so no earlier job can have
+    /// Returns whether the worker has not answered any request yet, so that no earlier job can have
     /// corrupted it.
     pub(super) const fn is_fresh(&self) -> bool {
         self.answer_count == 0
     }
 
-    /// Sends a request. A worker that has ended cannot receive it; the missing answer shows that.
+    /// Sends a request. If the worker has ended, its answer will be missing, which is detected
+    /// later.
     ///
     /// # Errors
-    /// If the request cannot be serialized.
+    /// Returns an error if the request cannot be serialized.
     pub(super) fn send(&mut self, request: &WorkRequest) -> Result<(), BatchError> {
         self.error_text.lock().unwrap_or_else(PoisonError::into_inner).clear();
         let mut line = serde_json::to_vec(request).map_err(|error| {
@@ -97,7 +98,7 @@ impl WorkerProcess {
     /// Returns the next answer and the picture that follows it.
     ///
     /// # Errors
-    /// If there is no answer in time, or the worker has ended; the worker is then gone.
+    /// Returns an error if the worker does not answer in time or has ended; it is then gone.
     pub(super) fn next_answer(
         &mut self,
         limit: Option<Duration>,
@@ -197,14 +198,14 @@ fn keep_error_text(mut stderr: ChildStderr, text: &Mutex<Vec<u8>>) {
     }
 }
 
-/// Converts an exit status to the end of a worker.
+/// Converts the exit status of a worker to the reason why it ended.
 #[cfg(unix)]
 fn end_of(status: ExitStatus) -> WorkerEnd {
     use std::os::unix::process::ExitStatusExt as _;
     status.signal().map_or(WorkerEnd::Exit(status.code()), WorkerEnd::Signal)
 }
 
-/// Converts an exit status to the end of a worker.
+/// Converts the exit status of a worker to the reason why it ended.
 #[cfg(not(unix))]
 fn end_of(status: ExitStatus) -> WorkerEnd {
     WorkerEnd::Exit(status.code())

@@ -10,7 +10,7 @@
 //! let (origin, mut file) = Origin::from_model_path("model.glb".as_ref());
 //! file.image.size = (256, 256);
 //! let scene = Scene::resolve(&origin, &file, &Default::default())?;
-//! let picture = render(&scene, 2)?; // two threads; their number changes no bit of the picture
+//! let picture = render(&scene, 2)?; // two threads; the number does not change the picture
 //! let center: Option<[u8; 4]> = picture.pixel(128, 128); // sRGB, straight alpha
 //! picture.write_png("thumb.png".as_ref())?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -34,9 +34,8 @@
 //! A [`Monitor`] observes a rendering and a [`CancelToken`] stops it; a sequence stops if the
 //! function that receives its pictures returns an error.
 //!
-//! The crate prints nothing and has no global state: any number of scenes, renderers and pictures
-//! can coexist, and each can be sent to another thread. Errors are typed and state the problem, its
-//! location and a remedy.
+//! The crate prints nothing. Any number of scenes, renderers and pictures can coexist, and each can
+//! be sent to another thread. Errors are typed and state the problem, its location and a remedy.
 
 mod cancel;
 pub mod render;
@@ -72,7 +71,7 @@ struct Readme;
 mod tests {
     /// A compile-time check: the body only needs to type-check.
     #[test]
-    fn everything_can_go_to_another_thread() {
+    fn everything_can_be_sent_to_another_thread() {
         fn assert_send_sync<T: Send + Sync + 'static>() {}
         assert_send_sync::<(crate::Origin, crate::SceneFile, crate::Scene)>();
         assert_send_sync::<(picture::Picture, model::Timings, crate::CancelToken)>();

@@ -116,7 +116,7 @@ pub enum RenderError {
     #[error(transparent)]
     Draw(hidden_line::DrawError),
     /// The [monitor](raster::Monitor) requested cancellation.
-    #[error("the picture was canceled")]
+    #[error("rendering was canceled")]
     Canceled,
     /// Ambient occlusion needs the whole depth buffer, and the picture is larger than one tile.
     #[error("ambient occlusion supports pictures up to {0} x {0} pixels", raster::MAX_SIDE)]
@@ -157,7 +157,7 @@ impl From<hidden_line::DrawError> for RenderError {
 /// times, and can be observed and canceled.
 ///
 /// # Errors
-/// The picture's size is out of range, or the scene has too many primitives.
+/// Returns an error if the picture's size is out of range, or the scene has too many primitives.
 pub fn render(scene: &Scene, threads: usize) -> Result<Picture, RenderError> {
     image_tiles::validate_region(scene.image, scene.image.pixel_rect())?;
     let textures = Textures::for_scene(scene);

@@ -97,12 +97,12 @@ impl Sequence {
     /// Prepares a sequence of `frames` pictures for the scene that `file` describes. An automatic
     /// camera is fitted to the whole motion.
     ///
-    /// # Errors
-    /// The scene cannot be framed.
-    ///
     /// Each frame is resolved like a single picture at that time, so the lights, cameras and
     /// grounds of the models move with them. Only an automatic view is shared by the whole motion:
     /// it is resolved as if the models at all 16 moments existed at once.
+    ///
+    /// # Errors
+    /// Returns an error if the scene cannot be framed.
     pub fn new(
         origin: &Origin,
         file: &SceneFile,
@@ -136,8 +136,8 @@ impl Sequence {
         Ok(sequence)
     }
 
-    /// Returns whether a view is the same in all frames. View 0 is the picture, and the insets
-    /// follow from 1. This holds for an automatic view and, in a turntable, for a camera of the
+    /// Returns whether a view is the same in all frames. View 0 is the picture; the insets are
+    /// views 1 and up. This holds for an automatic view and, in a turntable, for a camera of the
     /// model, which would otherwise turn with it.
     fn keeps_view(&self, index: usize) -> bool {
         let own = index.checked_sub(1).and_then(|inset| self.file.viewports.get(inset));
@@ -152,12 +152,12 @@ impl Sequence {
 
     /// Moves the camera along a path between two times in seconds. Insets keep their cameras.
     ///
-    /// # Errors
-    /// The view is undefined at some time, for example because the eye coincides with its target.
-    ///
     /// The view for each frame is computed before rendering starts, so errors are reported early.
-    /// Automatic views use the models at 16 moments of the motion, or at one moment if they do not
-    /// move.
+    /// Automatic views use the models at 16 moments, or at one moment if they do not move.
+    ///
+    /// # Errors
+    /// Returns an error if the view is undefined at some time, for example because the eye
+    /// coincides with its target.
     pub fn with_camera_path(
         mut self,
         origin: &Origin,
@@ -216,7 +216,8 @@ impl Sequence {
     /// because the queue is consistent after every statement.
     ///
     /// # Errors
-    /// A frame cannot be rendered, or the sink fails. In either case no more frames are started.
+    /// Returns an error if a frame cannot be rendered, or the sink fails. In either case no more
+    /// frames are started.
     pub fn render_frames<E>(
         &self,
         threads: usize,
@@ -466,7 +467,8 @@ impl Motion {
 /// Finds instances that share the model of their predecessor, as pairs of an index and the first
 /// index of the run.
 ///
-/// Instances of one file are consecutive, so comparing neighbors by pointer is enough and O(n).
+/// Instances of one file are consecutive, so it is enough to compare neighbors by pointer, which
+/// takes O(n).
 fn shared_models(models: &[ModelInstance]) -> Vec<(usize, usize)> {
     let mut first = 0;
     let mut shared = Vec::new();

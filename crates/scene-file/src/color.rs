@@ -33,8 +33,8 @@ impl Color {
         parse_hex_srgb(text).or_else(|| parse_color_name(text)).map(Self)
     }
 
-    /// Returns red, green and blue as linear light from 0 to 1, converted with the sRGB transfer
-    /// function (IEC 61966-2-1) from a table of 256 entries.
+    /// Returns red, green and blue as linear light from 0 to 1, from a 256-entry table of the sRGB
+    /// transfer function (IEC 61966-2-1).
     #[must_use]
     pub fn to_linear(self) -> [f32; 3] {
         self.0.map(|code| srgb_to_linear_table()[usize::from(code)])
@@ -102,7 +102,7 @@ fn check_color(node: &Node<'_>, checker: &mut Checker<'_>) {
     checker.report_type(node, "a color", Some(help));
 }
 
-/// Reports the mistakes in a light color.
+/// Reports the mistakes in the color of a light.
 fn check_light_color(node: &Node<'_>, checker: &mut Checker<'_>) {
     match (&node.kind, unnamed_group(node)) {
         (NodeKind::String(_), _) => check_color_string(node, checker),
@@ -147,7 +147,7 @@ fn color_of_numbers(node: &Node<'_>) -> Option<[u8; 3]> {
     Some([code(0)?, code(1)?, code(2)?]).filter(|_| items.len() <= 4)
 }
 
-/// A light color: linear red, green and blue.
+/// The color of a light: linear red, green and blue.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct LightColor(pub [f64; 3]);
 

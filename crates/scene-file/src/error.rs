@@ -1,4 +1,4 @@
-//! Scene file errors: each points at its position in the text and says what to do.
+//! Scene file errors, each with its position in the text and, if possible, a correction.
 
 use super::source_text::SourceText;
 #[cfg(feature = "terminal")]
@@ -100,7 +100,7 @@ impl std::error::Error for SceneError {}
 
 /// The mistakes in a scene, at least one, in file order. None of them is a consequence of another.
 ///
-/// Its `Display` shows the first [`SHOWN`](Self::SHOWN) and the number of the others.
+/// Its `Display` shows the first [`SHOWN`](Self::SHOWN) and counts the rest.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SceneErrors {
     /// Boxed to keep a `Result` with these errors small.

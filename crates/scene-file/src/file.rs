@@ -1,7 +1,7 @@
-//! A scene as written in RON, with angles in degrees, paths and defaults.
+//! A scene as written in RON, before its paths, angles and defaults are resolved.
 //!
-//! These types define what a scene file may contain; resolution gives it meaning. Only the models'
-//! paths are required. Unknown fields are errors, so that misspelled ones are found.
+//! These types define what a scene file may contain; the crate `scene` resolves it. Only the
+//! models' paths are required. Unknown fields are errors, so misspelled names are caught.
 
 mod assembly;
 mod background;

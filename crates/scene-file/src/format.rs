@@ -28,12 +28,12 @@ const INDENT_WIDTH: usize = 4;
 /// # Ok::<(), scene_file::SceneErrors>(())
 /// ```
 ///
+/// The result is parsed again and compared with the original scene, so that a bug in the formatter
+/// cannot damage a file. Formatting is idempotent, and comments are never lost.
+///
 /// # Errors
 /// Returns the mistakes in the text if it is not a scene file, or an error if formatting would
 /// change its meaning.
-///
-/// The result is parsed again and compared with the original scene, so that a bug in the formatter
-/// cannot damage a file. Formatting is idempotent, and comments are never lost.
 pub fn format_source(file: &str, text: &str) -> Result<String, SceneErrors> {
     let scene = parse_scene(file, text)?;
     let top = tree::group_tokens(&tokenize(text));
@@ -136,7 +136,7 @@ mod tests {
     fn check(text: &str, expected: &str) {
         let once = format_source("scene.ron", text).expect("a scene");
         assert_eq!(once, expected);
-        assert_eq!(format_source("scene.ron", &once).expect("a scene"), once, "laid out again");
+        assert_eq!(format_source("scene.ron", &once).expect("a scene"), once, "formatted again");
     }
 
     #[test]

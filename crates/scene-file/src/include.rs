@@ -23,8 +23,8 @@ use std::path::{Path, PathBuf};
 
 /// The maximum number of files that a scene includes, counting each inclusion.
 const MAX_INCLUDED_FILES: usize = 64;
-/// The maximum total size of included files in bytes, counting each inclusion. Otherwise, a few
-/// lines could request a gigabyte of text.
+/// The maximum total size of included files in bytes, counting each inclusion. Without a limit, a
+/// few lines could request a gigabyte of text.
 const MAX_INCLUDED_BYTES: usize = 4 << 20;
 
 /// The fields of a scene that are replaced as a whole.
@@ -57,7 +57,7 @@ pub struct FileMistake {
 
 impl SceneSource {
     /// Parses the text and the files it includes, which must be inside its folder or an `allowed`
-    /// folder. Parts with mistakes are left out of the scene.
+    /// folder. Parts with mistakes are omitted from the scene.
     pub fn parse_recovering(&mut self, allowed: &[PathBuf]) -> (SceneFile, Vec<FileMistake>) {
         let GatheredScene { file, includes, mistakes } = gather_includes(self, allowed);
         self.includes = includes;
@@ -189,8 +189,8 @@ impl IncludeResolver<'_> {
     /// Loads an included file and merges it over the files it includes; `path` is relative to the
     /// scene's folder.
     ///
-    /// A file may be included several times, but must not include itself; the message for that
-    /// shows the cycle.
+    /// A file may be included several times, but must not include itself; the error message shows
+    /// the cycle.
     ///
     /// # Errors
     /// Returns the message and the help if the path leaves the allowed folders, there are too many
@@ -206,7 +206,7 @@ impl IncludeResolver<'_> {
                 format!("the path \"{}\" points outside the scene's folder", path.display());
             return Err((message, Some(help)));
         }
-        // Reported only once.
+        // The limit was already reported.
         if self.is_full {
             return Ok(MergedScene::default());
         }
@@ -270,7 +270,7 @@ fn rebase_paths(file: &mut SceneFile, folder: &Path) {
 /// Merges a scene over another: lists are concatenated, other fields replaced as a whole if `above`
 /// sets them.
 ///
-/// Lights are an optional list: if it is absent, the other list is unchanged.
+/// The list of lights is optional: if one scene has none, the other's list is used unchanged.
 fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
     // Lists all fields by name, so that a new scene field must be concatenated or replaced here.
     let SceneFile {

@@ -9,7 +9,7 @@
 //!
 //! | module | subject |
 //! | --- | --- |
-//! | [`mod@file`] | the contents of a scene file, as types that read and write themselves |
+//! | [`mod@file`] | the contents of a scene file, as types that can be read and written |
 //! | [`options`] | enumerations of other crates, by their names in scene files and flags |
 //! | [`mod@reference`] | the declarations of all types: names, documentation, defaults |
 //! | `scene_source`, `include` | the text of a scene and of the files it includes |

@@ -8,7 +8,7 @@ use core::ops::Range;
 /// search for the intended word.
 pub(super) const MAX_MISTAKES: usize = 1000;
 
-/// A mistake at a position in a text, shared by the parser and the declaration checker.
+/// A mistake at a position in a text, found by the parser or by the declaration checker.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Mistake {
     /// The bytes that the message points at.

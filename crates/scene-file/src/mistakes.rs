@@ -212,7 +212,7 @@ fn every_prefix_of_a_scene_is_parsed() {
 }
 
 #[test]
-fn numbers_have_ron_notation() {
+fn numbers_are_written_in_ron_notation() {
     let far = |text: &str| {
         let scene = parse_scene(
             "s.ron",

@@ -327,8 +327,8 @@ fn check_scale(node: &Node<'_>, checker: &mut Checker<'_>) {
     }
 }
 
-/// Returns the group of a vector, in either kind of brackets. A struct name before it is skipped,
-/// as `ron` does.
+/// Returns the group of a vector, in either kind of brackets. Like `ron`, it skips a struct name
+/// before the group.
 pub(super) fn unnamed_group<'n, 'a>(node: &'n Node<'a>) -> Option<&'n Group<'a>> {
     let is_struct_name = |key: &Key<'_>| {
         let is_word = key.name.starts_with(|c: char| c.is_alphabetic() || c == '_');

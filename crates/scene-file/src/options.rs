@@ -1,4 +1,4 @@
-//! Options with named values: one declaration, used by scene files, flags, help and reference.
+//! Options with named values. Scene files, flags, help and the reference share one declaration.
 //!
 //! The renderer and the line drawings use the same types. Scene files use their variant names
 //! (`ThreeQuarter`); flags use them with hyphens (`three-quarter`).
@@ -144,7 +144,7 @@ named_values! {
     FaceFill as "FaceFill" {
         None = "No fill: the paper shows through.",
         Flat = "Each face in one tone of its color, lit from above the viewer's left shoulder, as a 300 dpi image under the lines.",
-        Hatching = "Hatch lines, closer together where that light leaves the face darker. They are as exact as the edges.",
+        Hatching = "Hatch lines, closer together where the light of `Flat` leaves the face darker. They are as exact as the edges.",
         ShadeHatching = "Hatch lines that depend only on the light, not on the colors of the materials.",
         Gray = "Gray areas from the base colors of the materials, regardless of the light. Cuts stay blank.",
         PartHatching = "Hatch lines per object: neighbors differ in angle or spacing. With sections, only the cuts are hatched.",
@@ -154,7 +154,7 @@ named_values! {
 named_values! {
     /// The direction in which the parts of an exploded view move.
     ExplosionAxis as "ExplosionAxis" {
-        Auto = "Along the axis on which the most parts line up with the largest part, or on which they move the least.",
+        Auto = "Along the axis on which the most parts line up with the largest part; in a tie, the axis on which they move the least.",
         X = "To the left and to the right.",
         Y = "Up and down.",
         Z = "To the front and to the back.",
@@ -185,7 +185,7 @@ named_values! {
     ToneMapping as "ToneMapping" {
         None = "No curve: light beyond 1 is clipped.",
         Neutral = "Khronos PBR Neutral: colors are unchanged except for highlights.",
-        Aces = "ACES filmic, in Hill's fit.",
+        Aces = "ACES filmic, using Hill's fit.",
         AgX = "AgX by Sobotka.",
     }
 }
@@ -260,7 +260,7 @@ named_values! {
     /// The border around the drawing area of a sheet (ISO 5457).
     SheetFrame as "Frame" {
         Plain = "A line with a mark at the middle of each side.",
-        Zones = "Also zone letters and numbers, and trimming marks.",
+        Zones = "The plain border with zone letters, zone numbers and trimming marks.",
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  text ─► ron ─► SceneFile
-//!           └─ refused ─► checker ─► all mistakes ─► tree without them ─► ron ─► what can be read
+//!           └─ rejected ─► checker ─► all mistakes ─► tree without them ─► ron ─► what can be read
 //! ```
 
 use super::SceneErrors;
@@ -166,7 +166,7 @@ impl ParsedScene {
     /// Reads the scene without the fields and elements that contain mistakes, so that semantic
     /// errors in the others are reported in the same run.
     ///
-    /// If a required field is lost, the value around it is omitted too.
+    /// If a required field is lost, the value that contains it is omitted too.
     fn read_rest(&mut self, root: &Node<'_>) {
         let mut removed: Vec<Range<usize>> =
             self.mistakes.iter().map(|mistake| mistake.scope.clone()).collect();
@@ -291,7 +291,7 @@ fn offset_of(source: &str, position: Position) -> usize {
     before + column.map_or(line.len(), |(offset, _)| offset)
 }
 
-/// Whether a value is in the brackets of a struct with any content.
+/// Whether a value has round brackets, as a scene does; the contents do not matter.
 fn is_scene(root: &Node<'_>) -> bool {
     root.group().is_some_and(|group| group.open == '(')
 }

@@ -1,15 +1,15 @@
-//! The reference of scene files: every type, field and variant, with its documentation.
+//! The scene file reference: every type, field and variant, with its documentation.
 //!
-//! The entries are the declarations used to read scene files, so the reference has exactly the
-//! fields that are read.
+//! The entries are the declarations used to read scene files, so the reference lists exactly the
+//! fields that can be read.
 
 pub use super::schema::{FieldEntry, Shape, TypeEntry, ValueType, VariantEntry};
 
 use super::SceneFile;
 use super::schema::Declared as _;
 
-/// Returns every type used in scene files: the scene first, each other type after the first type
-/// that needs it.
+/// Returns every type used in scene files: the scene first, then each type after the first type
+/// that uses it.
 #[must_use]
 pub fn all_types() -> Vec<&'static TypeEntry> {
     let mut types = Vec::new();

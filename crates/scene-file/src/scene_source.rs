@@ -9,7 +9,7 @@ use super::syntax::PathStep;
 use files::visible_path;
 use std::path::{Component, Path, PathBuf};
 
-/// The maximum length of a scene file in bytes: nobody writes more text by hand.
+/// The maximum length of a scene file in bytes, which is more than anyone writes by hand.
 const MAX_SCENE_BYTES: u64 = 16 << 20;
 
 /// The text of a scene and of the files it includes, which errors quote.
@@ -67,8 +67,8 @@ impl SceneSource {
     /// folder.
     ///
     /// Errors point into the text. For a scene built in Rust, pass the text from
-    /// [`SceneFile::to_ron`](super::SceneFile::to_ron), or an empty one; errors then name a field
-    /// without its line.
+    /// [`SceneFile::to_ron`](super::SceneFile::to_ron), or an empty string; errors then name a
+    /// field but not a line.
     #[must_use]
     pub fn from_text(file: impl Into<String>, text: impl Into<String>, folder: PathBuf) -> Self {
         Self {
@@ -84,7 +84,7 @@ impl SceneSource {
     /// Reads the text of a scene file.
     ///
     /// # Errors
-    /// Returns an error if it cannot be read, is not a regular file, is not UTF-8, or is too long.
+    /// Returns an error if the file cannot be read, is not regular, is not UTF-8, or is too long.
     pub fn read(path: &Path) -> Result<Self, UnreadableScene> {
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         let text = read_scene_text(path)?;
@@ -192,7 +192,7 @@ fn is_viewport_field(field: &str) -> bool {
 /// Reads the text of a scene file, without any byte order mark at its start.
 ///
 /// # Errors
-/// Returns an error if it cannot be read, is not a regular file, is not UTF-8, or is too long.
+/// Returns an error if the file cannot be read, is not regular, is not UTF-8, or is too long.
 pub(super) fn read_scene_text(path: &Path) -> Result<String, UnreadableScene> {
     let unreadable = |cause| UnreadableScene { path: path.to_owned(), cause };
     let metadata = std::fs::metadata(path).map_err(unreadable)?;

@@ -35,7 +35,7 @@ use super::syntax::Node;
 
 /// A type of values in scene files.
 pub(super) trait SceneValue: Sized + PartialEq {
-    /// Whether a field of this type may be omitted even if its declaration gives no default.
+    /// Whether a field of this type may be omitted even if its declaration specifies no default.
     const IS_OPTIONAL: bool = false;
 
     /// Returns the type as the reference names it. This is a function rather than a constant
@@ -45,7 +45,7 @@ pub(super) trait SceneValue: Sized + PartialEq {
     /// Reads a value.
     ///
     /// # Errors
-    /// Returns the reason, in words, if it is not a value of this type.
+    /// Returns the reason, in words, if the data is not a value of this type.
     fn from_data(data: &Data) -> Result<Self, String>;
 
     /// Writes the value, omitting fields with default values.
@@ -159,7 +159,7 @@ pub(super) enum Form {
     Number,
     /// A string.
     Text,
-    /// Any of these, or values of the returned type in brackets.
+    /// Any of the above, or a bracketed list of values of the type that the function returns.
     Any(fn() -> ValueType),
 }
 
@@ -190,7 +190,7 @@ pub struct VariantEntry {
     pub doc: &'static str,
     /// The fields in its brackets.
     pub fields: &'static [FieldEntry],
-    /// Returns the type of the value in its brackets, if that has no fields.
+    /// Returns the type of the value in its brackets, if the variant has one.
     pub value_type: Option<fn() -> ValueType>,
 }
 

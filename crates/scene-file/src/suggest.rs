@@ -1,6 +1,6 @@
-//! Names that are similar to a misspelled one.
+//! Suggestions for misspelled names.
 
-/// The similarity above which a name is probably the intended one.
+/// The similarity above which a name is probably the intended name.
 const SIMILAR: f64 = 0.8;
 
 /// Returns the name most similar to `word`, if any is similar enough. Case is ignored.

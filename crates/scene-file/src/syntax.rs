@@ -1,5 +1,5 @@
-//! Scene file syntax: RON text to tokens, and tokens to a tree in which every node knows its byte
-//! range.
+//! Scene file syntax: splits RON text into tokens, and parses them to a tree in which every node
+//! records its byte range.
 //!
 //! ```text
 //!  text ─► tokens ─► tree of nodes ─► checked against the declarations of `scene::file`

@@ -2,7 +2,7 @@
 //! words to use instead.
 //!
 //! A word is looked up together with its struct or enum. If that has the intended field or variant,
-//! the answer is its name; if another part of the scene has it, the answer shows where.
+//! its name is suggested; if another part of the scene has it, the suggestion shows where.
 
 mod advice;
 mod foreign;
@@ -72,7 +72,7 @@ pub(super) fn suggest_field(
     let is_very_similar = similar.is_some_and(|name| strsim::jaro_winkler(word, name) > 0.9);
     if !is_very_similar && same_spelling.is_none() {
         // A field with exactly this name takes precedence over the word's meaning in other
-        // programs, unless that is nearer or in the tables.
+        // programs, unless that meaning is nearer or is in the tables.
         let is_field = |name: &str| name.starts_with(char::is_lowercase);
         let same_name =
             targets.iter().filter(|(_, name)| is_field(name) && normalize(name) == normalize(word));

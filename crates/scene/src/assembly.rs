@@ -1,4 +1,4 @@
-//! Resolution of the assembly pages: exploded view, balloons, parts list, masses.
+//! Resolves the assembly pages of a sheet: exploded view, balloons, parts list and masses.
 
 use super::Origin;
 use model::ModelInstance;
@@ -43,12 +43,12 @@ fn check_density_names(
     if models.is_empty() || file.densities.iter().all(|density| density.of == "*") {
         return Ok(());
     }
-    // Neither densities nor the unit change names, so the list is made without them.
+    // Neither the densities nor the unit affect the names, so the list is made without them.
     let list = PartsList::new(models, &[], 1.0);
     let mut names: Vec<&str> = Vec::new();
     for item in &list.items {
         names.push(&item.name);
-        // A density may belong to a part or to a material; a part without a material has an empty
+        // A density may apply to a part or to a material; a part without a material has an empty
         // name.
         names.extend(Some(item.material.as_str()).filter(|material| !material.is_empty()));
     }

@@ -22,7 +22,7 @@ use std::sync::Arc;
 
 /// The maximum number of colors in a gradient, evenly spaced.
 const MAX_GRADIENT_COLORS: usize = 16;
-/// The maximum number of pixels in a backdrop image, 67 million: it limits the memory that a small
+/// The maximum number of pixels in a backdrop image, 67 million. It limits the memory that a small
 /// compressed file can demand.
 const MAX_IMAGE_TEXELS: u64 = 1 << 26;
 /// The path of the background in a scene file; viewports have separate backgrounds.

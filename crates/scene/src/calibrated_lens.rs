@@ -21,7 +21,7 @@ pub(super) fn calibrated_lens(
         return None;
     };
     let size = size.map_or(picture_size, |(width, height)| [width, height]);
-    // From the first pixel's center to the last one's.
+    // From the center of the first pixel to the center of the last.
     let middle = size.map(|side| 0.5 * f64::from(side) - 0.5 + pixel_centers.first_center());
     let center = [cx, cy].map(|given| given.map(Finite::value));
     let center = [center[0].unwrap_or(middle[0]), center[1].unwrap_or(middle[1])];

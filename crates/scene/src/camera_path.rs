@@ -27,7 +27,7 @@ type KeyValues = [f64; 10];
 /// The path of a camera over time.
 #[derive(Clone, PartialEq, Debug)]
 pub struct CameraPath {
-    /// Times in seconds, strictly increasing, with the values at each; at least two.
+    /// The keyframes, at least two: strictly increasing times in seconds, with the values at each.
     keys: Vec<(f64, KeyValues)>,
     /// The interpolation: linear, or Catmull–Rom.
     curve: CurveFile,
@@ -71,7 +71,7 @@ impl CameraPath {
             let help = "remove it, or choose Perspective(), with or without fov_y_degrees";
             return Err(fault(&[Index(at), Field("fov_y_degrees")], message, help));
         }
-        // Without an angle this value is unused: the check above leaves no key that sets one.
+        // Without an angle this value is unused, because the check above rejects keys that set one.
         let usual = usual.unwrap_or_default();
         let keys = path.keys.iter().map(|key| (key.time.value(), key_values(key, usual))).collect();
         Ok(Some(Self { keys, curve: path.curve, camera: file.camera.clone() }))
@@ -278,8 +278,8 @@ mod tests {
         assert!((speed(1.0 - step) - 3.0).abs() < 1e-4 && (speed(1.0) - 3.0).abs() < 1e-4);
     }
 
-    /// Creates a path once around the origin in the plane y = 0, with radius 1 and `count` keys at
-    /// intervals of one second, plus the first one repeated.
+    /// Creates a circular path around the origin in the plane y = 0, with radius 1 and `count` keys
+    /// one second apart, followed by the first key again.
     fn circle(count: u32) -> CameraPath {
         let key = |number: u32| {
             let angle = core::f64::consts::TAU * f64::from(number % count) / f64::from(count);

@@ -11,7 +11,7 @@ pub(super) enum CameraPlacement<'a> {
     Framed {
         /// The direction, if specified.
         from: Option<&'a FromFile>,
-        /// The margin as a fraction of the side of the picture.
+        /// The margin, as a fraction of the picture's width or height.
         padding: f64,
     },
     /// Taken from a camera in a model.

@@ -51,8 +51,8 @@ impl ImageSpec {
         Self { height: self.height - self.caption_height, caption_height: 0, ..self }
     }
 
-    /// Converts a view-projection for the part above the caption to one for the whole picture, in
-    /// which it fills that part.
+    /// Converts a view-projection for the part above the caption to one for the whole picture, so
+    /// that the view still fills that part.
     pub(super) fn place_view(self, view: ViewProjection) -> ViewProjection {
         if self.caption_height == 0 {
             return view;

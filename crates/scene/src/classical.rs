@@ -56,8 +56,8 @@ impl CameraResolver<'_> {
         self.frame_on_picture_plane(camera, projection, padding)
     }
 
-    /// Returns a classical projection for a camera with its own position; the window is fitted with
-    /// a margin of 5%.
+    /// Returns a classical projection for a camera with an explicit position; the window is fitted
+    /// with a margin of 5%.
     ///
     /// # Errors
     /// Returns an error for perspectives from vanishing points, which determine the eye themselves.
@@ -174,8 +174,8 @@ fn own_eye_error(origin: &Origin) -> SceneError {
 /// `None` for other projections.
 ///
 /// The coordinates of the points are relative to the center of the picture, in units of half its
-/// height, with y up. The inner error reports points that no orthogonal axes can have, such as
-/// three in an obtuse triangle.
+/// height, with y up. The inner error reports points that orthogonal axes cannot have, such as
+/// three that form an obtuse triangle.
 fn vanishing_point_construction(
     projection: &ProjectionFile,
 ) -> Option<Result<ConstructedPerspective, ProjectionError>> {

@@ -33,8 +33,8 @@ impl DepthSpan {
     /// Returns the near and far planes of a perspective, tight around the vertices with a margin of
     /// 1%.
     ///
-    /// The near distance is at least 1e-5 times the far distance, because depth resolution falls
-    /// with the ratio of the two (ZP-1). Planes that the file sets are used unchanged. The result
+    /// The near distance is at least 1e-5 times the far distance, because depth resolution falls as
+    /// the far-to-near ratio grows (ZP-1). Planes that the file sets are used unchanged. The result
     /// always has near < far, unless both are set.
     #[must_use]
     pub fn perspective_planes(self, near: Option<f64>, far: Option<f64>) -> (f64, f64) {

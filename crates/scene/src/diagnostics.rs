@@ -1,4 +1,4 @@
-//! The mistakes in a scene: collected during resolution, reported in text order.
+//! Collects the mistakes in a scene during resolution, and reports them in text order.
 //!
 //! ```text
 //!  part ─resolve─► Ok(value)    ─► Some(value)
@@ -18,12 +18,12 @@ pub(super) struct Diagnostics {
 }
 
 impl Diagnostics {
-    /// Returns the value, or keeps the mistake and returns `None`.
+    /// Returns the value, or records the mistake and returns `None`.
     pub(super) fn take<T>(&mut self, result: Result<T, impl Into<ResolveError>>) -> Option<T> {
         result.map_err(|error| self.report(error)).ok()
     }
 
-    /// Keeps one or more mistakes.
+    /// Records one or more mistakes.
     pub(super) fn report(&mut self, error: impl Into<ResolveError>) {
         match error.into() {
             ResolveError::Scene(errors) => self.errors.extend(Vec::from(errors)),

@@ -1,4 +1,4 @@
-//! Resolution of the dimensions of a sheet: the points they measure in the world.
+//! Resolves the dimensions of a sheet to the world-space points that they measure.
 //!
 //! ```text
 //!   Length(from: Edge(near: …), to: Node(name: "lid"))
@@ -26,7 +26,7 @@ use sheet::{Dimension, DimensionSide, LengthDirection, Measure};
 /// The maximum number of decimal places.
 const MAX_DECIMALS: u32 = 6;
 
-/// The maximum number of dimensions on a sheet: there would never be room for more.
+/// The maximum number of dimensions on a sheet, which never has room for more.
 const MAX_DIMENSIONS: usize = 500;
 
 /// The maximum number of largest circles that one entry may dimension.

@@ -16,7 +16,7 @@ pub struct Ground {
     pub occlusion: Option<OcclusionArea>,
 }
 
-/// The rectangle around the models within which they occlude light from the ground.
+/// The rectangle around the models within which they keep ambient light from the ground.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct OcclusionArea {
     /// The smallest coordinates in the world: x and z of the rectangle, and the height of the

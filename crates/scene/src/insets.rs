@@ -1,4 +1,4 @@
-//! Resolution of viewports and stereo pairs to insets: scenes within the scene.
+//! Resolves viewports and stereo pairs to insets, which are scenes within the scene.
 //!
 //! ```text
 //!   ┌───────────────┬───────┐   Each is a separate scene with the models of the
@@ -67,8 +67,8 @@ pub(super) fn resolve_insets(
         faults.report(origin.error_at(&[Field("viewports")], message, None));
         return None;
     }
-    // Rectangles can be checked only against a valid picture size, whose own mistake is reported
-    // with the picture.
+    // Rectangles can be checked only against a valid picture size. An invalid size is reported with
+    // the picture.
     let is_sized = resolve_image_size(origin, file).is_ok();
     let view = |(at, viewport): (usize, &ViewportFile)| {
         let area = || faults.take(resolve_viewport_rect(origin, at, viewport, file.view_size()));
@@ -76,7 +76,7 @@ pub(super) fn resolve_insets(
         let border = faults.take(resolve_border(origin, at, viewport));
         let size = area.map_or(file.image.size, |area| (area.width, area.height));
         let inner = scene_in_viewport(file, viewport, size);
-        // Without a rectangle there is no aspect ratio to frame the models for.
+        // Without a rectangle, there is no aspect ratio for framing the models.
         let models = models.filter(|_| area.is_some());
         let (origin, access) = (origin.for_viewport(at), access.for_inset(at));
         let scene = resolve_without_insets(&origin, &inner, models, access, faults);
@@ -182,8 +182,8 @@ fn resolve_border(
     Ok(Some((border.color.0, border.width)))
 }
 
-/// Returns the two insets of a stereo pair, made with off-axis projections, which, unlike toed-in
-/// cameras, have no vertical parallax.
+/// Returns the two insets of a stereo pair. Unlike toed-in cameras, their off-axis projections have
+/// no vertical parallax.
 ///
 /// ```text
 ///  side by side   left half, right half       the halves of an odd width share a column
@@ -231,7 +231,7 @@ fn resolve_stereo(
     // In a parallel projection the viewer is at infinity: w = 0.
     if middle.view_projection.viewer().raw().w == 0.0 {
         let help = "choose a perspective, such as Perspective(), or remove `stereo`";
-        return Err(fault("both eyes see the same in a parallel projection", help).into());
+        return Err(fault("both eyes see the same picture in a parallel projection", help).into());
     }
     let plane = convergence.map_or_else(
         || models_center_depth(middle.view_projection, models),
@@ -262,7 +262,7 @@ fn models_center_depth(view_projection: ViewProjection, models: &[ModelInstance]
 }
 
 /// Returns the view of an eye moved to the right by `aside`, sheared so that its window matches the
-/// camera's at the distance `plane`.
+/// camera's at distance `plane`.
 ///
 /// x' = x − aside · z / plane in view space: the shear moves a point at depth D = −z to the right
 /// by aside · D / plane, against the translation of −aside from moving the eye. They cancel at D =

@@ -2,9 +2,9 @@
 //! projections, and the mistakes in them.
 //!
 //! ```text
-//!             2 max(hx, hy) · shift            the window one unit ahead of the eye: half as wide
-//!          ┌──┬──────────┬──┐                  as tan(fov_x/2) = hx, half as high as
-//!   eye ●──┤  │    ●     │  │                  tan(fov_y/2) = hy, moved by the shift
+//!             2 max(hx, hy) · shift            the window one unit ahead of the eye, moved by the
+//!          ┌──┬──────────┬──┐                  shift: half width hx = tan(fov_x/2),
+//!   eye ●──┤  │    ●     │  │                  half height hy = tan(fov_y/2)
 //!          └──┴──────────┴──┘
 //! ```
 
@@ -179,7 +179,7 @@ fn check_orthographic_window(origin: &Origin, projection: &ProjectionFile) -> Op
 
 /// Returns the error for a projection with planes or borders in the wrong order.
 fn check_planes(projection: &ProjectionFile) -> Option<ProjectionError> {
-    // Omitted values get defaults that pass, so that only given ones can be at fault.
+    // Omitted values get valid defaults, so that only values in the file can cause an error.
     let [l, r, b, t] = given_window(projection).unwrap_or([-1.0, 1.0, -1.0, 1.0]);
     let far_of =
         |near: Positive, far: Option<Positive>| far.map_or(2.0 * near.value(), Positive::value);

@@ -18,12 +18,12 @@ use scene_file::file::{
 };
 use shade::{Light, Shadow};
 
-/// The irradiance of the default key light, in lux, if the only other light is ambient.
+/// The illuminance of the default key light, in lux, if the only other light is ambient.
 const KEY_LUX: f32 = 2.5;
-/// The irradiance of that ambient light, in lux.
+/// The illuminance of that ambient light, in lux.
 const AMBIENT_LUX: f32 = 0.7;
-/// The irradiance of the default key light in an environment, in lux. Matte white that faces it has
-/// the linear value 1.45 / π = 0.46, and at most 0.95 together with the studio of bare models.
+/// The illuminance of the default key light in an environment, in lux. Matte white that faces it
+/// has the linear value 1.45 / π = 0.46, and at most 0.95 together with the studio of bare models.
 const KEY_LUX_IN_ENVIRONMENT: f32 = 1.45;
 /// The elevation of the default key light above the horizon, in degrees.
 const KEY_ELEVATION: f64 = 50.0;
@@ -95,8 +95,8 @@ pub(super) fn resolve_lights(
     })
 }
 
-/// Keeps all directional and spot shadow maps together within [`MAX_SHADOW_TEXELS`]; the maps of
-/// point lights are smaller if there are many.
+/// Limits all directional and spot shadow maps together to [`MAX_SHADOW_TEXELS`]. Renderers limit
+/// the maps of point lights.
 ///
 /// Maps without an explicit size become smaller.
 ///
@@ -114,7 +114,7 @@ fn limit_shadow_maps(
     }
     let count = shadows.len();
     let side = libm::sqrt(MAX_SHADOW_TEXELS as f64 / count as f64) as u32;
-    // Sizes in the file are refused rather than silently reduced.
+    // Sizes in the file are rejected rather than silently reduced.
     if let Some(path) = chosen_size_path(file) {
         let lights = counted(count, "light", "lights");
         let message = format!(
@@ -138,7 +138,7 @@ const fn mapped_shadow(light: &mut Light) -> Option<&mut Shadow> {
     }
 }
 
-/// Returns the path of the size that a scene sets for the shadow map of one light or of all lights.
+/// Returns the path of a shadow map size that the scene sets, for one light or for all lights.
 fn chosen_size_path(file: &SceneFile) -> Option<Vec<PathStep<'static>>> {
     let is_chosen =
         |shadows: &ShadowsFile| matches!(shadows, ShadowsFile::On { size: Some(_), .. });
@@ -188,8 +188,8 @@ fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec
 /// Returns a directional light high above the ground and to the left of the view, so that visible
 /// sides differ in brightness and shadows fall to the right, where they are visible.
 ///
-/// It follows the world's up, y, rather than the camera's: a camera that looks down does not take
-/// the light below the horizon with it.
+/// It follows the up direction of the world, y, rather than the camera's, so that a camera that
+/// looks down does not move the light below the horizon.
 fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<Shadow>) -> Light {
     let camera = view_projection.camera;
     let level = |axis: Vector<World>| {
@@ -324,7 +324,7 @@ pub(super) fn scale_lights(lights: &mut [Light], factor: NonNegative) {
     }
 }
 
-/// Returns the light of a color at an intensity, in the unit of the intensity.
+/// Returns a color multiplied by an intensity, in the unit of the intensity.
 fn scale_color(color: LightColor, intensity: NonNegative) -> [f32; 3] {
     color.0.map(|channel| (channel * intensity.value()) as f32)
 }

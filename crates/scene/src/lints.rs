@@ -1,9 +1,8 @@
 //! Lints for valid scenes that are probably unintended, such as a camera inside a model or an empty
 //! picture.
 //!
-//! Every lint examines the result. The points, lines and triangles of the scene pass through its
-//! camera and are clipped against its view volume once (CL-1); the counts are compared with the
-//! file.
+//! Lints examine the resolved scene. Its points, lines and triangles pass through its camera and
+//! are clipped against its view volume once (CL-1). The lints compare the counts with the file.
 //!
 //! | code | condition |
 //! | --- | --- |
@@ -21,7 +20,7 @@
 //! | `section-removes-all`, `section-misses` | a section plane with all models on one side |
 //! | `sheet-view-missing`, `section-oblique` | a view or a section that the sheet does not show |
 //! | `overlay-not-on-sheet` | an overlay that sheets do not show, such as a grid |
-//! | `tiny-picture`, `tiny-model` | less than a thousandth of the picture, or two pixels |
+//! | `tiny-picture`, `tiny-model` | models below a thousandth of the picture, or below two pixels |
 //! | `coincident-instances` | instances of a model at the same position |
 //! | `ground-above-models` | a ground above the lowest point of the models |
 //! | `narrow-field-of-view` | a field of view that is probably in radians |
@@ -104,7 +103,7 @@ pub fn lint_scene(
     advice.extend(ground::lint_high_ground(&adviser));
     advice.extend(lint_viewports(origin, file, scene));
     advice.extend(lint_description(origin, file));
-    // The sort is stable: lints at one place stay in the order above.
+    // The sort is stable: lints at one position stay in the order above.
     advice.sort_by_key(|advice| advice.error.span.start);
     advice
 }
@@ -169,8 +168,8 @@ impl Linter<'_> {
         &self.scene.models[model].model.name
     }
 
-    /// Returns the surveys of the scene's models, each with its number and its first instance's
-    /// number.
+    /// Returns the surveys of the scene's models, each with the numbers of the model and of its
+    /// first instance.
     ///
     /// A model counts as a whole: it is not a mistake if some trees of a forest are outside the
     /// picture.

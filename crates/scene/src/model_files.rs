@@ -29,8 +29,7 @@ struct ColoredModel<'a> {
     model: Arc<Model>,
 }
 
-/// The loaded models. Entries with the same pose and materials share a model; otherwise each has a
-/// separate model.
+/// The loaded models. Entries with the same pose and materials share a model.
 #[derive(Default)]
 struct LoadedModels<'a> {
     by_pose: BTreeMap<Pose, Vec<ColoredModel<'a>>>,
@@ -104,7 +103,7 @@ pub(super) fn load_models(
         faults.report(origin.error_at(&[Field("models")], "a scene needs a model", help));
         return None;
     }
-    // Checked first, because it costs nothing and loading models does.
+    // Checked first, because it costs nothing compared with loading models.
     faults.take(instances::check_instance_counts(origin, file))?;
     let (mut loaded, mut models) = (LoadedModels::default(), Some(Vec::new()));
     for (number, entry) in file.models.iter().enumerate() {

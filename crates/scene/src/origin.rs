@@ -1,5 +1,5 @@
 //! The origin of a scene: a file with text and a folder, or a bare model and the program's flags.
-//! It also includes the location of its model files.
+//! It includes the location of the model files.
 
 use import::MemoryFolder;
 use scene_file::{SceneFile, SceneSource};
@@ -32,7 +32,7 @@ impl Origin {
     /// folder.
     ///
     /// Errors point into the text. For a scene built in Rust, pass the text from
-    /// [`SceneFile::to_ron`], or an empty one; errors then name a field without its line.
+    /// [`SceneFile::to_ron`], or an empty string; errors then name a field but not a line.
     #[must_use]
     pub fn from_text(file: impl Into<String>, text: impl Into<String>, folder: PathBuf) -> Self {
         SceneSource::from_text(file, text, folder).into()
@@ -82,7 +82,7 @@ impl Origin {
         (origin, SceneFile::from_model_path(name.to_owned()))
     }
 
-    /// Returns the source, so that its files can be parsed into it.
+    /// Returns the source for parsing, which adds the included files to it.
     pub(super) const fn source_mut(&mut self) -> &mut SceneSource {
         &mut self.source
     }

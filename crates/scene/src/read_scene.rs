@@ -24,7 +24,7 @@ impl Origin {
     /// an `allowed` folder.
     ///
     /// # Errors
-    /// The same as [`read_scene`](Self::read_scene).
+    /// Returns the same errors as [`read_scene`](Self::read_scene).
     pub fn read_scene_allowing(
         path: &Path,
         allowed: &[PathBuf],
@@ -39,7 +39,7 @@ impl Origin {
     /// possible, so that all mistakes are reported at once.
     ///
     /// # Errors
-    /// The same as [`read_scene`](Self::read_scene).
+    /// Returns the same errors as [`read_scene`](Self::read_scene).
     pub fn parse_with_includes(
         mut self,
         allowed: &[PathBuf],
@@ -67,7 +67,7 @@ fn with_errors_of_description(
     let mut faults = Diagnostics::default();
     check_description(origin, file, allowed, &mut faults);
     check_model_paths(origin, file, allowed, &mut faults);
-    // An error that contains a mistake, or is part of one, may be caused by it.
+    // An error whose range contains a mistake, or is inside one, may be caused by it.
     let is_independent = |error: &SceneError| {
         mistakes.iter().all(|FileMistake { error: mistake, scope }| {
             let (outer, inner) = (&error.span, scope);

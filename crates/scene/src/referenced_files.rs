@@ -2,7 +2,7 @@
 //! textures, PLY textures.
 //!
 //! A quick scan of the text finds them without the importer, so meshes are not parsed. Extra names
-//! are harmless: the file does not exist, or a change in it causes a picture to be rendered again.
+//! are harmless: at worst, a change in an unrelated file causes a picture to be rendered again.
 
 use import::{FileFormat, percent_decode};
 use serde_json::Value;

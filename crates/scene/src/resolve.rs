@@ -1,7 +1,7 @@
 //! Resolution: from a parsed scene file to a scene that can be rendered, or to errors that point
 //! into the file. Models are loaded, angles become radians, and every default is filled in.
 //!
-//! There is one pass. Each part is resolved separately and its mistakes are collected
+//! Resolution is a single pass. Each part is resolved separately and its mistakes are collected
 //! ([`Diagnostics`]), so that a mistake in the camera does not hide one in the lights.
 
 use super::diagnostics::Diagnostics;
@@ -147,7 +147,7 @@ impl Scene {
     /// `allowed` folders.
     ///
     /// # Errors
-    /// The same as [`from_models`](Self::from_models).
+    /// Returns the same errors as [`from_models`](Self::from_models).
     pub fn from_models_allowing(
         origin: &Origin,
         file: &SceneFile,
@@ -157,8 +157,8 @@ impl Scene {
         Self::resolve_posed(origin, file, models, FileAccess::Read(allowed))
     }
 
-    /// Fills in only what the file leaves open about the camera: its position around models that
-    /// are loaded, posed and placed, or without any models.
+    /// Resolves only the camera, around models that are loaded, posed and placed, or without any
+    /// models.
     ///
     /// # Errors
     /// Returns an error if the size or the camera is invalid, or if the camera should frame the
@@ -179,7 +179,7 @@ impl Scene {
     /// Returns the scene with its models in their pose; `access` provides the files.
     ///
     /// # Errors
-    /// The same as [`from_models`](Self::from_models).
+    /// Returns the same errors as [`from_models`](Self::from_models).
     pub fn resolve_posed(
         origin: &Origin,
         file: &SceneFile,

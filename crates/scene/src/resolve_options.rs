@@ -1,4 +1,4 @@
-//! Resolution options: set by the caller of a scene, not by its file.
+//! Resolution options, which are set by the caller and not by the scene file.
 
 use super::Origin;
 use import::ImportOptions;

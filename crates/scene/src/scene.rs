@@ -50,8 +50,8 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Creates a scene of models seen through a camera, shaded as they are, without lights or
-    /// surroundings.
+    /// Creates a scene of models seen through a camera, shaded with their own materials, without
+    /// lights or surroundings.
     ///
     /// Other fields can be set on top, as in `Scene { lights, ..Scene::new(…) }`.
     #[must_use]
@@ -86,8 +86,8 @@ impl Scene {
         model::world_points(&self.models)
     }
 
-    /// Whether every pixel of the picture is certainly opaque: the backgrounds of the scene and of
-    /// all insets are opaque.
+    /// Whether every pixel of the picture must be opaque, because the backgrounds of the scene and
+    /// of all insets are.
     #[must_use]
     pub fn has_opaque_background(&self) -> bool {
         let is_opaque = |scene: &Self| scene.image.background[3] >= 1.0;
@@ -128,15 +128,15 @@ pub enum Style {
     Shaded,
     /// Lit, with one normal per triangle.
     Flat,
-    /// Lit at the corners of the triangles.
+    /// Gouraud shading: lit at the vertices and interpolated.
     Gouraud,
     /// Matte clay.
     Clay,
-    /// A ball of glazed clay.
+    /// A material capture of glazed clay.
     Matcap,
     /// Normals as colors.
     Normals,
-    /// The nearer, the brighter; with a colormap, the closer to its last color.
+    /// Depth: the nearer, the brighter. With a colormap, the nearer, the closer to its last color.
     Depth(Option<Colormap>),
     /// A checkerboard from texture coordinates.
     UvChecker,
@@ -144,7 +144,7 @@ pub enum Style {
     Ids,
     /// Toon (cel) shading: three steps of light, with outlines.
     Toon,
-    /// Translucent, like glass.
+    /// X-ray: translucent surfaces.
     XRay,
     /// The edges of all triangles.
     Wireframe,
@@ -182,7 +182,7 @@ impl Style {
     }
 }
 
-/// The maximum side of a picture in pixels. Pictures with a side of more than 16,384 pixels are
+/// The maximum width or height of a picture in pixels. Above 16,384 pixels per side, pictures are
 /// rendered region by region.
 pub const MAX_IMAGE_SIDE: u32 = 1 << 20;
 

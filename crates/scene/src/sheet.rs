@@ -72,7 +72,7 @@ impl<'a> SheetContent<'a> {
 /// let mut folder = MemoryFolder::default();
 /// let wedge = b"v 0 0 0\nv 3 0 0\nv 0 2 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 /// folder.insert("wedge.obj", wedge.to_vec());
-/// // Errors point into this text. For files on the disk there is `Origin::from_text`.
+/// // Errors point into this text. Use `Origin::from_text` for files on disk.
 /// let origin = Origin::from_text_in_memory("wedge.ron", file.to_ron()?, folder);
 /// let scene = Scene::resolve(&origin, &file, &Default::default())?;
 ///
@@ -85,7 +85,7 @@ impl<'a> SheetContent<'a> {
 ///
 /// # Errors
 /// Returns an error if the scale has a 0, ISO 128 has no line group with the width, the models have
-/// several units, or a dimension names or picks a missing part. The error points into the file.
+/// different units, or a dimension names or picks a missing part. The error points into the file.
 pub fn resolve_sheet(
     origin: &Origin,
     file: &SheetFile,

@@ -43,8 +43,8 @@ pub(super) fn check_sheet(
         overlays: &[],
         allowed_folders: allowed,
     };
-    // First without content, for the mistakes that models cannot cause; the layout is tried only if
-    // there are none.
+    // First without content, to find the mistakes that do not depend on models. The layout is tried
+    // only if there are none.
     let nothing = SheetContent { models: &[], sections: &[], uncut: &[], style: None, ..content };
     if faults.take(resolve_sheet(origin, sheet, nothing)).is_some() && !models.is_empty() {
         layout_error(origin, sheet, content).into_iter().for_each(|error| faults.report(error));

@@ -79,8 +79,8 @@ fn resolve_view(
     })
 }
 
-/// Converts an error in the views of a sheet to one in the file; returns `None` for errors
-/// elsewhere.
+/// Converts an error in the views of a sheet to an error that points into the file; returns `None`
+/// for other errors.
 #[must_use]
 pub fn sheet_view_error(origin: &Origin, error: &SheetError) -> Option<SceneError> {
     let (number, path, message) = match error {

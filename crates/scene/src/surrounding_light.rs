@@ -201,7 +201,7 @@ pub(super) fn read_image_bytes(
     std::fs::read(&full).map_err(unreadable)
 }
 
-/// A rotation about y and a factor.
+/// A rotation about the y axis and a brightness factor.
 struct EnvironmentRotation {
     strength: f32,
     degrees: f64,
@@ -210,7 +210,7 @@ struct EnvironmentRotation {
 }
 
 impl EnvironmentRotation {
-    /// Creates a rotation about the y axis, in degrees, with a factor for all light.
+    /// Creates a rotation about the y axis, in degrees, with a brightness factor.
     fn new(strength: f64, degrees: f64) -> Self {
         let angle = degrees.to_radians();
         let (sine, cosine) = (libm::sin(angle) as f32, libm::cos(angle) as f32);

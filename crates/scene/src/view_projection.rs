@@ -3,7 +3,7 @@
 //! ```text
 //!  LookAt, LookTo ─► camera frame ─┐
 //!  Frame ─► bounds, direction ─────┼─► near and far from the depths of the vertices ─► projection
-//!  FromModel ─► node of the model ─┘    unless the file gives them
+//!  FromModel ─► node of the model ─┘    unless the file sets them
 //! ```
 //! Framing finds the eye for which every vertex just fits in the window: in closed form for
 //! perspective, from the box around the projected points for parallel projections.
@@ -43,10 +43,10 @@ pub(super) fn resolve_view_projection(
     resolve_view_of_points(origin, file, models, world_points(models), image, Vec::new())
 }
 
-/// Resolves the camera and projection of a scene. A framed view frames these `points` of the
-/// models, and `shadow_points` too.
+/// Resolves the camera and projection of a scene. A framed view shows the models' `points` and the
+/// `shadow_points`.
 ///
-/// They do not affect the view direction or the near and far planes.
+/// Shadow points do not affect the view direction or the near and far planes.
 pub(super) fn resolve_view_of_points(
     origin: &Origin,
     file: &CameraFile,
@@ -116,7 +116,7 @@ impl<'a> CameraResolver<'a> {
         self.projection_error_with(error.to_string(), Some(help.to_owned()))
     }
 
-    /// Returns a camera at its position with a projection; `height` is used for a parallel window
+    /// Returns the view-projection of a positioned camera; `height` is used for a parallel window
     /// if the file does not set one.
     fn project_from_camera(
         &self,
@@ -374,7 +374,7 @@ impl<'a> CameraResolver<'a> {
                 )
             } else {
                 "use `--view front` or `--eye 4,3,6 --target 0,0,0` instead, and `--projection` \
-                 for projections; in a scene write `view: Frame(from: Front)`"
+                 for the projection; in a scene, write `view: Frame(from: Front)`"
                     .to_owned()
             };
             let message = format!("there is no camera `{wanted}`: the models have no cameras");

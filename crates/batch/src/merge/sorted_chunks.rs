@@ -31,7 +31,7 @@ pub(super) struct Chunks {
     text: Vec<u8>,
     /// The positions of this chunk's records in `text`.
     spans: Vec<Span>,
-    /// The temporary file, if there is one.
+    /// The temporary file, if any.
     file: Option<File>,
     /// The ranges of the chunks in the temporary file.
     ranges: Vec<[u64; 2]>,
@@ -132,8 +132,8 @@ fn temporary_file(folder: &Path) -> std::io::Result<File> {
         let path = folder.join(format!(".merge.{}.{number}.part", std::process::id()));
         match OpenOptions::new().read(true).write(true).create_new(true).open(&path) {
             Ok(file) => {
-                // An open file outlives its name. If the system refuses to remove the name, it
-                // remains.
+                // An open file outlives its name. If the system refuses to remove the name, the
+                // file remains.
                 let _ = std::fs::remove_file(&path);
                 return Ok(file);
             }
@@ -202,7 +202,7 @@ impl FileLines {
     }
 }
 
-/// Reads a chunk of the temporary file from front to back.
+/// A reader for a chunk of the temporary file, from front to back.
 struct ChunkReader {
     /// The part of the file that has not been read yet.
     range: [u64; 2],

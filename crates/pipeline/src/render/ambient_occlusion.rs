@@ -30,7 +30,7 @@ pub(super) struct OcclusionBuffers {
 /// `buffers` provides memory to reuse: a depth buffer and the last picture's occlusion.
 ///
 /// # Errors
-/// The picture is larger than the rasterizer's grid.
+/// Returns an error if the picture is larger than the rasterizer's grid.
 pub(super) fn compute_occlusion(
     context: &RenderContext<'_>,
     memory: &FrameMemory<'_>,
@@ -89,7 +89,8 @@ fn add_ground(
 /// region is rendered.
 ///
 /// # Errors
-/// The picture is larger than one image tile, or the scene has too many primitives.
+/// Returns an error if the picture is larger than one image tile, or the scene has too many
+/// primitives.
 pub(super) fn compute_full_occlusion(
     context: &RenderContext<'_>,
 ) -> Result<Option<AmbientOcclusion>, RenderError> {

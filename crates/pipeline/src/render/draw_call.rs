@@ -1,5 +1,4 @@
-//! Submission of one draw call: back-face culling, clipping, snapping and adding the result to the
-//! frame.
+//! Submits one draw call: culls back faces, clips, snaps, and adds the result to the frame.
 //!
 //! ```text
 //!  clusters inside the guard band ───────────────────────────────────────────► frame
@@ -26,7 +25,7 @@ pub(super) struct DrawCall<'a> {
     pub(super) transform: &'a ScreenTransform,
     /// The culled and projected vertices.
     pub(super) mesh: &'a ProjectedMesh,
-    /// The frame that gets the primitives.
+    /// The frame that receives the primitives.
     pub(super) frame: &'a mut Frame,
     /// The opacity: opaque, alpha-tested or translucent.
     pub(super) opacity: Opacity,

@@ -23,7 +23,7 @@ const MAX_PIXELS_IN_MEMORY: u64 = (TILE_SIDE as u64) * (TILE_SIDE as u64);
 /// Checks that a region is inside the picture and fits in memory.
 ///
 /// # Errors
-/// [`RasterError::Size`](raster::RasterError::Size) with the region.
+/// Returns [`RasterError::Size`](raster::RasterError::Size) with the region.
 pub(crate) fn validate_region(image: ImageSpec, region: PixelRect) -> Result<(), RenderError> {
     let image_rect = image.pixel_rect();
     let size_fits = image_rect.width <= MAX_IMAGE_SIDE && image_rect.height <= MAX_IMAGE_SIDE;
@@ -110,7 +110,7 @@ impl TileRegion {
     }
 }
 
-/// Divides a region by tiles, in rows from the upper left. Most pictures have one part.
+/// Divides a region at tile borders, in rows from the upper left. Most pictures have one part.
 pub(super) fn tile_regions(image: ImageSpec, region: PixelRect) -> Vec<TileRegion> {
     let (columns, rows) = (image.width.div_ceil(TILE_SIDE), image.height.div_ceil(TILE_SIDE));
     let tile_indices = (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));

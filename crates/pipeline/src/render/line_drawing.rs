@@ -22,7 +22,7 @@ use raster::Workers;
 use scene::{ImageSpec, Inset, Scene, Style};
 use shade::Backdrop;
 
-/// The maximum side in pixels of a backdrop embedded in a vector page.
+/// The maximum width and height in pixels of a backdrop embedded in a vector page.
 const MAX_BACKDROP_PIXELS: u32 = 4096;
 
 /// The color of lines over surfaces: almost black.
@@ -51,7 +51,7 @@ const OVERLAY_INK: Ink = [20, 24, 30];
 /// ```
 ///
 /// # Errors
-/// As [`render`](crate::render()).
+/// Returns the same errors as [`render`](crate::render()).
 pub fn draw_lines<'a>(
     scene: &Scene,
     workers: impl Into<Workers<'a>>,

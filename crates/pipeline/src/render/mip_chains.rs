@@ -28,7 +28,7 @@ type ColorAndData<'a> = [Option<MipChain<'a>>; 2];
 pub struct Textures<'a> {
     /// The chains of each distinct model, by texture index.
     mip_chains: Vec<Vec<ColorAndData<'a>>>,
-    /// For each model of the scene, the index into `mip_chains`: instances of one model share them.
+    /// For each model of the scene, the index into `mip_chains`, shared by all its instances.
     chain_indices: Vec<usize>,
 }
 
@@ -68,8 +68,8 @@ impl<'a> Textures<'a> {
         Textures { mip_chains, chain_indices: self.chain_indices }
     }
 
-    /// Returns the chain of a model's texture for a material slot. The model is given by its index
-    /// in the scene.
+    /// Returns the chain of a model's texture for a material slot. The model is identified by its
+    /// index in the scene.
     pub(super) fn mip_chain(
         &self,
         model: usize,

@@ -1,4 +1,4 @@
-//! Panels: scenes drawn as one of several pictures on a page.
+//! Panels: scenes drawn as parts of a page with several pictures.
 //!
 //! Lessons put panels side by side: the same models in several projections, or the steps of a
 //! sweep. Lines stay vectors; surfaces become an image with twice the panel's resolution.
@@ -18,7 +18,7 @@ const PICTURE_SCALE: u32 = 2;
 /// change the result.
 ///
 /// # Errors
-/// As [`render`](crate::render()).
+/// Returns the same errors as [`render`](crate::render()).
 pub fn render_panel(
     scene: &Scene,
     id: impl Into<String>,

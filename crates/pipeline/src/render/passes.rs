@@ -54,14 +54,14 @@ use shade::FrameChannel;
 ///
 /// let whole = PixelRect::from_size(64, 48);
 /// let buffers = render_passes(&scene, whole, &[Pass::Depth], 2, &Default::default())?;
-/// // The distance ahead of the eye, which is 4 before the triangle.
+/// // The triangle is at distance 4 in front of the eye.
 /// let depth = buffers[0].float_values(32, 24).map(|values| values[0]);
 /// assert!(depth.is_some_and(|depth| (depth - 4.0).abs() < 1e-5), "{depth:?}");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
-/// As [`render`](crate::render()).
+/// Returns the same errors as [`render`](crate::render()).
 pub fn render_passes(
     scene: &Scene,
     region: PixelRect,
@@ -79,7 +79,7 @@ impl Renderer {
     /// [`render_passes`] but with this renderer's memory and existing textures.
     ///
     /// # Errors
-    /// As [`render`](Self::render).
+    /// Returns the same errors as [`render`](Self::render).
     pub fn render_passes(
         &mut self,
         context: &RenderContext<'_>,

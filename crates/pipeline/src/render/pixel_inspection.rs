@@ -4,7 +4,7 @@
 //! surface that records every shading call.
 //!
 //! It answers "why does this pixel have this color?": it lists the triangles and nodes visible in
-//! the pixel, their barycentric weights, and the linear color that each one contributes.
+//! the pixel, their barycentric weights, and the linear color that each contributes.
 
 use super::RenderError;
 use super::context::RenderContext;
@@ -75,7 +75,7 @@ pub struct FragmentSource {
 /// ```
 ///
 /// # Errors
-/// As [`render`](crate::render()).
+/// Returns the same errors as [`render`](crate::render()).
 pub fn inspect_pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelFragments>, RenderError> {
     let image = scene.image;
     if !scene.style.draws_surfaces() || x >= image.width || y >= image.height {

@@ -158,8 +158,8 @@ impl<'a> PreparedScene<'a> {
     /// Renders a region of the picture. `picture` is resized to the region.
     ///
     /// # Errors
-    /// The region is empty, too large or outside the picture, the scene has too many primitives, or
-    /// the context's monitor requested cancellation.
+    /// Returns an error if the region is empty, too large or outside the picture, the scene has too
+    /// many primitives, or the context's monitor requested cancellation.
     pub fn render_region<C: FrameChannel>(
         &mut self,
         region: PixelRect,

@@ -30,7 +30,7 @@ use std::sync::LazyLock;
 /// Assembles the visible parts of a scene into an empty frame.
 ///
 /// # Errors
-/// The scene has more primitives than there are ids.
+/// Returns an error if the scene has more primitives than there are ids.
 pub(super) fn assemble_scene<'a>(
     context: &RenderContext<'a>,
     memory: FrameMemory<'a>,
@@ -128,7 +128,7 @@ impl<'a> PrimitiveAssembler<'a> {
                 self.draw_primitive(model_instance, instance, primitive, texture)?;
             }
         }
-        // A shadow would falsify the values in a picture of numbers.
+        // A shadow would distort the values that false colors represent.
         if let Some(ground) = scene.ground.filter(|_| !scene.style.is_false_color()) {
             self.add_ground(ground)?;
         }
@@ -160,8 +160,8 @@ impl<'a> PrimitiveAssembler<'a> {
         if !self.project_primitive(primitive, material, &skinned, model_to_world) {
             return Ok(());
         }
-        // The sign of the determinant tells whether faces are mirrored, and its cube root is the
-        // mean scale.
+        // The sign of the determinant indicates whether faces are mirrored, and its cube root is
+        // the mean scale.
         let determinant = model_to_world.determinant();
         let mut draw = Draw {
             first_id,
@@ -257,8 +257,8 @@ impl<'a> PrimitiveAssembler<'a> {
         arrays.write_vertices(count, selections, model_to_world, self.threads, vertices);
     }
 
-    /// Returns the back-face culling of a draw call. Front faces are counterclockwise in the
-    /// picture unless exactly one of the model matrix and the projection mirrors.
+    /// Returns which winding a draw call culls. Front faces are counterclockwise in the picture
+    /// unless exactly one of the model matrix and the projection reverses orientation.
     pub(super) fn cull_mode(&self, draw: &Draw<'_>) -> CullMode {
         let shows_both_faces = draw.material.double_sided || self.inputs.shows_back_faces;
         match (shows_both_faces, draw.flips_winding == self.transform.is_mirrored) {

@@ -118,8 +118,8 @@ impl ProjectedMesh {
         }
     }
 
-    /// Returns the runs of selected triangles in mesh order, as pairs of unclipped runs and the
-    /// following run to clip. The last pair has an empty run at `usize::MAX`.
+    /// Returns the runs of selected triangles in mesh order, as pairs: unclipped runs, then the run
+    /// to clip that follows them. The last pair has an empty run at `usize::MAX`.
     ///
     /// Mesh order ensures that translucent triangles of equal depth stay in file order.
     pub(super) fn triangle_runs(&self) -> impl Iterator<Item = (&[Range<usize>], Range<usize>)> {

@@ -60,7 +60,7 @@ impl Renderer {
     ///
     /// let textures = Textures::for_scene(&scene);
     /// let context = RenderContext::new(&scene, &textures, 2);
-    /// let mut picture = Picture::<u16>::default(); // 16 bits a channel
+    /// let mut picture = Picture::<u16>::default(); // 16 bits per channel
     /// let warnings = Renderer::default().render(&context, &mut picture)?;
     /// assert!(warnings.is_empty());
     /// assert_eq!(picture.pixels.len(), 64 * 48);
@@ -68,8 +68,8 @@ impl Renderer {
     /// ```
     ///
     /// # Errors
-    /// The picture's size is out of range, the scene has too many primitives, or the context was
-    /// canceled.
+    /// Returns an error if the picture's size is out of range, the scene has too many primitives,
+    /// or rendering was canceled.
     pub fn render<C: FrameChannel>(
         &mut self,
         context: &RenderContext<'_>,
@@ -86,7 +86,7 @@ impl Renderer {
     /// warnings about missing parts.
     ///
     /// # Errors
-    /// As [`render`](Self::render).
+    /// Returns the same errors as [`render`](Self::render).
     pub fn render_png(
         &mut self,
         context: &RenderContext<'_>,
@@ -101,7 +101,7 @@ impl Renderer {
     /// region that needs them.
     ///
     /// # Errors
-    /// The lines cannot be drawn.
+    /// Returns an error if the lines cannot be drawn.
     pub fn prepare<'a>(
         &'a mut self,
         context: &RenderContext<'a>,

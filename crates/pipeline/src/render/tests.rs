@@ -38,10 +38,10 @@ impl Surface for ScalarShading<'_> {
     }
 }
 
-/// Loads a scene of the project at a small size.
+/// Loads a scene from the repository at a small size.
 fn load_scene(name: &str) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    let text = std::fs::read_to_string(folder.join(name)).expect("a scene of the project");
+    let text = std::fs::read_to_string(folder.join(name)).expect("a scene in the repository");
     let mut file = parse_scene(name, &text).expect("a scene");
     file.image.size = (200, 130);
     let origin = Origin::from_text(name, text, folder);

@@ -1,8 +1,8 @@
-//! Rendering of the transmission framebuffer: everything that may be visible behind refracting and
-//! rough glass, in linear light.
+//! Renders the transmission framebuffer: everything that may be visible behind refracting and rough
+//! glass, in linear light.
 //!
-//! It covers the whole picture even if only a region is rendered, because refracted rays and rough
-//! glass reach beyond the borders of the region. The lookup is `shade::TransmissionFramebuffer`.
+//! It covers the whole picture even if only a region is rendered, because refraction and roughness
+//! bring in light from beyond the region's borders. The lookup is `shade::TransmissionFramebuffer`.
 
 use super::RenderError;
 use super::ambient_occlusion::{OcclusionBuffers, compute_full_occlusion, compute_occlusion};
@@ -41,7 +41,8 @@ pub(super) fn needs_framebuffer(scene: &Scene) -> bool {
 /// surfaces.
 ///
 /// # Errors
-/// The picture is larger than one image tile, or the scene has too many primitives.
+/// Returns an error if the picture is larger than one image tile, or the scene has too many
+/// primitives.
 pub(super) fn compute_whole_occlusion(
     context: &RenderContext<'_>,
 ) -> Result<Option<AmbientOcclusion>, RenderError> {
@@ -61,7 +62,7 @@ pub(super) fn compute_whole_occlusion(
 /// Renders the framebuffer of a scene's whole picture, or returns `None` if none is needed.
 ///
 /// # Errors
-/// The scene has too many primitives.
+/// Returns an error if the scene has too many primitives.
 pub(super) fn render_framebuffer(
     context: &RenderContext<'_>,
     shadows: &ShadowMapRenderer,

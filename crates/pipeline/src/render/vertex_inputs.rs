@@ -1,8 +1,8 @@
 //! The vertex attributes, opacity and visible faces that a style needs for each draw call.
 //!
-//! A style that overrides materials (clay, normals, ids …) still needs their alpha and whether
-//! surfaces are double-sided. Styles that show the base color blend blended materials; other styles
-//! use one color per fragment, with holes instead of blending. The X-ray style makes everything
+//! A style that overrides materials (clay, normals, ids …) still needs their alpha values and
+//! double-sided flags. Styles that show the base color blend blended materials; other styles use
+//! one color per fragment, with holes instead of blending. The X-ray style makes everything
 //! translucent and also shows back faces.
 
 use super::vertex_processing::material_uv_set;
@@ -62,8 +62,8 @@ impl VertexInputs {
             (OpacityRule::Force(opacity), _) => opacity,
             (OpacityRule::AlphaMode | OpacityRule::CutOut, AlphaMode::Opaque) => Opacity::Opaque,
             (OpacityRule::CutOut, AlphaMode::Blend) => Opacity::Masked,
-            // Its color already includes the background, so it can hide it: only visible fragments
-            // are shaded, without the cost of layers.
+            // Such glass already includes the background in its color, so it can be drawn as
+            // opaque: only visible fragments are shaded, without the cost of layers.
             (_, AlphaMode::Opaque) if material.bends_transmitted_light() => Opacity::Opaque,
             _ => material_opacity(material),
         }

@@ -43,8 +43,8 @@ impl PreparedScene<'_> {
     /// band, and then again from the start.
     ///
     /// # Errors
-    /// A band cannot be rendered (see [`render_region`](Self::render_region)), or the file cannot
-    /// be written.
+    /// Returns an error if a band cannot be rendered (see [`render_region`](Self::render_region)),
+    /// or the file cannot be written.
     pub fn write_png(
         &mut self,
         out: &mut dyn Write,
@@ -74,8 +74,7 @@ impl PreparedScene<'_> {
         let mut bands = region.bands(rows);
         let mut picture = Picture::<C>::default();
         self.render_region(bands.next().unwrap_or(region), &mut picture)?;
-        // The color type precedes the pixels, so it must be known first whether all bands are
-        // opaque.
+        // The color type precedes the pixels, so the opacity of all bands must be known first.
         let is_opaque =
             picture.is_opaque() && self.bands_are_opaque::<C>(region.bands(rows).skip(1))?;
         encode_png(out, [region.width, region.height], is_opaque, C::BITS, |png| {
@@ -92,8 +91,8 @@ impl PreparedScene<'_> {
         })
     }
 
-    /// Returns whether all bands are opaque. They are over an opaque background; otherwise bands
-    /// are rendered until a translucent pixel is found.
+    /// Returns whether all bands are opaque. Unless the background is opaque, bands are rendered
+    /// until a translucent pixel is found.
     fn bands_are_opaque<C: FrameChannel>(
         &mut self,
         bands: impl Iterator<Item = PixelRect>,

@@ -94,7 +94,7 @@ fn sphere_part(material: &str) -> TestPart {
     TestPart { normals: positions.clone(), positions, material: material.to_owned() }
 }
 
-/// Renders parts and the rest of a scene file, seen from (0, 0, 5), with a picture height of 2.2
+/// Renders parts with the scene fields `rest`, seen from (0, 0, 5), with a picture height of 2.2
 /// units.
 fn render_parts(parts: &[TestPart], rest: &str) -> Picture {
     render_parts_larger(parts, 1.0, rest)
@@ -185,7 +185,7 @@ fn lit_spheres_are_bright_toward_the_key_light_and_dark_below() {
             let at = |x, y| u32::from(picture.pixel(x, y).expect("a pixel")[1]);
             let (towards, below) = (at(45, 30), at(70, 100));
             assert!(towards > below + 25, "{style:?} {environment:?}: {towards}, {below}");
-            // Night is dark without ambient light; the studio and the sky are not.
+            // Even without an environment, ambient light keeps the lower side from being black.
             assert!(below > 30, "{style:?} {environment:?}: {below}");
         }
     }
@@ -356,7 +356,7 @@ fn transparent_pictures_over_a_color_match_opaque_pictures() {
     }
 }
 
-/// A sphere in surroundings of 1 must not create light and may lose only a little.
+/// A sphere in surroundings of radiance 1 must not create light and may lose only a little.
 #[test]
 fn surfaces_in_white_surroundings_create_no_light() {
     let material = |metallic: f64, roughness: f64| {
@@ -371,9 +371,9 @@ fn surfaces_in_white_surroundings_create_no_light() {
         let picture = render_parts(&[sphere_part(&material(metallic, roughness))], rest);
         let inside = picture.pixels.iter().filter(|pixel| pixel[3] == 255);
         let codes: Vec<u8> = inside.map(|pixel| pixel[1]).collect();
-        // 0.5 in sRGB is 188. White scatters everything that it does not mirror, and metal mirrors
-        // everything, so only rounding may lose light. A half-and-half material has a reflectance
-        // of one half, so it loses the rest at each bounce except the first.
+        // Linear 0.5 is code 188 in sRGB. White scatters everything that it does not mirror, and
+        // metal mirrors everything, so only rounding may lose light. A half-and-half material has a
+        // reflectance of one half, so it loses the rest at each bounce except the first.
         let (least, most) = (codes.iter().min().unwrap(), codes.iter().max().unwrap());
         let lost = if metallic == 0.5 { 8 } else { 1 };
         let holds = codes.len() > 5000 && *least >= 188 - lost && *most <= 188;

@@ -11,7 +11,7 @@ use pipeline::{Origin, Scene, render};
 use std::sync::Arc;
 
 const IMAGE_SIZE: (u32, u32) = (1920, 1080);
-/// Texels along a side of the texture and of a check.
+/// Number of texels along a side of the texture and of a checker square.
 const TEXELS: u32 = 64;
 const CHECK_TEXELS: u32 = 8;
 /// Texture repetitions per unit in the world.

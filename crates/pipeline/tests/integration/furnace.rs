@@ -78,7 +78,7 @@ fn anisotropic_metal_reflects_as_much_as_isotropic_metal() {
         for strength in [0.5, 1.0] {
             let picture = furnace_picture(strength, roughness);
             for (x, y) in (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y))) {
-                // From the center of the ball to the viewing angle of 80°.
+                // From the center of the ball to a viewing angle of 80°.
                 let from_center = |at: u32| (2.0 * f64::from(at) + 1.0) / f64::from(SIDE) - 1.0;
                 let sine = libm::hypot(from_center(x), from_center(y));
                 if sine > libm::sin(80_f64.to_radians()) {

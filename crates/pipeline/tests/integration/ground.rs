@@ -57,8 +57,8 @@ fn without_ground_only_the_model_is_framed() {
         assert_eq!(scene.view_projection.camera, framing.camera, "{name}");
         let on_ground = bare_model(name, size, Some(GroundFile::DEFAULT));
         assert_ne!(on_ground.view_projection.camera, framing.camera, "{name}");
-        // The same applies if its shadows may extend beyond the picture; they are visible where
-        // they do not.
+        // The same applies if shadows may extend beyond the picture, but the parts inside it are
+        // visible.
         let cropped = GroundFile::Shadow { height: None, framed: false };
         let cropped = bare_model(name, size, Some(cropped));
         assert_eq!(cropped.view_projection.camera, framing.camera, "{name}");
@@ -105,7 +105,7 @@ fn models_in_uniform_light_have_contact_shadows() {
         assert!(picture == render(&scene, 1).expect("a picture"), "{name}: threads");
         let alphas: Vec<u8> =
             picture.pixels.iter().filter(|p| p[..3] == [0; 3]).map(|p| p[3]).collect();
-        // Dark at the foot and without an edge anywhere else.
+        // The shadow is dark at the foot and has no edge elsewhere.
         let dark = alphas.iter().filter(|&&alpha| alpha > 90).count();
         assert!(dark > 20, "{name}: {dark}");
         let off = model_in_uniform_light(name, size, Some(ShadowsFile::Off));
@@ -171,7 +171,7 @@ fn shadows_behind_models_darken_every_background() {
     }
 }
 
-/// Counts the pixels that differ by more than rounding.
+/// Counts the pixels that differ by more than a rounding error.
 fn count_differing(one: &Picture, other: &Picture) -> usize {
     let differs = |(a, b): &(&[u8; 4], &[u8; 4])| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 2);
     one.pixels.iter().zip(&other.pixels).filter(differs).count()

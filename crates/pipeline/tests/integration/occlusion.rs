@@ -26,7 +26,7 @@ fn blacken_materials(scene: &mut Scene) {
     }
 }
 
-/// Loads a model of the project in light from all directions, with or without occlusion.
+/// Loads a model from the repository in light from all directions, with or without occlusion.
 fn load_scene(model: &str, image: &str, occlusion: &str) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let text = format!(

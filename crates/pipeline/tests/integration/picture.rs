@@ -12,7 +12,7 @@ use pipeline::scene::file::SceneFile;
 use pipeline::{Origin, Scene};
 use std::path::Path;
 
-/// Loads a scene of the project, with changes to its file.
+/// Loads a scene from the repository, with changes to its file.
 fn load_scene(name: &str, change: impl FnOnce(&mut SceneFile)) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let (origin, mut file) =

@@ -118,7 +118,8 @@ fn shadows_in_all_six_directions_match_rays_from_the_lamp() {
             let along = (seen.truncate() / seen.w - eye).normalize();
             let Some([_, leave]) = meet_box(room, eye, along) else { panic!("in the room") };
             let place = eye + along * leave;
-            // This wall, away from its edges, with nothing in front of it.
+            // Only positions on this wall count, away from its edges and with nothing in front of
+            // them.
             let is_hidden = boxes.iter().any(|&b| {
                 meet_box([b[0] - 0.02, b[1] + 0.02], eye, along)
                     .is_some_and(|[_, leave]| leave > 0.0)
@@ -224,8 +225,7 @@ fn linear(code: u8) -> f64 {
 
 #[test]
 fn penumbras_have_no_seams_between_faces() {
-    // When everything except the light's faces is turned, the borders of the faces cross the floor
-    // elsewhere.
+    // Turning everything except the light's faces moves the borders of the faces on the floor.
     let rest =
         "lights: [Point(position: (0, 0, 0), intensity: 8, shadows: On(softness_degrees: 6))],
         image: (size: (400, 300))";
@@ -238,8 +238,8 @@ fn penumbras_have_no_seams_between_faces() {
         differences.sort_unstable_by(f64::total_cmp);
         let (most, last) =
             (differences[differences.len() * 999 / 1000], differences[differences.len() - 1]);
-        // The pattern of 48 positions falls differently in the penumbra. If a face ended there, at
-        // least half of the light would be missing.
+        // The pattern of 48 filter positions falls differently in the penumbra. If a face ended
+        // there, at least half of the light would be missing.
         assert!(most < 0.05 && last < 0.15, "{degrees}: {most} {last}");
     }
 }

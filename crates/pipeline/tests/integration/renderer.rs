@@ -1,4 +1,4 @@
-//! A renderer's second picture has the bits of a separate rendering and needs no new large
+//! A renderer's second picture is bit-identical to a separate rendering and needs no new large
 //! allocations.
 
 use pipeline::{
@@ -8,10 +8,10 @@ use pipeline::{
 use std::path::Path;
 use std::sync::Arc;
 
-/// Loads a scene of the project at a small size.
+/// Loads a scene from the repository at a small size.
 fn load_scene(name: &str, size: (u32, u32)) -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name);
-    let (origin, mut file) = Origin::read_scene(&path).expect("a scene of the project");
+    let (origin, mut file) = Origin::read_scene(&path).expect("a scene in the repository");
     file.image.size = size;
     Scene::resolve(&origin, &file, &Default::default()).expect("a valid scene")
 }

@@ -311,8 +311,8 @@ fn pixel_of_ground_point(x: f64, z: f64) -> (u32, u32) {
 #[test]
 fn ground_alpha_is_the_fraction_of_light_that_shadows_remove() {
     // 3 lux from the sun and 1 lux from all directions. Where the sun is hidden, three quarters of
-    // the light are missing. The ball also blocks part of the remaining quarter, namely its solid
-    // angle weighted by the cosine.
+    // the light are missing. The ball also blocks part of the remaining quarter: its solid angle
+    // weighted by the cosine.
     let lights =
         "lights: [Directional(direction: (0, -1, 0), intensity: 3), Ambient(intensity: 1)]";
     let clear = render_over_ground("Transparent", lights);

@@ -5,10 +5,10 @@ use crate::schema::scene_struct;
 use sheet::ExplosionAxis;
 
 scene_struct! {
-    /// An exploded view: parts moved apart, with their paths.
+    /// An exploded view: the parts are moved apart, and their paths are drawn.
     pub struct ExplodedFile as "Exploded" {
         /// The direction in which parts move. Default: the axis along which the most parts line up
-        /// with the largest part, or along which they move least.
+        /// with the largest part; in a tie, the axis along which they move least.
         pub axis: ExplosionAxis = ExplosionAxis::Auto,
         /// The minimum distance between two parts in this direction, in scene units. Default: 0.08
         /// times the assembly's diagonal.

@@ -15,7 +15,7 @@ scene_struct! {
 }
 
 scene_struct! {
-    /// A keyframe: the position and direction of the camera at a time.
+    /// A keyframe: the position and direction of the camera at a given time.
     #[derive(Copy)]
     pub struct CameraKeyFile as "CameraKey" {
         /// The time in seconds.
@@ -35,7 +35,7 @@ scene_struct! {
 named_enum! {
     /// The interpolation between keyframes.
     pub enum CurveFile as "Curve" {
-        Linear = "Straight lines, with an abrupt change at each keyframe.",
+        Linear = "Straight lines, with an abrupt change of velocity at each keyframe.",
         Smooth = "A smooth Catmull-Rom curve through all keyframes. With 8 evenly spaced keyframes and the first one repeated, it approximates a circle to within 1%; with 12, to within 0.2%.",
     }
 }

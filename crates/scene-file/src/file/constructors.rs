@@ -1,4 +1,4 @@
-//! Scenes written in Rust: short forms for the most common parts.
+//! Constructors for scenes written in Rust: short forms of the most common parts.
 
 use super::projection::NO_SHIFT;
 use super::{CameraFile, LightFile, ModelFile, ProjectionFile, SceneFile, ViewFile, ViewportFile};
@@ -157,7 +157,7 @@ impl ViewportFile {
     /// fractions of the picture.
     ///
     /// # Errors
-    /// Returns an error if one of them is not between 0 and 1.
+    /// Returns an error if one of the fractions is not between 0 and 1.
     pub fn at(rectangle: [f64; 4]) -> Result<Self, InvalidNumber> {
         let [left, top, width, height] = rectangle;
         let at = Some((left.try_into()?, top.try_into()?, width.try_into()?, height.try_into()?));
@@ -166,7 +166,7 @@ impl ViewportFile {
 }
 
 impl LightFile {
-    /// Creates white light from infinity, such as sunlight, that travels in the given direction.
+    /// Creates a white directional light, such as sunlight, that travels in the given direction.
     /// Its illuminance is in lux.
     ///
     /// # Errors
@@ -212,7 +212,8 @@ impl LightFile {
         })
     }
 
-    /// Creates white light from all directions. The illuminance of every surface is in lux.
+    /// Creates white light from all directions. Its intensity is the illuminance of every surface,
+    /// in lux.
     ///
     /// # Errors
     /// Returns an error if the intensity is negative or not finite.

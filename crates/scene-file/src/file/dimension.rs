@@ -10,7 +10,7 @@ use sheet::{DimensionSide, LengthDirection};
 
 serde_by_scene_value! { DimensionsFile }
 
-/// The dimensions of a sheet: a list, or `true` for the overall ones and `false` for none.
+/// The dimensions of a sheet: a list, `true` for the overall dimensions, or `false` for none.
 #[derive(Clone, PartialEq, Debug)]
 pub struct DimensionsFile(pub Vec<DimensionFile>);
 
@@ -50,7 +50,7 @@ impl SceneValue for DimensionsFile {
     }
 }
 
-/// Whether this is the element type of a sheet's list of dimensions.
+/// Whether `element` is the element type of a sheet's list of dimensions.
 pub(crate) fn is_dimensions_list(element: &ValueType) -> bool {
     matches!(element, ValueType::Declared(entry) if entry.name == DimensionFile::ENTRY.name)
 }
@@ -60,10 +60,9 @@ scene_enum! {
     /// whatever the scale. A dimension is placed in a view that shows its true size; without such a
     /// view, it is omitted with a warning.
     pub enum DimensionFile as "Dimension" {
-        /// The overall width, height and depth, outside all other dimensions.
+        /// The overall width, height and depth, placed outside all other dimensions.
         Overall,
-        /// The distance between two points; for an edge or a face, it is measured perpendicular to
-        /// it.
+        /// The distance between two points, or the perpendicular distance from an edge or a face.
         Length {
             /// The first point, edge or face.
             from: PickFile,
@@ -114,7 +113,7 @@ scene_enum! {
             /// inches.
             decimals: Option<u32> = None,
         },
-        /// The diameter of a circle, marked Ø: an arrow to the circle if a view shows it as a
+        /// The diameter of a circle, marked Ø. It is an arrow to the circle if a view shows it as a
         /// circle, otherwise a length across it.
         Diameter {
             /// The circle or arc.

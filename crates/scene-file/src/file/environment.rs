@@ -12,7 +12,7 @@ scene_enum! {
         Dark,
         /// A studio with soft boxes.
         Studio {
-            /// A factor for all light. Default: 1.
+            /// A factor for its intensity. Default: 1.
             strength: NonNegative = NonNegative::ONE,
             /// The rotation about the y axis. Default: 0.
             rotation_degrees: Option<Finite>,
@@ -21,7 +21,7 @@ scene_enum! {
         Sky {
             /// The direction to the sun. Default: (1, 1, 1).
             sun: Triple = Triple::ONES,
-            /// A factor for all light. Default: 1.
+            /// A factor for its intensity. Default: 1.
             strength: NonNegative = NonNegative::ONE,
         },
         /// Uniform light from all directions, also visible in reflections.
@@ -35,7 +35,7 @@ scene_enum! {
         File {
             /// The path, relative to the scene file's folder.
             path: String,
-            /// A factor for all light. Default: 1.
+            /// A factor for its intensity. Default: 1.
             strength: NonNegative = NonNegative::ONE,
             /// The rotation about the y axis. Default: 0.
             rotation_degrees: Option<Finite>,

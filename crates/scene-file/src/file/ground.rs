@@ -13,7 +13,7 @@ scene_enum! {
         /// are `On()`. An environment and ambient light leave a soft shadow around objects on it,
         /// unless `shadows` are `Off`.
         Shadow {
-            /// Its height, y in the world. Default: the height of the models' lowest vertex.
+            /// Its y coordinate in world space. Default: the height of the models' lowest vertex.
             height: Option<Finite>,
             /// Whether a view that frames the models also frames their shadows; otherwise shadows
             /// may extend beyond the picture. Default: true.

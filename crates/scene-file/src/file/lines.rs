@@ -17,9 +17,8 @@ scene_struct! {
         /// Faces that meet at more than this angle have a crease edge between them. Default: 30,
         /// but none if the model's vertex normals are the same on both sides of the edge.
         pub crease_degrees: Option<CreaseAngle> = None,
-        /// Faces that meet at more than this angle, but not at a crease, have a tangent edge
-        /// between them, such as a flat face and its fillet. Default: only where the material
-        /// changes.
+        /// Faces that meet at more than this angle without a crease, such as a flat face and its
+        /// fillet, have a tangent edge between them. Default: only where the material changes.
         pub tangent_degrees: Option<CreaseAngle> = None,
         /// The method for finding silhouettes of smooth surfaces. Default: `Facets`.
         pub silhouettes: SilhouetteMethod = SilhouetteMethod::Facets,
@@ -42,8 +41,8 @@ scene_struct! {
         pub hatch_spacing_mm: HatchSpacing = HatchSpacing::DEFAULT,
         /// The fill of the faces under the lines. Default: `None`.
         pub face_fill: FaceFill = FaceFill::None,
-        /// The amplitude of the waver of hand-drawn lines, in millimeters on paper from 0 to 5;
-        /// each line is drawn twice. Default: 0, exact lines.
+        /// The amplitude of the wobble of hand-drawn lines, from 0 to 5 millimeters on paper.
+        /// Unless it is 0, each line is drawn twice. Default: 0, exact lines.
         pub hand_drawn_mm: HandDrawn = HandDrawn::EXACT,
     }
 }

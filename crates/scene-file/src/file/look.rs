@@ -96,7 +96,8 @@ impl StyleFile {
         Self::Lines(LinesFile { edges: EdgeSelection::Silhouette, ..LinesFile::default() })
     }
 
-    /// Returns a line drawing of only the outline, as closed loops around the whole and its holes.
+    /// Returns a line drawing of only the outline, as closed loops around the whole shape and its
+    /// holes.
     #[must_use]
     pub fn lines_outline() -> Self {
         Self::Lines(LinesFile { edges: EdgeSelection::Outline, ..LinesFile::default() })
@@ -156,8 +157,8 @@ impl StyleFile {
         })
     }
 
-    /// Returns the style with the ISO 128 line group that suits a picture of this size in pixels,
-    /// if it uses a line group: 0.25 mm below 300 pixels, 0.35 mm below 600.
+    /// Returns the style with its ISO 128 line group, if any, limited to suit a picture of this
+    /// size in pixels: to 0.25 mm below 300 pixels, and to 0.35 mm below 600.
     #[must_use]
     pub fn with_fitting_lines(self, size: (u32, u32)) -> Self {
         let (width, height) = size;
@@ -209,7 +210,7 @@ scene_struct! {
         /// Default: `None`; `Neutral` for a model with lights but without a scene file.
         pub tone_mapping: Option<ToneMapping> = None,
         /// The maximum number of samples for anisotropic texture filtering, from 1 to 8. With 1,
-        /// surfaces at grazing angles are blurred; with more, they are sharp. Default: 4.
+        /// surfaces at grazing angles are blurred; with more, they are sharper. Default: 4.
         pub max_anisotropy: u32 = 4,
         /// The size of the models' points in pixels, from 1 to 256; glTF does not define it. Line
         /// drawings draw points as strokes instead. Default: 3.

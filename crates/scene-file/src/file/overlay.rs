@@ -33,9 +33,8 @@ scene_enum! {
             /// The text, a single line, drawn with strokes as on drawings.
             text: String,
             /// The offset from the point to the nearest corner of the text, in pixels to the right
-            /// and down; if one of them is 0, to the middle of the nearest side. Text that would
-            /// extend beyond the picture is moved inside. Default: (5, -5); (24, -24) with a leader
-            /// line.
+            /// and down; if either is 0, to the middle of the nearest side. Text that would extend
+            /// beyond the picture is moved inside. Default: (5, -5); (24, -24) with a leader line.
             offset: Option<(Finite, Finite)>,
             /// The color. Default: dark, or light on a dark background.
             color: Option<Color>,

@@ -7,8 +7,8 @@ scene_enum! {
     /// Whether a light casts shadows, and how soft they are. Only directional, point and spot
     /// lights can cast them.
     ///
-    /// Masked materials cast the shadow of their opaque parts; blended and transmissive materials
-    /// cast none.
+    /// Masked materials cast shadows of their opaque parts; blended and transmissive materials cast
+    /// none.
     #[derive(Copy)]
     pub enum ShadowsFile as "Shadows" {
         /// No shadows.
@@ -16,7 +16,7 @@ scene_enum! {
         /// From a shadow map: a depth image of the scene as seen from the light.
         On {
             /// The number of texels along the map's longer side, from 64 to 8192. Details finer
-            /// than a texel cast no shadow; each texel takes 12 bytes. A point light has six such
+            /// than a texel cast no shadow. Each texel takes 12 bytes. A point light has six such
             /// maps, each covering 90°. All point lights together have at most 67 million texels;
             /// beyond that, their maps shrink. Default: 2048.
             size: Option<u32>,

@@ -31,8 +31,8 @@ scene_struct! {
         pub side_view: Option<SideView> = None,
         /// The fourth view. Default: isometric.
         pub axonometric_view: AxonometricView = AxonometricView::Isometric,
-        /// Hidden lines in uncut views along the axes. Default: as in the scene's line style,
-        /// otherwise dashed.
+        /// The treatment of hidden lines in uncut views along the axes. Default: as in the scene's
+        /// line style, otherwise dashed.
         pub hidden: Option<HiddenLines> = None,
         /// The fill of the faces under the lines, on all pages. Default: as in the scene's line
         /// style, otherwise none.
@@ -71,7 +71,8 @@ scene_struct! {
         /// Whether each item in the list has a separate page with its principal views. Default:
         /// false.
         pub part_sheets: bool = false,
-        /// The densities for computing the masses in the list. Default: none, and no masses.
+        /// The densities for computing the masses in the list. Default: none, so that the list has
+        /// no masses.
         pub densities: Vec<DensityFile> = Vec::new(),
         /// Views in addition to the standard views or instead of them, and ways to show them. If
         /// the list contains a `View`, it must name all views; otherwise the sheet also has the
@@ -121,7 +122,7 @@ named_enum! {
         Letter = "8½ × 11 inches.",
         Tabloid = "11 × 17 inches.",
         Auto = "The smallest of A4 to A0 that holds the views at 1:1 or larger, or at the given \
-                scale. If A0 is too small, the smallest size for which the next larger one allows \
+                scale. If A0 is too small, the smallest size at which a larger sheet would allow \
                 no larger scale.",
     }
 }

@@ -17,7 +17,7 @@ scene_struct! {
         /// Left, top, width and height as fractions of the picture without its caption, from 0 to
         /// 1, measured from the upper left corner. Default: from `pixels`.
         pub at: Option<(Fraction, Fraction, Fraction, Fraction)> = None,
-        /// Left, top, width and height in pixels, above the caption of the picture. Default: from
+        /// Left, top, width and height in pixels, in the picture without its caption. Default: from
         /// `at`.
         pub pixels: Option<(u32, u32, u32, u32)> = None,
         /// The camera. Default: the scene's.
@@ -70,8 +70,8 @@ scene_enum! {
             /// picture. Default: the distance to the center of the models.
             convergence: Option<Positive>,
         },
-        /// One on top of the other, for red and cyan glasses: red from the left eye's picture,
-        /// green and blue from the right eye's.
+        /// One on top of the other, for red-cyan glasses: red from the left eye's picture, green
+        /// and blue from the right eye's.
         Anaglyph {
             /// The interocular distance, in world units. Default: a thirtieth of the convergence.
             eye_distance: Option<Positive>,

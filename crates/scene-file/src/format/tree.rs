@@ -51,7 +51,7 @@ pub(super) fn group_tokens(tokens: &[Token<'_>]) -> Vec<FormatItem> {
     ItemReader { tokens, at: 0 }.read_items()
 }
 
-/// Recursive-descent reader of items; comments are items too.
+/// Recursive-descent parser for items; comments are items too.
 struct ItemReader<'a> {
     /// The tokens of the whole text.
     tokens: &'a [Token<'a>],
@@ -107,7 +107,7 @@ impl<'a> ItemReader<'a> {
         items
     }
 
-    /// Attaches a comment to the item before it on the same line; any other comment is an item.
+    /// Attaches a comment to the item before it on the same line; other comments become items.
     ///
     /// Only one comment can follow an element; a second one on the line begins an item.
     fn attach_comment(&self, items: &mut Vec<FormatItem>, token: Token<'_>) {
@@ -123,7 +123,7 @@ impl<'a> ItemReader<'a> {
         }
     }
 
-    /// Whether the next token, a block comment, ends its line.
+    /// Whether the next token, a block comment, is the last on its line.
     fn ends_its_line(&self) -> bool {
         let next = self.tokens.get(self.at + 1);
         next.is_none_or(|next| next.line_breaks_before > 0 || next.kind == TokenKind::Close)
@@ -139,7 +139,7 @@ impl<'a> ItemReader<'a> {
         while let Some(token) = self.peek() {
             match token.kind {
                 TokenKind::Comma | TokenKind::Close => break,
-                // A comment after the element, before its comma or without one.
+                // A comment after the element, whether or not a comma follows.
                 TokenKind::LineComment if self.is_element_end() => break,
                 TokenKind::LineComment => comments.push(token.text),
                 TokenKind::Colon => text.push_str(": "),

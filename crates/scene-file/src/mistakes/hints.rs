@@ -161,7 +161,7 @@ fn materials_in_other_forms_get_a_hint_with_a_list() {
     }
 }
 
-/// A field outside the scene's brackets is a single mistake.
+/// A field outside the scene's brackets is reported as a single mistake.
 #[test]
 fn fields_outside_a_scene_are_one_mistake() {
     let found = mistakes("models: [\"a.glb\"]");

@@ -2,7 +2,7 @@
 
 use super::{mistakes, scene_with};
 
-/// A scene field with a foreign word, and what the help must contain.
+/// A scene field with a foreign word, and text that the help must contain.
 const WORDS: [(&str, &str); 66] = [
     // three.js
     ("camera: (projection: Perspective(fov: 35))", "`fov_y_degrees`"),

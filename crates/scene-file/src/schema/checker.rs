@@ -10,7 +10,7 @@
 //!       └─► Notation: numbers, strings, colors, vectors
 //! ```
 //! The checker holds the path to the value, for messages, and the scope, which is the innermost
-//! field or element around it: later resolution skips errors in a scope that already has one.
+//! field or element around it. Resolution later skips errors in a scope that already has one.
 
 mod corrections;
 mod fields;
@@ -66,7 +66,7 @@ impl<'a> Checker<'a> {
 
     /// Reports every mistake in a value of this type.
     ///
-    /// Stops one mistake after the maximum number that is reported.
+    /// Stops once there is one more mistake than can be reported.
     pub(crate) fn check(&mut self, node: &Node<'_>, value_type: &ValueType) {
         if self.is_full() {
             return;
@@ -87,7 +87,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Whether there are more mistakes than the maximum number that is reported.
+    /// Whether there are more mistakes than can be reported.
     fn is_full(&self) -> bool {
         self.mistakes.len() > MAX_MISTAKES
     }
@@ -218,8 +218,9 @@ impl<'a> Checker<'a> {
     /// Reports a struct name that is not the name of its type. Returns whether it is probably that
     /// type anyway.
     ///
-    /// `Some` for an unknown name, such as a misspelling: its fields are then checked too. `None`
-    /// for a name that the language uses elsewhere, whose fields would all be wrong.
+    /// The result is `Some` for an unknown name, such as a misspelling: its fields are then checked
+    /// too. It is `None` for a name that the language uses elsewhere, whose fields would all be
+    /// wrong.
     fn report_struct_name(&mut self, name: &Key<'_>, entry: &'static TypeEntry) -> Option<()> {
         let message = format!("expected `{}`, found `{}`", entry.name, name.name);
         let suggestion = suggest_variant(entry, name.name, self.top_level_field());
@@ -398,7 +399,7 @@ impl<'a> Checker<'a> {
         variant.map(|variant| (variant, group))
     }
 
-    /// Reports a value that does not name a variant, with the variant that holds such values, if
+    /// Reports a value that does not name a variant, and suggests a variant that can hold it, if
     /// any.
     ///
     /// A string where a color's variant is expected gets the hint `Color("…")`; a number gets the
@@ -462,14 +463,14 @@ fn has_named_parts(node: &Node<'_>) -> bool {
         .is_some_and(|group| group.open == '[' || group.items.iter().any(|item| item.key.is_some()))
 }
 
-/// Returns a file name in quotation marks: a string with an extension.
+/// Returns the value if it is a file name: a string with an extension.
 fn named_file<'n>(node: &'n Node<'_>) -> Option<&'n str> {
     let NodeKind::String(text) = &node.kind else { return None };
     let name: &str = text.trim_matches('"');
     Path::new(name).extension().map(|_| name)
 }
 
-/// Writes a file path in the first variant that has one: `File(path: "studio.hdr")`.
+/// Formats a file path as the first variant that requires one: `File(path: "studio.hdr")`.
 fn variant_with_path(name: &str, variants: &[VariantEntry]) -> Option<String> {
     let has_path = |variant: &&VariantEntry| {
         variant.fields.iter().any(|field| field.name == "path" && !field.is_optional)

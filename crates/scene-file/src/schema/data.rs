@@ -58,7 +58,7 @@ impl Data {
         }
     }
 
-    /// Returns the value that is written in a field.
+    /// Returns the value of a field, or `None` if it was omitted.
     pub(super) fn field_data(&self, name: &str) -> Option<&Self> {
         let Self::Fields(fields) = self else { return None };
         fields.iter().find(|(field, _)| *field == name).map(|(_, value)| value)
@@ -102,7 +102,7 @@ pub(super) fn missing_field(name: &str) -> String {
     format!("missing field `{name}`")
 }
 
-/// Adds a field to the fields to write, unless it has the value that it would have if omitted.
+/// Adds a field to the list of fields to write, unless it has its default value.
 pub(crate) fn push_field<T: SceneValue>(
     fields: &mut Vec<(&'static str, Data)>,
     name: &'static str,

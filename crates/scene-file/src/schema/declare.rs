@@ -2,13 +2,13 @@
 //!
 //! ```text
 //!  scene_struct!  struct with fields           scene_enum!   variants with fields or a value
-//!  named_enum!    variants without anything    named_values! names for a foreign enum
+//!  named_enum!    variants without fields      named_values! names for a foreign enum
 //! ```
 //! Doc comments are matched as `#[doc = "…"]` literals: rustdoc and the printed reference show the
 //! same text. The macros expand to absolute `$crate` paths, since they are used in many modules.
 
 /// Joins the lines of a doc comment into paragraphs, with a blank line between them. Links to Rust
-/// items mean nothing to scene authors: ``[`a`](b)`` and ``[`a`]`` become `` `a` ``.
+/// items mean nothing to scene authors, so ``[`a`](b)`` and ``[`a`]`` become `` `a` ``.
 #[must_use]
 pub(super) fn join_doc_lines(doc: &str) -> String {
     let lines: Vec<&str> = doc.lines().map(str::trim).collect();
@@ -132,7 +132,7 @@ macro_rules! scene_struct {
     };
 }
 
-/// Declares a scene file enum, whose variants have no value, fields, or one value.
+/// Declares a scene file enum. Its variants may have fields, one value, or neither.
 macro_rules! scene_enum {
     (
         $(#[doc = $doc:literal])*
@@ -212,7 +212,8 @@ macro_rules! scene_enum {
     };
 }
 
-/// Builds the declaration of a field. With a default it is optional; otherwise its type decides.
+/// Builds the declaration of a field. A field with a default is optional; for any other, its type
+/// decides.
 macro_rules! field_entry {
     ([$($doc:literal)*] $field:ident: $type:ty = $default:expr) => {
         $crate::schema::FieldEntry {

@@ -46,7 +46,7 @@ pub(crate) fn variants_where(root: &'static TypeEntry, name: &str) -> Vec<String
 }
 
 /// Returns an example of a field or variant in a scene, starting at the scene's own brackets:
-/// `camera: (view: LookAt(eye: …))`. It is `None` if the owner has nothing with this name.
+/// `camera: (view: LookAt(eye: …))`. Returns `None` if the owner has nothing with this name.
 ///
 /// A variant with fields or a value is shown with brackets, `Frame(…)`; any other variant has none.
 pub(crate) fn example_of(root: &'static TypeEntry, owner: &str, name: &str) -> Option<String> {

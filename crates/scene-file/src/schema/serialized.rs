@@ -106,7 +106,7 @@ impl<'de> Visitor<'de> for OptionalReader<'_> {
     }
 }
 
-/// Reads a value without names, and lists of elements of this type.
+/// Reads a value without named parts, or a list whose elements have this type.
 struct PlainVisitor<'a>(Option<&'a ValueType>);
 
 impl<'de> Visitor<'de> for PlainVisitor<'_> {

@@ -25,8 +25,8 @@ pub(crate) fn unescape_string(literal: &str) -> Result<String, (usize, &'static 
 }
 
 /// Decodes an escape after its backslash; returns the character and the length of the escape. A
-/// backslash at the end of a line continues the string after the next line's indentation and gives
-/// no character.
+/// backslash at the end of a line continues the string after the next line's indentation and
+/// produces no character.
 fn unescape_character(rest: &str) -> Result<(Option<char>, usize), &'static str> {
     let single = |character: char| Ok((Some(character), 1));
     match rest.chars().next() {

@@ -27,7 +27,7 @@ pub(crate) const SAMPLE_SCENE: &str =
 
 /// The tree of a text, and the syntax errors in it.
 pub(crate) struct SyntaxTree<'a> {
-    /// The value of the file; `None` if there is none.
+    /// The value of the file, if any.
     pub(crate) root: Option<Node<'a>>,
     pub(crate) errors: Vec<Mistake>,
     /// Whether brackets or strings are so broken that the tree may have values in the wrong group.
@@ -111,8 +111,8 @@ impl<'a> Parser<'a> {
             }
             _ => return,
         };
-        // If a quotation mark is missing, the strings after it are inside out. The first one that
-        // spans lines is the likely culprit.
+        // After a missing quotation mark, everything outside strings is taken for a string. The
+        // first string that spans lines is the likely culprit.
         let spans_lines =
             |token: &&Token<'_>| token.kind == TokenKind::Word && token.text.contains('\n');
         let first = tokens.iter().find(spans_lines).filter(|_| last.kind == TokenKind::Word);

@@ -1,7 +1,7 @@
 //! Words for which there is no field, with advice on getting the same effect.
 
-/// The struct, variant or enum around the word; lowercase words without separators, separated by
-/// spaces; and the help.
+/// The struct, variant or enum around the word; lowercase words without hyphens or underscores,
+/// separated by spaces; and the help.
 const ADVICE: &[(&str, &str, &str)] = &[
     (
         "Sheet",
@@ -199,8 +199,8 @@ const ADVICE: &[(&str, &str, &str)] = &[
     ("Style", "hatched hatching hatch engraving", "write style: Lines(face_fill: Hatching)"),
 ];
 
-/// Returns advice for a word in `owner` that is not one of its fields; `word` is lowercase and
-/// without separators.
+/// Returns advice for a word in `owner` that is not one of its fields; `word` is lowercase, without
+/// hyphens or underscores.
 pub(super) fn find_advice(owner: &str, word: &str) -> Option<&'static str> {
     let is_meant = |(place, words, _): &&(&str, &str, &str)| {
         *place == owner && words.split(' ').any(|known| known == word)
@@ -214,7 +214,8 @@ mod tests {
     use crate::file::StyleFile;
     use crate::parse_scene;
 
-    /// The names that `--style` has for line drawings lead to the same style in a scene.
+    /// The advice for a name that `--style` accepts for line drawings gives the same style in a
+    /// scene.
     #[test]
     fn advice_on_line_styles_matches_the_flags() {
         let mut checked = 0;

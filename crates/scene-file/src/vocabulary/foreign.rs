@@ -1,8 +1,8 @@
 //! Words from three.js, Blender, glTF, f3d and others, each with the field or variant that it means
 //! here.
 
-/// Lowercase words without separators, separated by spaces; the struct, variant or enum that has
-/// the field or variant they mean; and its name there.
+/// Lowercase words without hyphens or underscores, separated by spaces; the struct, variant or enum
+/// that has the field or variant they mean; and its name there.
 ///
 /// If a word has several rows, the row with the struct around the word comes first, then rows in
 /// the same scene field, then the first row.

@@ -1,4 +1,4 @@
-//! Picking: points, edges, faces and circles by position and name, or an error that points at them.
+//! Picks points, edges, faces and circles by position and by name.
 
 use super::super::Origin;
 use super::super::named_nodes::{node_names, objects_below};
@@ -159,7 +159,7 @@ impl<'a> Picking<'a> {
         })
     }
 
-    /// Returns the point of a position, and the objects in which to pick, or `None` for all.
+    /// Returns the point that a position specifies, and the objects to pick from; `None` means all.
     fn place(
         &self,
         place: &PlaceFile,
@@ -220,7 +220,8 @@ impl<'a> Picking<'a> {
     }
 }
 
-/// Returns a point in a box: the corner with the smallest coordinates is at 0, the largest at 1.
+/// Returns a point in a box, where 0 is the corner with the smallest coordinates and 1 the opposite
+/// corner.
 fn point_of_box(bounds: Bounds<World>, fraction: [f64; 3]) -> DVec3 {
     bounds.min().raw() + bounds.size().raw() * DVec3::from(fraction)
 }

@@ -9,15 +9,15 @@ use scene_file::file::ViewFile;
 
 /// The number of steps at which the path between two keyframes is examined.
 const STEPS: u32 = 64;
-/// A gaze whose length is less than this fraction of the longest one near it has passed through its
-/// target. Two directions are parallel if the sine of their angle is below it.
+/// If the gaze is shorter than this fraction of the longest gaze near it, the eye has passed
+/// through its target. Two directions are parallel if the sine of their angle is below it.
 const DEGENERATE: f64 = 1e-6;
 
 /// Warns about a path whose eye meets its target, or whose gaze becomes parallel to the view-up
-/// vector. The picture does not exist at that time, or it flips from one frame to the next.
+/// vector. The picture is undefined at that time, or it flips from one frame to the next.
 ///
-/// The right-hand direction gaze × up vanishes at such a time and is reversed after it, so two
-/// samples with opposite right-hand directions enclose such a time.
+/// The right-hand direction gaze × up vanishes at that time and is reversed afterward, so the time
+/// is between two samples with opposite right-hand directions.
 pub(super) fn lint_camera_path(origin: &Origin, file: &SceneFile) -> Option<Lint> {
     let path = CameraPath::from_scene_file(origin, file).ok()??;
     let keys = &file.camera_path.as_ref()?.keys;

@@ -9,9 +9,9 @@ const TOUCHING: f64 = 1e-9;
 
 /// Warns about sections that remove all models or touch none of them.
 ///
-/// The planes' normals point to the half that is retained, so negative distances are removed. Each
-/// plane is examined separately: planes that remove everything only in combination are not
-/// detected.
+/// The planes' normals point to the half that is retained, so points at negative distances are
+/// removed. Each plane is examined separately: planes that remove everything only in combination
+/// are not detected.
 pub(super) fn lint_idle_sections(adviser: &Linter<'_>) -> Vec<Lint> {
     if adviser.scene.sections.is_empty() {
         return Vec::new();

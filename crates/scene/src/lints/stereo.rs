@@ -15,7 +15,7 @@ const WIDEST_BASE: f64 = 0.25;
 /// picture.
 ///
 /// The parallax of a point is the distance between its images in the two eyes' pictures. If it were
-/// the same for all points, the scene would be in front of or behind the screen, as flat as a card.
+/// the same for all points, the scene would look like a flat card in front of or behind the screen.
 pub(super) fn lint_flat_stereo(adviser: &Linter<'_>) -> Option<Lint> {
     adviser.file.stereo.as_ref()?;
     let [left, right] = adviser.scene.insets.as_slice() else { return None };
@@ -29,7 +29,7 @@ pub(super) fn lint_flat_stereo(adviser: &Linter<'_>) -> Option<Lint> {
             continue;
         }
         let [Some(left), Some(right)] = images.map(homog::HPoint::divide) else { continue };
-        // Normalized device coordinates are 2 wide, hence the half.
+        // Normalized device coordinates are 2 wide, hence the factor ½.
         let parallax = (right.x() - left.x()) * 0.5 * width;
         (least, most) = (least.min(parallax), most.max(parallax));
     }

@@ -11,8 +11,8 @@ use model::ModelInstance;
 use model::{MeshInstance, Primitive};
 
 /// Directions of the rays from the eye, in world space. Their components are unrelated, so that
-/// rays almost never hit an edge or vertex of a modeled shape, where a crossing would count twice;
-/// three rays must agree.
+/// rays almost never hit an edge or vertex of a modeled shape, where a crossing would count twice.
+/// All three rays must agree.
 const PROBE_DIRECTIONS: [DVec3; 3] = [
     DVec3::new(0.5773, 0.6191, 0.5324),
     DVec3::new(-0.7167, 0.3291, 0.6149),
@@ -203,8 +203,8 @@ impl VisibilitySurvey {
 /// (Möller and Trumbore, 1997, with the triangle seen from the ray's origin).
 ///
 /// Solves t d = (1 − u − v) a + u b + v c by Cramer's rule. The triangle is relative to the eye.
-/// Rays parallel to its plane have a determinant of 0 and miss. Edges count as part of the triangle
-/// on both sides.
+/// Rays parallel to its plane have a determinant of 0 and miss. A ray through an edge hits the
+/// triangles on both sides of it.
 fn ray_crossing(ray: DVec3, [a, b, c]: [DVec3; 3]) -> i64 {
     let (along, across) = (b - a, c - a);
     let normal = ray.cross(across);

@@ -70,7 +70,7 @@ fn a_shift_moves_the_window_by_fractions_of_the_longer_side() {
         let instance = ModelInstance { model: crate_model(), model_to_world };
         let scene = Scene::from_models(&origin, &file, &[instance]).expect("a scene");
         let shifted = scene.view_projection.view_to_clip.raw();
-        // Straight ahead, (0, 0, −1): NDC 2 is the side of the picture along an axis.
+        // The side of the picture is 2 in NDC, and the point straight ahead is (0, 0, −1).
         let [x, y] = longer;
         check_close(-shifted.z_axis.x, -0.1 * x);
         check_close(-shifted.z_axis.y, 0.25 * y);

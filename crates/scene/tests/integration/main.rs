@@ -1,4 +1,4 @@
-//! Tests of the public interface of `scene`, linked once.
+//! Tests of the public interface of `scene`, linked into one program.
 
 mod dimensions;
 mod lenses;

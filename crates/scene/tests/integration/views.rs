@@ -1,5 +1,5 @@
-//! Several views in one scene: one scale for all, with captions below them. The extents of a 2 × 1
-//! × 3 box match the projections' formulas.
+//! Tests scenes with several views, a shared scale and captions. The extents of a 2 × 1 × 3 box
+//! match the projections' formulas.
 
 use glam::DVec2;
 use homog::Point;
@@ -65,7 +65,7 @@ const TOP: &str = "view: Frame(from: Top), projection: Orthographic()";
 const LEFT: &str = "view: Frame(from: Left, padding_percent: 20), projection: Orthographic()";
 
 #[test]
-fn equal_lengths_are_equal_in_all_parallel_views() {
+fn equal_lengths_appear_equal_in_all_parallel_views() {
     let [x, y, z] = BOX;
     let (cos30, r23) = (0.75_f64.sqrt(), (2.0_f64 / 3.0).sqrt());
     let r12 = 0.5_f64.sqrt();

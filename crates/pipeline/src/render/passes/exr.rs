@@ -9,7 +9,7 @@
 use super::buffer::{PassBuffer, PassValues};
 use scene_file::Pass;
 
-/// The magic number and version 2, which means one image in rows.
+/// The magic number and version 2, which means one image stored in scan lines.
 const MAGIC_AND_VERSION: [u8; 8] = [0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0];
 /// The codes for channel types.
 const UINT: i32 = 0;

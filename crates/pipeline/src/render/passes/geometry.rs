@@ -220,7 +220,7 @@ impl DrawGeometry<'_> {
     }
 }
 
-/// A point, line or triangle that is visible in pixels.
+/// A point, line or triangle that is visible in some pixel.
 pub(super) struct HitItem<'s, 'a> {
     /// The primitive id.
     id: u32,
@@ -272,7 +272,7 @@ fn interpolate([a, b, c]: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
 }
 
 /// Returns the normals of the planes through the origin and each edge of a triangle, in (x, y, w).
-/// The normal q × r belongs to the edge opposite p, and so on. All normals point to the side of the
+/// The normal q × r belongs to the edge opposite p, and so on. All normals point toward the
 /// triangle.
 ///
 /// Their dot products with a point (x, y, 1) of the picture are its weights, up to a factor.

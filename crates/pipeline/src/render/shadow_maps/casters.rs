@@ -64,7 +64,7 @@ impl<'a> CasterPass<'a, '_> {
     /// Draws the opaque and masked triangles of all models.
     ///
     /// # Errors
-    /// The scene has more triangles than there are ids.
+    /// Returns an error if the scene has more triangles than there are ids.
     pub(super) fn draw_scene(&mut self, context: &RenderContext<'a>) -> Result<(), RenderError> {
         let RenderContext { scene, textures, threads, .. } = *context;
         let mut first_id = 0_u32;
@@ -86,8 +86,8 @@ impl<'a> CasterPass<'a, '_> {
     }
 
     /// Draws both faces of a primitive's triangles and returns the number of triangles, or 0 if the
-    /// primitive casts no shadow. Back faces also cast shadows, because an open surface has no
-    /// other side.
+    /// primitive casts no shadow. Back faces also cast shadows, because an open surface may turn
+    /// only back faces toward the light.
     fn draw_primitive(
         &mut self,
         placed: PlacedPrimitive<'a>,

@@ -240,7 +240,7 @@ impl CubeCasters {
         is_lit.then_some(casters)
     }
 
-    /// Adds a triangle with the outside bits of its vertices.
+    /// Adds a triangle, given the outside bits of its vertices.
     fn add_triangle(&mut self, triangle: [(DVec3, u32); 3], range: f64, max_slope: f64) {
         let positions = triangle.map(|(position, _)| position);
         let [a, b, c] = positions;

@@ -34,8 +34,8 @@ fn positions_match_unprojected_depths() {
         for (x, y) in (0..120).flat_map(|y| (0..160).map(move |x| (x, y))) {
             let at = |n: usize| buffers[n].float_values(x, y).expect("a pixel");
             let &[depth] = at(1) else { panic!("expected one value") };
-            // At triangle borders the center may be outside by the 1/256 pixel that corners are
-            // moved. Fragments of lines and points extend beyond the primitives.
+            // At triangle borders the center may be outside by up to 1/256 pixel, because corners
+            // are snapped. Fragments of lines and points extend beyond the primitives.
             if depth.is_infinite() || at(3).iter().any(|weight| *weight <= 1e-6) {
                 continue;
             }

@@ -1,4 +1,4 @@
-//! The fields in the brackets of a struct or a variant.
+//! Checks the fields in the brackets of a struct or a variant.
 
 use super::{Checker, Segment};
 use crate::schema::FieldEntry;

@@ -1,4 +1,4 @@
-//! Lists, and values that should be in one.
+//! Checks lists, and values that should be in a list.
 
 use super::{Checker, Segment, bracket_map, bracket_string};
 use crate::file::is_dimensions_list;
@@ -84,8 +84,8 @@ impl Checker<'_> {
         other.is_none().then(|| format!("({}: {list})", field.name))
     }
 
-    /// Rewrites a value as a list: in square brackets, with strings in the brackets of their
-    /// elements. Returns `None` if the value is already correct or too long to show.
+    /// Rewrites a value as a list in square brackets. Strings become the structs they represent.
+    /// Returns `None` if the value is already correct or too long to show.
     pub(super) fn write_as_list(&self, node: &Node<'_>, expected: &ValueType) -> Option<String> {
         let ValueType::List(element) = expected else { return None };
         let written = |node: &Node<'_>| match element.as_ref() {

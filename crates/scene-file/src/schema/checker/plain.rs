@@ -1,4 +1,4 @@
-//! Values without named parts: numbers, strings, booleans and tuples.
+//! Checks values without named parts: numbers, strings, booleans and tuples.
 
 use super::Checker;
 use crate::number::unnamed_group;
@@ -84,7 +84,7 @@ impl Checker<'_> {
         checker.read_string(node);
     }
 
-    /// Returns the text of a string without its quotation marks and escapes.
+    /// Returns the text of a string literal, without quotation marks and with its escapes decoded.
     pub(crate) fn read_string(&mut self, node: &Node<'_>) -> Option<String> {
         let NodeKind::String(literal) = node.kind else {
             let written = match node.kind {

@@ -1,4 +1,4 @@
-//! A variant of an enum, and the contents of its brackets.
+//! Checks a variant of an enum and the contents of its brackets.
 
 use super::{Checker, Owner, Segment};
 use crate::schema::{Shape, TypeEntry, ValueType, VariantEntry};
@@ -63,10 +63,11 @@ impl Checker<'_> {
     ///
     /// ```text
     ///  Color("#fff")               one item without a name: that item is the value
-    ///  FromModel(name: "front")    the brackets of the variant are those of the struct
-    ///  Point(1, 2, 3)              or those of the vector
+    ///  FromModel(name: "front")    the variant and its struct share one pair of brackets
+    ///  Point(1, 2, 3)              likewise for a vector
     /// ```
-    /// The second form is RON's extension `unwrap_variant_newtypes`, and the only one for structs.
+    /// The second form is RON's extension `unwrap_variant_newtypes`. A struct can only be written
+    /// this way.
     pub(super) fn check_inner(
         &mut self,
         name: &str,
