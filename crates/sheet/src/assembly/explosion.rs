@@ -62,7 +62,7 @@ impl ExplosionSettings {
         let Some([low, high]) = whole else { return Vec::new() };
         let size = high - low;
         let gap = self.distance.unwrap_or(size.length() * DEFAULT_DISTANCE).max(0.0);
-        // Rounding could make parts that touch overlap.
+        // With a gap of 0, rounding could make touching parts overlap.
         let gap = gap.max(size.length() * 1e-6);
         let base = largest(boxes);
         let axis = match self.axis {
@@ -143,8 +143,8 @@ impl Direction {
         (part[usize::from(self.sign > 0.0)][self.axis] - self.base) * self.sign
     }
 
-    /// Returns how far the box of a part has to move to be beyond all parts in its column; never
-    /// negative.
+    /// Returns how far the box of a part must move to clear all parts in its column. The result is
+    /// never negative.
     fn clearance(self, part: Corners, shapes: &PartShapes, placed: &[PlacedPart], gap: f64) -> f64 {
         // The margin keeps rounding from deciding whether a part at the border is in the column.
         let column = Column::new(part, self.axis, gap * 1e-3);

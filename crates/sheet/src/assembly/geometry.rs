@@ -19,7 +19,7 @@ const SHAPE_TOLERANCE: f64 = 1e-5;
 /// part.
 const MAX_SIZES: usize = 1000;
 
-/// A size of a mesh content: its linear map, whether it is mirrored, and its class number.
+/// A size at which a mesh occurs: its linear map, whether it is mirrored, and its class number.
 type SizeClass = (DMat3, bool, usize);
 
 /// Assigns the same class number to identical parts.
@@ -81,7 +81,7 @@ impl<'a> PartClasses<'a> {
         }
         let digest = digest_of_mesh(model, part.instance);
         let same_digest = self.contents.entry(digest).or_default();
-        // Digests may collide, so the contents are compared as well.
+        // Digests may collide, so the contents must be compared too.
         let is_equal = |(number, instance): &(usize, MeshInstance)| {
             let other = &self.models[*number].model;
             meshes_are_equal(model, part.instance, other, *instance)

@@ -1,4 +1,4 @@
-//! Part models: a single part, or all parts moved apart with their paths.
+//! Models built from parts: a single part, or all parts moved apart, with their paths.
 
 use super::explosion::ExplosionSettings;
 use super::part::{Part, drawn_primitives, gather_parts};

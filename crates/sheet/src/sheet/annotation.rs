@@ -85,7 +85,7 @@ pub(super) struct ViewAnnotations {
     items: Vec<PlacedShape>,
     /// The requested dimensions, each as a separate group.
     dimensions: Vec<PlacedDimension>,
-    /// The dimensions for which there was no room, by name.
+    /// The names of the dimensions for which there was no room.
     pub(super) left_out: Vec<String>,
     /// The text of missing labels, with the reasons.
     pub(super) labels_left_out: Vec<(String, SheetLabelFault)>,
@@ -184,8 +184,8 @@ impl ViewAnnotations {
         self.push(layer, AnnotationShape::Line(ends));
     }
 
-    /// Adds the first candidate that touches neither another annotation nor the object, or the
-    /// first of all if every candidate touches something.
+    /// Adds the first candidate that touches neither another annotation nor the object. If there is
+    /// no such candidate, adds the first one anyway.
     pub(super) fn push_first_free_text(
         &mut self,
         layer: AnnotationLayer,

@@ -199,7 +199,7 @@ pub(super) fn arrowhead(tip: DVec2, into: DVec2, length: f64) -> [DVec2; 3] {
 mod tests {
     use super::*;
 
-    /// Returns the annotations of an object of this half size at 1:1.
+    /// Returns the overall dimensions of an object with this half size, at 1:1.
     fn annotated(half: DVec2, side: OverallSide, reserved: f64) -> ViewAnnotations {
         let (scale, format) = (DrawingScale::STANDARD[5], LengthFormat::default());
         let settings =

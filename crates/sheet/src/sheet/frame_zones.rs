@@ -1,5 +1,5 @@
-//! Sheet zones (ISO 5457): letters and numbers in a border around the frame, which identify
-//! positions on the sheet, and trimming marks.
+//! Sheet zones (ISO 5457): a border with letters and numbers that identify positions on the sheet.
+//! Trimming marks show where to cut the paper.
 //!
 //! ```text
 //!      │  1  │  2  │  3  │  4  │
@@ -21,7 +21,8 @@ pub enum SheetFrame {
     /// A line with centering marks in the middle of each side.
     #[default]
     Plain,
-    /// In addition, zones with letters and numbers, and trimming marks at the corners of the paper.
+    /// The same line, with zones marked by letters and numbers, and trimming marks at the corners
+    /// of the paper.
     Zones,
 }
 

@@ -38,7 +38,7 @@ pub(super) fn free_rectangles(area: Extent, obstacles: &[Extent]) -> Vec<Extent>
     free
 }
 
-/// The multiple of the space a view needs beyond which more space is no longer better.
+/// The multiple of a view's required space beyond which additional space has no value.
 const AMPLE: f64 = 1.3;
 
 /// Returns the best rectangle for a view of this size. Prefers rectangles with ample space, then

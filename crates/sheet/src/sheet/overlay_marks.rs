@@ -86,7 +86,7 @@ impl ViewPlan {
     }
 }
 
-/// Returns the warning if sheets do not show an overlay, or show it incompletely.
+/// Returns a warning if sheets cannot show an overlay, or cannot show all its characters.
 fn overlay_warning(overlay: &Overlay) -> Option<SheetWarning> {
     let overlay = match overlay {
         Overlay::Grid(_) => "grid",

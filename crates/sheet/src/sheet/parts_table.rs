@@ -25,8 +25,8 @@ const ROW_HEIGHT: f64 = 2.3;
 /// The distance from the border of a cell to its text, in millimeters.
 const INSET: f64 = 1.2;
 
-/// The minimum factor by which the height of text that is wider than its cell is reduced. Text that
-/// is still too wide is truncated.
+/// The minimum scale of text that is reduced in height to fit its cell. Text that is still too wide
+/// is truncated.
 const LEAST_REDUCTION: f64 = 0.7;
 
 /// The distance from a table on a separate page to the frame and to the title block, in
@@ -41,7 +41,7 @@ pub(super) struct PartsTable<'a> {
     letters: f64,
 }
 
-/// Rows of a list below or above a heading.
+/// A column of the table: rows of the list, below or above a heading.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct TableColumn {
     /// The indices of the items.

@@ -14,8 +14,8 @@ use projection::SheetAngle;
 /// The number of sides of the polygon that approximates a circle.
 const CIRCLE_SIDES: u32 = 48;
 
-/// Returns the symbol of a projection angle around a center. The cone is as long as it is high, and
-/// half as high at its narrow end.
+/// Returns the symbol for a projection angle, centered at a point. The cone is as long as it is
+/// high, and half as high at its narrow end.
 ///
 /// The second view shows the narrow end as two circles: in first-angle projection it is to the
 /// right of the cone, and in third-angle projection to the left.

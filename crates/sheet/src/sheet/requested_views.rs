@@ -102,7 +102,7 @@ impl ViewPlan {
 }
 
 impl RequestPlanner<'_> {
-    /// Assigns the views along the axes their positions around the front view.
+    /// Assigns grid positions around the front view to the views along the axes.
     fn assign_places(&mut self) {
         let angle = self.subject.sheet.projection_angle;
         for one in &mut self.views {

@@ -26,8 +26,8 @@ const LONG_SIDE_PIXELS: f64 = 8192.0;
 /// The resolution of flat fills: 300 dots per inch.
 const FILL_DOTS_PER_MILLIMETER: f64 = 300.0 / viewport::MILLIMETERS_PER_INCH;
 
-/// The resolution at which the outlines of gray fills are traced, fine enough that the narrowest
-/// wide line covers them.
+/// The resolution at which the outlines of gray fills are traced. The pixel steps are small enough
+/// that even the narrowest wide line hides them.
 const GRAY_DOTS_PER_MILLIMETER: f64 = 2.0 * FILL_DOTS_PER_MILLIMETER;
 
 /// The factor by which the window is larger than the object, so that nothing touches its border.

@@ -453,8 +453,8 @@ impl PlannedView {
         captions
     }
 
-    /// Returns the annotations like [`annotate`](Self::annotate), with a note of the view's scale,
-    /// which differs from the sheet's.
+    /// Returns the annotations from [`annotate`](Self::annotate), plus a note of the view's scale,
+    /// because it differs from the sheet's.
     pub(super) fn annotate_with_scale(
         &self,
         sheet: &Sheet,

@@ -91,7 +91,7 @@ fn is_there_or_named(page: &SheetPage, prefix: &str, title: &str) -> bool {
     has_view(page, prefix) != page.warnings.contains(&named)
 }
 
-/// The directions that sections retain: no section, along the axes, and perpendicular to one axis.
+/// The directions toward the sides that sections retain, or `None` for no section.
 const SECTIONS: [Option<[f64; 3]>; 10] = [
     None,
     Some([-1.0, 0.0, 0.0]),
