@@ -79,7 +79,7 @@ pub struct Curve {
     pub title: String,
     /// The color.
     pub ink: Ink,
-    /// Whether the curve is dashed, so that one under it shows through.
+    /// Whether the curve is dashed, so that a curve under it shows through.
     pub dashed: bool,
     /// The points of the curve, in units of the axes; clamped to the axis ranges.
     pub points: Vec<[f64; 2]>,

@@ -62,7 +62,7 @@ impl Placement {
         is_traced(region.edges.iter().map(|edge| (edge.ends.map(on_page), edge.winding)))
     }
 
-    /// Returns the area of a hatched region on the page; `None` if it has no hatching.
+    /// Returns the area of a hatched region on the page, or `None` if it has no hatching.
     fn hatch_area(&self, region: &Region) -> Option<HatchArea> {
         let RegionHatching { direction, spacing } = region.hatching?;
         let loops = self.region_loops(region);

@@ -1,4 +1,5 @@
-//! Line density: dense lines are drawn thinner and paler, so that they do not merge into a blot.
+//! Line density: dense lines are drawn thinner and paler, so that they do not merge into a solid
+//! area.
 //!
 //! ```text
 //!   coverage   area of the ink / area of the page, near the lines
@@ -53,7 +54,7 @@ impl Thinning {
         }
         let factor = MAX_COVERAGE / coverage;
         let width = if keeps_width { 1.0 } else { factor.max(MIN_WIDTH_FACTOR) };
-        // The square root, because overlapping lines darken the page by less than their sum.
+        // Uses the square root, because overlapping lines darken the page by less than their sum.
         Self { width, contrast: (factor / width).sqrt().clamp(MIN_CONTRAST, 1.0) }
     }
 }
@@ -67,7 +68,7 @@ fn mean_coverage(drawing: &Drawing, width: f64, selects: impl Fn(&EdgeSegment) -
     for segment in drawing.segments.iter().filter(|segment| selects(segment)) {
         let [from, to] = segment.ends;
         let length = from.distance(to);
-        // Steps of at most half a cell, each counted at its midpoint.
+        // Divides the segment into steps of at most half a cell, each counted at its midpoint.
         let steps = (2.0 * length / CELL_SIDE).ceil().max(1.0);
         for step in 0..steps as usize {
             let middle = from.lerp(to, (step as f64 + 0.5) / steps);

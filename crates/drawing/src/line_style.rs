@@ -1,4 +1,4 @@
-//! Line styles: which edges and hidden lines a line drawing has, and its pens and fills.
+//! Line styles: the edges and hidden lines to draw, and the pens and fills.
 
 use super::face_fill::FillOptions;
 use hidden_line::{DrawOptions, EdgeClass, EdgeClasses, HiddenEdges, SilhouetteMethod};
@@ -39,9 +39,9 @@ pub struct LineStyle {
     pub depth_cue: f64,
     /// The widths of the lines.
     pub line_widths: LineWidths,
-    /// The color of the lines; `None` for a color that contrasts with the paper.
+    /// The color of the lines, or `None` for a color that contrasts with the paper.
     pub ink: Option<Ink>,
-    /// The color of the paper of sheets; `None` for white.
+    /// The color of the paper of sheets, or `None` for white.
     pub paper: Option<Ink>,
     /// The shape of line ends.
     pub cap: Cap,
@@ -51,7 +51,7 @@ pub struct LineStyle {
     pub hatch_spacing: f64,
     /// The fill of faces under the lines.
     pub face_fill: FaceFill,
-    /// The amplitude, in millimeters, with which hand-drawn strokes waver; 0 for exact lines.
+    /// The amplitude, in millimeters, with which hand-drawn strokes waver, or 0 for exact lines.
     pub hand_drawn: f64,
 }
 

@@ -14,8 +14,8 @@ pub struct Subject<'a> {
     pub view_projection: ViewProjection,
     /// The width and height of the image in pixels.
     pub size: [u32; 2],
-    /// The height in pixels of the caption strip at the bottom, which does not show the view; 0 for
-    /// no caption.
+    /// The height in pixels of the caption strip at the bottom, which does not show the view, or 0
+    /// for no caption.
     pub caption_height: u32,
     /// The section planes; each retains the side to which its unit normal points.
     pub sections: &'a [Plane<World>],

@@ -135,7 +135,8 @@ impl PlacedFrame {
         Some(Self { eye, eye_error, right, up, gaze, scale, center, depth })
     }
 
-    /// Returns whether the camera is at its default position: such a matrix contains no camera.
+    /// Returns whether the camera is at its default position, so that the matrix contains no
+    /// camera.
     fn is_unplaced(&self) -> bool {
         let turn = 1e-9 + 4.0 * self.scale[0].error / self.scale[0].value.abs();
         let is_unrotated = self.right.distance(DVec3::X) < turn && self.gaze.z.abs() > 1.0 - turn;

@@ -34,7 +34,7 @@ pub(crate) fn largest_error(rows: &[[Rounded; 3]; 3]) -> f64 {
     rows.as_flattened().iter().fold(0.0, |error: f64, entry| error.max(entry.error))
 }
 
-/// Returns the rows of a 3×3 matrix, made exactly orthonormal; `None` unless they are nearly
+/// Returns the rows of a 3×3 matrix, made exactly orthonormal, or `None` unless they are nearly
 /// orthonormal.
 pub(crate) fn orthonormal_rows(rows: &[[Rounded; 3]; 3]) -> Option<[DVec3; 3]> {
     let unit = rows.iter().all(|[x, y, z]| {

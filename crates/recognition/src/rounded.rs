@@ -52,7 +52,7 @@ impl Rounded {
         self.is(0.0)
     }
 
-    /// Returns the square root; 0 for negative numbers.
+    /// Returns the square root, or 0 for negative numbers.
     pub(crate) fn sqrt(self) -> Self {
         let root = libm::sqrt(self.value.max(0.0));
         self.mapped(root, 0.5 / root.max(f64::MIN_POSITIVE))
@@ -85,7 +85,8 @@ impl Rounded {
     }
 
     /// Returns the number of significant digits of the shortest decimal within the error, or a
-    /// small cost for a simple fraction such as 16/9; 0 for zero, and 8 if neither exists.
+    /// small cost for a simple fraction such as 16/9. Returns 0 for zero, and 8 if there is neither
+    /// a short decimal nor a simple fraction.
     pub(crate) fn digits(self) -> u32 {
         if self.is_zero() || !self.value.is_finite() {
             return 0;

@@ -37,8 +37,8 @@ pub struct Suspicion {
     pub misprint: Misprint,
     /// The confidence in the suspicion.
     pub strength: SuspicionStrength,
-    /// The rows of the matrix that was probably intended; `None` if the missing numbers cannot be
-    /// recovered.
+    /// The rows of the matrix that was probably intended, or `None` if the missing numbers cannot
+    /// be recovered.
     pub remedied: Option<[[f64; 4]; 4]>,
 }
 
@@ -104,7 +104,7 @@ fn is_central(meaning: &MatrixMeaning) -> bool {
     matches!(meaning, MatrixMeaning::Perspective { .. } | MatrixMeaning::ApexMoved { .. })
 }
 
-/// Undoes (24), rows and columns exchanged: the matrix is for row vectors or stored column by
+/// Undoes exchanged rows and columns (24): the matrix is for row vectors or stored column by
 /// column.
 fn undo_transposition(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let transposed = transpose(m);

@@ -22,8 +22,8 @@ pub(super) const WELD_FRACTION: f64 = 1.0 / 4096.0;
 /// The maximum number of cuts of boundary edges per boundary vertex.
 const CUTS_PER_VERTEX: usize = 4;
 
-/// A boundary edge, or a part of one between T-junctions: its ends, the lower index first, and its
-/// half-edge.
+/// A boundary edge, or a part of one between T-junctions: its ends, with the lower index first, and
+/// its half-edge.
 pub(super) type BorderEdge = ([u32; 2], HalfEdge);
 
 /// The weld radius of each vertex: another boundary vertex within this distance may be the same

@@ -25,8 +25,8 @@ pub(super) type SectionLoop = Vec<Point<World>>;
 /// The maximum number of points in a cap: triangulation time is quadratic in it.
 const MAX_CAP_POINTS: usize = 1 << 14;
 
-/// Triangulates the caps of one object's loops; `None` if there are more than [`MAX_CAP_POINTS`]
-/// points.
+/// Triangulates the caps of one object's loops, or returns `None` if there are more than
+/// [`MAX_CAP_POINTS`] points.
 pub(super) fn triangulate_caps(
     loops: Vec<SectionLoop>,
     plane: Plane<World>,

@@ -42,7 +42,7 @@ impl VertexNormal {
         Self(step(folded.x) << 16 | step(folded.y))
     }
 
-    /// Unpacks the unit vector; `None` for [`Self::NONE`].
+    /// Unpacks the unit vector, or returns `None` for [`Self::NONE`].
     pub(crate) fn unpack(self) -> Option<DVec3> {
         let value = |step: u32| (f64::from(step) - 1.0) / STEPS * 2.0 - 1.0;
         let (x, y) = (value(self.0 >> 16), value(self.0 & 0xffff));

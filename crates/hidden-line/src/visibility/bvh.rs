@@ -153,7 +153,7 @@ impl Bvh {
         tree
     }
 
-    /// Returns the index of the root; `None` if there are no items.
+    /// Returns the index of the root, or `None` if there are no items.
     pub(crate) fn root_node(&self) -> Option<u32> {
         (!self.nodes.is_empty()).then_some(0)
     }
@@ -387,7 +387,7 @@ fn partition_by_sah<const BINS: usize>(
 }
 
 /// Returns the last bin on the left side of the cheapest split, found by a sweep from the right and
-/// a sweep from the left; `None` if no box has an area.
+/// a sweep from the left, or `None` if no box has an area.
 fn cheapest_bin_split<const BINS: usize>(bins: &[BoundsOfItems; BINS]) -> Option<usize> {
     let mut right = [0.0; BINS];
     let mut extents = BoundsOfItems::EMPTY;

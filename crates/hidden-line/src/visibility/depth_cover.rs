@@ -68,7 +68,7 @@ pub(crate) struct ScreenBox {
 }
 
 impl ScreenBox {
-    /// Returns the box around points in front of the viewer; `None` if a point has no image.
+    /// Returns the box around points in front of the viewer, or `None` if a point has no image.
     fn around(points: &[DVec3], projector: &Projector) -> Option<Self> {
         let mut all = Self::around_images(&[]);
         for point in points {
@@ -121,7 +121,8 @@ impl DepthCover {
         cover
     }
 
-    /// Creates the cover formed by a crowd of faces together; `None` if they are not a crowd.
+    /// Creates the cover formed by a crowd of faces together, or returns `None` if they are not a
+    /// crowd.
     pub(crate) fn of_crowd<I: Iterator<Item = [DVec3; 3]>>(
         faces: impl Fn() -> I,
         projector: Projector,
@@ -259,7 +260,7 @@ impl DepthCover {
         [[a, middle], [middle, b]].into_iter().all(|half| self.hides_image(half, divisions - 1))
     }
 
-    /// Returns the box around the images of points; `None` if a point has no image.
+    /// Returns the box around the images of points, or `None` if a point has no image.
     pub(crate) fn image_of(&self, points: &[DVec3]) -> Option<ScreenBox> {
         ScreenBox::around(points, &self.projector)
     }

@@ -97,7 +97,7 @@ fn evaluate_linear([start, end]: LinearFunction, s: f64) -> f64 {
 }
 
 impl Occluder {
-    /// Returns the parts of an edge that pass over this face or beside it; `None` if there are
+    /// Returns the parts of an edge that pass over this face or beside it, or `None` if there are
     /// none.
     ///
     /// The cheapest rejection comes first: the whole edge is outside one side. A side that the edge
@@ -131,7 +131,7 @@ impl Occluder {
     }
 
     /// Returns the distances of an edge from the sides, and whether the whole edge is outside one
-    /// of them; `None` if it is outside by more than the width of a crack.
+    /// of them, or `None` if it is outside by more than the width of a crack.
     fn sides_near(
         &self,
         edge: &ProjectedEdge,
@@ -360,7 +360,7 @@ fn side_function([from, to]: [DVec2; 2], edge: &ProjectedEdge) -> LinearFunction
     })
 }
 
-/// Returns the open interval of s in [0, 1] where all functions are positive; `None` if it is
+/// Returns the open interval of s in [0, 1] where all functions are positive, or `None` if it is
 /// empty.
 fn positive_interval(functions: impl Iterator<Item = LinearFunction>) -> Option<[f64; 2]> {
     let mut interval = [0.0_f64, 1.0];

@@ -186,13 +186,13 @@ pub(crate) struct OcclusionScratch {
     cracks: CrackIntervals,
     /// Hierarchy nodes still to visit.
     node_stack: Vec<u32>,
-    /// The number of boxes and triangles that may still be compared with edges; `None` for no
+    /// The number of boxes and triangles that may still be compared with edges, or `None` for no
     /// limit.
     pub(crate) work_left: Option<u64>,
 }
 
 impl OcclusionScratch {
-    /// Takes some of the remaining work; returns `false` if not enough is left.
+    /// Deducts from the remaining work, and returns `false` if not enough is left.
     pub(super) fn take_work(&mut self, count: usize) -> bool {
         let Some(left) = &mut self.work_left else { return true };
         let is_left = *left >= count as u64;

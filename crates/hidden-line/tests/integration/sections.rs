@@ -237,7 +237,7 @@ fn assert_closed_outlines(drawing: &LineDrawing) {
     }
 }
 
-/// This occurs, for example, in spheres whose vertices are on the plane up to rounding.
+/// For example, some vertices of a sphere may be on the plane except for rounding errors.
 #[test]
 fn a_section_through_vertices_nearly_on_the_plane_closes() {
     for nudge in [0.0_f32, 1e-7, -1e-7, 3e-8] {

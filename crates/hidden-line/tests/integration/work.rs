@@ -62,7 +62,7 @@ fn lengths(drawing: &LineDrawing) -> [f64; 2] {
 }
 
 #[test]
-fn a_crowd_is_drawn_nearly_as_without_limits() {
+fn a_crowd_is_drawn_nearly_the_same_as_without_limits() {
     let options = DrawOptions::hidden_edges_retained();
     let exact = draw_model(soup(2000), &DrawOptions { is_unlimited: true, ..options }, 2);
     assert_eq!(exact.warnings, []);

@@ -1,4 +1,4 @@
-//! Matrices as people type them: with entries of different precision, for row vectors, and of
+//! Matrices as people type them: with entries of different precision, for row vectors, or for
 //! projections that the builders do not produce.
 
 use super::formulas::*;

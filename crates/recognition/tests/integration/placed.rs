@@ -49,8 +49,7 @@ fn check_camera(found: &MatrixMeaning, eye: [f64; 3], gaze: [f64; 3], context: &
     assert!((frustum.near() - 1.0).abs() < 1e-3 && (frustum.far() / 50.0 - 1.0).abs() < 1e-2);
 }
 
-/// The camera is level, turned by a yaw, and turned by yaw and pitch; the matrix is exact, rounded,
-/// and for row vectors.
+/// Tests cameras with yaw and pitch. Each matrix is tried as it is, rounded, and for row vectors.
 #[test]
 fn a_camera_of_direct3d_is_upright_in_a_left_handed_world() {
     for (eye, gaze) in [
@@ -106,7 +105,7 @@ fn a_camera_of_vulkan_is_upright_in_a_right_handed_world() {
 
 /// glOrtho(0, w, h, 0, −1, 1), the common matrix for two-dimensional pictures.
 #[test]
-fn a_box_of_pixels_from_the_upper_left_is_opengls() {
+fn a_box_of_pixels_from_the_upper_left_is_read_as_glortho() {
     for [width, height] in [[800.0, 600.0], [1920.0, 1080.0], [640.0, 480.0]] {
         let exact = gl_ortho([0.0, width, height, 0.0], -1.0, 1.0);
         for rows in [exact, rounded(exact, 9), single(exact)] {

@@ -79,8 +79,8 @@ pub(super) struct DimensionSettings {
     pub(super) scale: DrawingScale,
     /// The format of the lengths.
     pub(super) format: LengthFormat,
-    /// The space around the outline for cut lines and their letters, in millimeters; 0 if there are
-    /// none.
+    /// The space around the outline for cut lines and their letters, in millimeters, or 0 if there
+    /// are none.
     pub(super) reserved: f64,
     /// The length that a broken view omits along each axis of the paper, in object millimeters.
     pub(super) left_out: DVec2,
