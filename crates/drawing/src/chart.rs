@@ -120,7 +120,7 @@ impl Chart {
 }
 
 impl Plot<'_> {
-    /// Returns a layer of the chart with these strokes.
+    /// Returns a layer of the chart that contains the given strokes.
     fn plot_layer(&self, id: &str, title: &str, pen: Pen, strokes: Vec<Polyline>) -> Layer {
         let mut layer = Layer::new(format!("{}-{id}", self.chart.id), title, pen);
         layer.groups.push(Group { strokes, ..Group::default() });

@@ -204,7 +204,7 @@ fn squared_distance(point: PixelCorner, [a, b]: [PixelCorner; 2]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Returns an image drawn in letters, one color per letter; dots are transparent.
+    /// Returns an image from rows of letters, one letter per color; dots are transparent.
     fn image(rows: &[&str]) -> Picture {
         let color = |letter: u8| if letter == b'.' { [0; 4] } else { [letter, 0, 0, 255] };
         Picture {

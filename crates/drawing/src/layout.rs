@@ -176,7 +176,7 @@ impl Drawing {
         layers
     }
 
-    /// Returns the outline layer, with one group for the whole or one for each object.
+    /// Returns the outline layer, with one group for the whole drawing or one for each object.
     fn outline_layer(
         &self,
         kinds: &LineKinds<'_>,
@@ -253,7 +253,7 @@ impl Drawing {
 }
 
 impl LineStyle {
-    /// Returns the ink of the style on paper of this color: the style's own ink if it has one,
+    /// Returns the ink of the style on paper of a given color: the style's own ink if it has one,
     /// otherwise an ink that contrasts with the paper, as in [`ink_on_paper`].
     #[must_use]
     pub fn ink_on(&self, paper: Option<Ink>) -> Ink {

@@ -69,7 +69,7 @@ pub enum EdgeSelection {
     Contours,
     /// Only the outline: edges next to the background.
     Silhouette,
-    /// Closed loops around the whole and its holes or, with section planes, around the cuts.
+    /// Closed loops around the whole scene and its holes or, with section planes, around the cuts.
     Outline,
 }
 
@@ -172,7 +172,7 @@ impl LineStyle {
     pub const CONTOURS: Self = Self { edges: EdgeSelection::Contours, ..Self::HIDDEN_REMOVED };
     /// Only the outline.
     pub const SILHOUETTE: Self = Self { edges: EdgeSelection::Silhouette, ..Self::HIDDEN_REMOVED };
-    /// Only closed loops around the whole and its holes.
+    /// Only closed loops around the whole scene and its holes.
     pub const OUTLINE: Self = Self { edges: EdgeSelection::Outline, ..Self::HIDDEN_REMOVED };
     /// Visible, hidden and tangent edges with the line types and widths of ISO 128.
     pub const TECHNICAL: Self = Self {

@@ -133,7 +133,7 @@ fn add_crossings([a, b]: [Point; 2], [c, d]: [Point; 2], crossings: &mut Vec<Poi
         return;
     }
     if from_c == from_d {
-        // Collinear sides: add the ends of each that are on the other.
+        // For collinear sides, adds the ends of each side that are on the other.
         let on = |point: Point, [low, high]: [Point; 2]| low < point && point < high;
         crossings.extend([c, d].into_iter().filter(|&end| from_c == 0 && on(end, [a, b])));
         crossings.extend([a, b].into_iter().filter(|&end| from_c == 0 && on(end, [c, d])));

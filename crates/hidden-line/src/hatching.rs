@@ -325,8 +325,8 @@ fn hatch_triangle(
     }
 }
 
-/// Returns the segment of a triangle where a linear function with these vertex values is zero, or
-/// `None` if it is empty or a point.
+/// Returns the segment of a triangle where a linear function with the given vertex values is zero,
+/// or `None` if it is empty or a point.
 fn zero_segment(vertices: [DVec3; 3], heights: [f64; 3]) -> Option<[DVec3; 2]> {
     let mut ends = [None; 2];
     for k in 0..3 {

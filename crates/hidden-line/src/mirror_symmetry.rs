@@ -30,7 +30,7 @@ pub struct MirrorSymmetry<'a> {
 }
 
 impl<'a> MirrorSymmetry<'a> {
-    /// Prepares a search on a surface with these creases and boundaries.
+    /// Prepares a search on a surface with the given creases and boundaries.
     pub(crate) fn new(surface: &'a WeldedSurface, edges: &'a [FeatureEdge]) -> Self {
         let points = &surface.mesh().points;
         let ends = |edge: &FeatureEdge| edge.ends.map(|end| points[end as usize]);

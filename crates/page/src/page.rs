@@ -223,7 +223,8 @@ impl<W> Page<W> {
         Self { size, title: title.into(), paper, images, layers, warnings }
     }
 
-    /// Converts the warnings to another type, for example to that of a higher-level crate.
+    /// Converts the warnings to another type, for example to the warning type of a higher-level
+    /// crate.
     #[must_use]
     pub fn map_warnings<V>(self, map: impl FnMut(W) -> V) -> Page<V> {
         let Self { size, title, paper, images, layers, warnings } = self;

@@ -49,7 +49,7 @@ struct Remedy {
     remedied: Option<[[f64; 4]; 4]>,
 }
 
-/// Returns the possible misprints in a matrix with these readings, in descending order of
+/// Returns the possible misprints in a matrix with the given readings, in descending order of
 /// certainty.
 pub(crate) fn suspicions_of(m: &Entries<4>, readings: &[MatrixReading]) -> Vec<Suspicion> {
     if !m.as_flattened().iter().all(|entry| is_moderate(entry.value)) {

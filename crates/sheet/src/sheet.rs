@@ -232,8 +232,8 @@ fn in_few_digits(length: f64) -> String {
 }
 
 impl Sheet {
-    /// Returns a technical drawing on this paper, in first-angle projection, with a left view, an
-    /// isometric view and overall dimensions.
+    /// Returns a technical drawing on the given paper, in first-angle projection, with a left view,
+    /// an isometric view and overall dimensions.
     ///
     /// The line group grows with the paper: 0.35 mm up to A5, 0.5 mm up to A2, and 0.7 mm above.
     #[must_use]

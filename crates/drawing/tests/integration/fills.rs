@@ -94,7 +94,7 @@ fn hatch_lines(drawing: &Drawing) -> BTreeMap<u32, (i64, usize)> {
         let step = line.ends[1] - line.ends[0];
         let angle = libm::round(libm::atan(-step.y / step.x).to_degrees()) as i64;
         let (known, count) = lines.entry(line.object).or_insert((angle, 0));
-        assert_eq!(*known, angle, "each object has one hatch direction");
+        assert_eq!(*known, angle, "each object must have a single hatch direction");
         *count += 1;
     }
     lines

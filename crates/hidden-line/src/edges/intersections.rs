@@ -23,8 +23,8 @@ use raster::Workers;
 use std::cell::OnceCell;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Triangles are coplanar if they are nowhere farther than this many touching distances from each
-/// other's planes.
+/// Two triangles are coplanar if no vertex is farther than this many touching distances from the
+/// other triangle's plane.
 const COPLANAR_FACTOR: f64 = 512.0;
 
 /// The minimum sine of the angle between planes that intersect: about one degree.
@@ -292,12 +292,12 @@ struct FaceBorders(Vec<FaceBorder>);
 struct FaceBorder {
     face: u32,
     side: u8,
-    /// The maximum distance at which points count as on the side.
+    /// The maximum distance at which points are considered to be on the side.
     distance: f64,
 }
 
 impl FaceBorders {
-    /// Collects the sides that have a part among these boundary edges.
+    /// Collects the sides that contain at least one of the given boundary edges.
     fn new(borders: &[BorderEdge], weld_radii: &WeldRadii) -> Self {
         let border = |(ends, side): &BorderEdge| FaceBorder {
             face: side.face(),
@@ -392,7 +392,7 @@ impl IntersectionTriangle {
         })
     }
 
-    /// Returns the segment of the triangle where a linear function with these vertex values is
+    /// Returns the segment of the triangle where a linear function with the given vertex values is
     /// zero, or `None` if its sign does not change.
     fn cut_at_zero(&self, heights: [f64; 3]) -> Option<[DVec3; 2]> {
         if heights.iter().all(|height| *height >= 0.0)

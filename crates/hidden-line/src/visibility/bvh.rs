@@ -217,8 +217,8 @@ impl Bvh {
     }
 
     /// Like [`for_each_overlapping`](Self::for_each_overlapping), for every item whose box may be
-    /// within `radius` of a segment. For a long segment, these are far fewer items than those that
-    /// overlap its box.
+    /// within `radius` of a segment. For a long segment, these are far fewer items than the items
+    /// that overlap its box.
     pub(crate) fn for_each_near_segment(
         &self,
         [from, to]: [DVec3; 2],

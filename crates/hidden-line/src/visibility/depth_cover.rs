@@ -103,7 +103,7 @@ impl ScreenBox {
 }
 
 impl DepthCover {
-    /// Creates the cover formed by single faces on a screen of this size in pixels.
+    /// Creates the cover formed by single faces on a screen of the given size in pixels.
     pub(crate) fn new(
         faces: impl Iterator<Item = [DVec3; 3]>,
         projector: Projector,

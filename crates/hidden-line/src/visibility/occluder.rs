@@ -76,7 +76,7 @@ pub(super) struct ScreenOverlap {
 /// The part of an edge along or beside a side of a face, on the screen.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct SideOverlap {
-    /// The index of the side, which runs from this vertex to the next.
+    /// The index of the side, which is also the index of the vertex where the side starts.
     pub(super) side: usize,
     /// The interval of s.
     pub(super) interval: [f64; 2],
@@ -203,8 +203,8 @@ impl OccluderInWorld<'_> {
         interval_behind_plane(plane, edge, interval, tolerance)
     }
 
-    /// Returns the plane through a point, with this normal or its opposite, oriented toward the
-    /// viewer.
+    /// Returns the plane through a point, with the given normal or its opposite, oriented toward
+    /// the viewer.
     fn plane_towards_viewer(&self, normal: DVec3, point: DVec3) -> Option<OrientedPlane> {
         let normal = normal.normalize_or_zero();
         let towards = normal.dot(self.projector.towards_viewer(point));

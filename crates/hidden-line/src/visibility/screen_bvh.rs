@@ -2,8 +2,8 @@
 //!
 //! ```text
 //!   world      nodes ──────────────────► the same nodes, with boxes on the screen
-//!   vertices   projected once each ────► leaves: the triangles that face neither edge-on nor away
-//!                                        from the view volume, clipped where they cross it
+//!   vertices   projected once each ────► leaves: triangles that are neither edge-on nor outside
+//!                                        the view volume, clipped where they cross its border
 //! ```
 //!
 //! The tree is built once for all views of a sheet; each view only computes the new boxes, from the

@@ -51,7 +51,7 @@ fn check_camera(found: &MatrixMeaning, eye: [f64; 3], gaze: [f64; 3], context: &
 
 /// Tests cameras with yaw and pitch. Each matrix is tried as it is, rounded, and for row vectors.
 #[test]
-fn a_camera_of_direct3d_is_upright_in_a_left_handed_world() {
+fn a_direct3d_camera_is_upright_in_a_left_handed_world() {
     for (eye, gaze) in [
         ([0.0, 0.0, -5.0], [0.0, 0.0, 1.0]),
         ([3.0, 0.0, -4.0], [-3.0, 0.0, 4.0]),
@@ -75,7 +75,7 @@ fn a_camera_of_direct3d_is_upright_in_a_left_handed_world() {
 
 /// Vulkan in a right-handed world where y or z is up; OpenGL may look in any direction.
 #[test]
-fn a_camera_of_vulkan_is_upright_in_a_right_handed_world() {
+fn a_vulkan_camera_is_upright_in_a_right_handed_world() {
     let vulkan = |degrees: f64| -> Rows {
         let scale = 1.0 / libm::tan(0.5 * degrees.to_radians());
         let (n, f) = (0.5, 100.0);

@@ -63,8 +63,8 @@ impl<'a> PartClasses<'a> {
         class
     }
 
-    /// Returns the digest of a part's mesh and the index of its content among those with this
-    /// digest.
+    /// Returns the digest of a part's mesh and the index of its content among the contents with
+    /// this digest.
     fn content_of(&mut self, part: &Part) -> (u64, usize) {
         let model = &self.models[part.model].model;
         // Instances of one model share its meshes, so they use the cache entry of the first

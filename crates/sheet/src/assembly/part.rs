@@ -153,7 +153,7 @@ mod tests {
     use model::{Mesh, Node};
 
     #[test]
-    fn names_are_one_line() {
+    fn names_are_written_on_one_line() {
         for (text, line) in [
             ("bolt\r\n M8\t\u{202e}x", "bolt M8 x"),
             ("  ", ""),

@@ -2,7 +2,7 @@
 //! of a grid.
 //!
 //! ```text
-//!        ┆ column ┆              a column is the cross-section of a box, without ends;
+//!        ┆ column ┆              a column is a box extended without limit along an axis;
 //!   ┌────┆───┐    ┆              triangles are clipped to it, so the result is exact
 //!   │    ┆   └────┆──┐ ◄ reach
 //!   └────┆────────┆──┘

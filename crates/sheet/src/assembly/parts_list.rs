@@ -58,7 +58,7 @@ pub struct PartPlace {
 }
 
 impl PartPlace {
-    /// Returns the place of a part in these models.
+    /// Returns the place of a part in the given models.
     fn from_part(part: &Part, models: &[ModelInstance]) -> Self {
         let nodes = &models[part.model].model.nodes;
         let name = |node: usize| {

@@ -3,7 +3,7 @@
 //! ```text
 //!   ┌ ─ ─ ─ ─ ─ ─ ─ ┐
 //!      ◄── 150 ──►         coordinates are in millimeters on paper from the center of the view;
-//!   │  ┌─────────┐  │      a layout must keep the extent of the object and annotations free
+//!   │  ┌─────────┐  │      the layout reserves space for the object and its annotations
 //!      │    +    │
 //!   │  └─────────┘  │
 //!   └ ─ ─ ─ ─ ─ ─ ─ ┘

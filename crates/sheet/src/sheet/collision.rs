@@ -25,7 +25,7 @@ pub(super) fn text_outline(text: &AnnotationText, margin: f64) -> [DVec2; 4] {
     [start, start + across, start + across + height, start + height]
 }
 
-/// Returns the convex parts of a shape, with this margin around text.
+/// Returns the convex parts of a shape, with a margin around text.
 pub(super) fn convex_parts(shape: &AnnotationShape, margin: f64) -> Vec<Vec<DVec2>> {
     match shape {
         AnnotationShape::Line(ends) => vec![ends.to_vec()],

@@ -4,8 +4,8 @@
 //! ```text
 //!      │  1  │  2  │  3  │  4  │
 //!   ───┌─────┴─────┼─────┴─────┐───
-//!    A │           │           │ A     fields of 50 mm, counted from the middle of each
-//!   ───┤           │           ├───    side; the corner fields take the rest
+//!    A │           │           │ A     zones of 50 mm, counted from the middle of each
+//!   ───┤           │           ├───    side; the corner zones take up the rest
 //!    B │           │           │ B
 //! ```
 

@@ -103,7 +103,7 @@ fn overlay_warning(overlay: &Overlay) -> Option<SheetWarning> {
 }
 
 impl ViewOverlays {
-    /// Returns the labels and axes of a view, for models with this diagonal.
+    /// Returns the labels and axes of a view, for models with the given diagonal.
     fn in_view(view: &SheetView, overlays: &[Overlay], diagonal: f64) -> Self {
         let mut own = Self::default();
         for overlay in overlays {

@@ -64,7 +64,7 @@ impl<'a> PartsTable<'a> {
         self.letters * ROW_HEIGHT
     }
 
-    /// Returns the height of this many rows plus the heading, in millimeters.
+    /// Returns the height of the given number of rows plus the heading, in millimeters.
     fn height(&self, rows: usize) -> f64 {
         self.row_height() * (rows + 1) as f64
     }
@@ -159,7 +159,7 @@ impl<'a> PartsTable<'a> {
         Group { strokes, ..Group::default() }
     }
 
-    /// Returns the start and width of each cell in a row of this width, in millimeters.
+    /// Returns the start and width of each cell in a row of the given width, in millimeters.
     fn cells(&self, width: f64) -> Vec<(f64, f64)> {
         let parts: &[f64] = if self.list.has_masses {
             &[0.08, 0.09, 0.42, 0.27, 0.14]

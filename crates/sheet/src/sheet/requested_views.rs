@@ -81,7 +81,7 @@ impl ViewPlan {
             self.warnings = warnings;
             views
         };
-        // Letters continue after those used for the sections.
+        // Letters continue after the letters of the sections.
         let lettered = views.iter().filter_map(|view| view.letter).max();
         let first = lettered.map_or('A', |last| char::from_u32(u32::from(last) + 1).unwrap_or('Z'));
         let mut planner =

@@ -71,7 +71,7 @@ pub(super) struct SheetView {
 }
 
 impl SheetView {
-    /// Creates an uncut view of these points in a named direction.
+    /// Creates an uncut view of the given points in a named direction.
     ///
     /// # Errors
     /// [`SheetError::Empty`] if there are no points, [`SheetError::View`] if they cannot be framed.
@@ -99,7 +99,7 @@ impl SheetView {
         Ok(view.cut_by(vec![plane]))
     }
 
-    /// Creates a view of these points in any direction, with the top of the models up.
+    /// Creates a view of the given points in any direction, with the top of the models up.
     ///
     /// # Errors
     /// See [`frame_points`](Self::frame_points).
@@ -161,7 +161,7 @@ impl SheetView {
         (self.image_of(point) / self.millimeters_per_unit / window + 0.5) * pixels
     }
 
-    /// Returns the view with the object cut by these planes.
+    /// Returns the view with the object cut by the given planes.
     pub(super) fn cut_by(self, sections: Vec<Plane<World>>) -> Self {
         Self { sections, ..self }
     }
@@ -171,7 +171,7 @@ impl SheetView {
         Self { size, ..self.clone() }
     }
 
-    /// Creates the view of these points with a camera of this orientation.
+    /// Creates the view of the given points with a camera of the given orientation.
     fn frame_from(
         points: &[Point<World>],
         name: ViewName,

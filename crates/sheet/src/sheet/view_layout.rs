@@ -102,7 +102,7 @@ impl<'a> ViewCell<'a> {
         Self::with_annotations(planned, scale, planned.annotate(sheet, scale))
     }
 
-    /// Creates the cell of a view with these annotations.
+    /// Creates the cell of a view with the given annotations.
     pub(super) fn with_annotations(
         planned: &'a PlannedView,
         scale: DrawingScale,
@@ -146,7 +146,7 @@ impl<'a> ViewLayout<'a> {
         })
     }
 
-    /// Arranges views like [`arrange_views`](Self::arrange_views), on the best of these sheets,
+    /// Arranges views like [`arrange_views`](Self::arrange_views), on the best of the given sheets,
     /// which differ only in their paper. Also returns the index of the sheet. If sheets are equally
     /// good, the first one is used.
     pub(super) fn arrange_on_best(sheets: &[&Sheet], plan: &'a ViewPlan) -> Option<(usize, Self)> {

@@ -175,8 +175,8 @@ impl<'a> PlanSubject<'a> {
         Ok(PlannedView::plain(view))
     }
 
-    /// Returns the views with these names, with their sections and overall dimensions, and the
-    /// section views.
+    /// Returns the views with the given names, including their sections and overall dimensions, and
+    /// the section views.
     pub(super) fn named_views(
         &self,
         names: &[(NamedView, &ViewPlace)],
