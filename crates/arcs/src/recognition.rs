@@ -119,7 +119,7 @@ fn step_angle(from: DVec2, to: DVec2, circle: Circle) -> f64 {
 fn corner_index(points: &[DVec2], tolerance: f64) -> usize {
     let count = points.len();
     let is_arc = |first: usize| {
-        // Four points are not enough, because the corners of an isosceles trapezoid are also on a
+        // Four points do not suffice, because the corners of an isosceles trapezoid are on a
         // circle.
         let five = [0, 1, 2, 3, 4].map(|k| points[(first + k) % count]);
         fit_circle([five[0], five[2], five[4]])

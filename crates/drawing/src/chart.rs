@@ -105,8 +105,8 @@ struct Plot<'a> {
 }
 
 impl Chart {
-    /// Returns the layers of the chart. Its axes span the rectangle with this upper left corner and
-    /// size, in millimeters; labels are outside it.
+    /// Returns the layers of the chart. Its axes span the rectangle with the given upper left
+    /// corner and size, in millimeters; labels are outside it.
     #[must_use]
     pub fn to_layers(&self, corner: DVec2, size: DVec2) -> Vec<Layer> {
         let plot = Plot { chart: self, corner, size };

@@ -50,8 +50,7 @@ impl FillOptions {
 pub(super) struct KeyLight {
     /// The unit vector toward the light, in world space.
     direction: DVec3,
-    /// Gives the direction to the viewer, so that both sides of a face are lit like the visible
-    /// side.
+    /// Provides the direction to the viewer, so both sides of a face are lit like the visible side.
     projector: Projector,
 }
 

@@ -1,5 +1,4 @@
-//! Line density: dense lines are drawn thinner and paler, so that they do not merge into a solid
-//! area.
+//! Line density: draws dense lines thinner and paler so that they do not merge into a solid area.
 //!
 //! ```text
 //!   coverage   area of the ink / area of the page, near the lines
@@ -37,8 +36,7 @@ impl Thinning {
     /// No thinning.
     pub(crate) const NONE: Self = Self { width: 1.0, contrast: 1.0 };
 
-    /// Computes the thinning of the selected segments of a drawing, drawn with this width in
-    /// pixels.
+    /// Computes the thinning of selected segments of a drawing with the given line width in pixels.
     ///
     /// With `keeps_width`, lines only become paler; this is for drawings whose widths follow a
     /// standard.
@@ -59,8 +57,8 @@ impl Thinning {
     }
 }
 
-/// Returns the mean coverage around the points of the selected segments; more than 1 where lines
-/// overlap.
+/// Returns the mean coverage around the points of the selected segments. It may exceed 1, because
+/// lines may overlap.
 fn mean_coverage(drawing: &Drawing, width: f64, selects: impl Fn(&EdgeSegment) -> bool) -> f64 {
     let [columns, rows] =
         [drawing.size.x, drawing.size.y].map(|side| (side / CELL_SIDE).ceil().max(1.0));

@@ -11,8 +11,8 @@
 //! practice: visible lines before hidden lines (ISO 128-2). Adjacent segments of one object and
 //! layer are merged.
 //!
-//! Segments are grouped by their supporting line, rounded to a grid; sorting dominates the cost,
-//! O(n log n).
+//! Segments are grouped by their supporting line, rounded to a grid; sorting takes O(n log n) and
+//! dominates the cost.
 
 use glam::DVec2;
 use std::collections::BTreeMap;

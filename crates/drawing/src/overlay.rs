@@ -292,7 +292,7 @@ fn overlay_layer(id: &str, title: &str, ink: Ink) -> Layer {
     Layer::new(id, title, Pen { cap: Cap::Butt, ..Pen::solid(LINE_WIDTH, ink) })
 }
 
-/// Returns an arrowhead with this tip, pointing in the direction `along`.
+/// Returns an arrowhead with its tip at `tip`, pointing in the direction `along`.
 fn arrowhead(tip: DVec2, along: DVec2) -> Option<Polyline> {
     let across = DVec2::new(-along.y, along.x) * (ARROW_LENGTH / 6.0);
     let base = tip - along * ARROW_LENGTH;

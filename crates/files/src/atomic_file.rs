@@ -49,8 +49,8 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     file.finish()
 }
 
-/// A temporary file that replaces the target next to it when finished. Dropping it earlier removes
-/// it.
+/// A temporary file next to its target, which it replaces when finished. Dropping it earlier
+/// removes it.
 #[derive(Debug)]
 pub struct AtomicFile {
     /// The file to replace when the temporary file is finished.

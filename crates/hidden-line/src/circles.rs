@@ -39,8 +39,7 @@ struct ChainPlane {
 }
 
 impl ChainPlane {
-    /// Finds the plane that contains all points within a tolerance, or returns `None` if no plane
-    /// does.
+    /// Finds the plane that contains all points within a tolerance, if there is such a plane.
     ///
     /// Its normal is the area vector of the chain, normalized (Newell's method).
     fn of_chain(chain: &FeatureChain, tolerance: f64) -> Option<Self> {

@@ -55,7 +55,7 @@ impl DrawnFaces {
 /// optionally with a monitor. The number does not change the drawing.
 ///
 /// # Errors
-/// If the image has no pixels, or if the mesh instances have too many triangles.
+/// Fails if the image has no pixels, or if the mesh instances have too many triangles.
 pub fn draw<'a>(
     subject: &Subject<'_>,
     options: &DrawOptions,

@@ -62,8 +62,7 @@ impl<'a> MirrorSymmetry<'a> {
         point
     }
 
-    /// Returns the point at the middle of the extent along a direction, or `None` if there are no
-    /// faces.
+    /// Returns the midpoint of the extent along a direction, or `None` if there are no faces.
     fn middle_along(&self, direction: DVec3) -> Option<DVec3> {
         let points = self.vertices.iter().map(|&vertex| self.surface.position(vertex));
         let by_height = |a: &DVec3, b: &DVec3| a.dot(direction).total_cmp(&b.dot(direction));

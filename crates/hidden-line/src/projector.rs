@@ -44,7 +44,7 @@ impl Projector {
         self.0.world_to_screen().raw()
     }
 
-    /// Returns the vector from a point to the eye; a unit vector in a parallel view.
+    /// Returns the vector from a point to the eye, or a unit vector in a parallel view.
     #[must_use]
     #[inline]
     pub fn towards_viewer(&self, from: DVec3) -> DVec3 {

@@ -28,7 +28,7 @@ impl Subject<'_> {
     /// Returns the viewport of the whole image.
     ///
     /// # Errors
-    /// If the image has no pixels, or too many.
+    /// Fails if the image has no pixels, or too many.
     pub fn viewport(&self) -> Result<Viewport, ViewportError> {
         Viewport::image_for(self.size[0], self.size[1], ClipRange::CHAPTER)
     }

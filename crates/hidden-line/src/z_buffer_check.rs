@@ -60,7 +60,7 @@ impl Agreement {
 /// length is normal, because the image resolves a quarter of a pixel.
 ///
 /// # Errors
-/// If the image has no pixels or exceeds the maximum z-buffer size.
+/// Fails if the image has no pixels or exceeds the maximum z-buffer size.
 pub fn verify_with_z_buffer(
     subject: &Subject<'_>,
     segments: &[EdgeSegment],

@@ -92,8 +92,7 @@ impl<W> Page<W> {
             .then(|| self.to_picture_region([width, height], whole))
     }
 
-    /// Renders a region of a picture of the page. `size` is the size of the whole picture in
-    /// pixels.
+    /// Renders a region of a picture of `size` pixels.
     #[must_use]
     pub fn to_picture_region<C: Channel>(&self, size: [u32; 2], region: PixelRect) -> Picture<C> {
         let [width, height] = size.map(f64::from);
@@ -113,8 +112,7 @@ impl<W> Page<W> {
     }
 }
 
-/// Draws layers of a page at 96 pixels per inch over a region of a picture. `size` is the size of
-/// the whole picture in pixels.
+/// Draws layers of a page at 96 pixels per inch over a region of a picture of `size` pixels.
 pub fn draw_layers_over<C: Channel>(
     picture: &mut Picture<C>,
     size: [u32; 2],

@@ -49,7 +49,8 @@ pub(crate) fn read_placed_perspective(m: &Entries<4>, found: &mut Vec<MatrixRead
     }
 }
 
-/// Whether a length computed from three rounded numbers may be `expected`, within twice its error.
+/// Whether a length computed from three rounded numbers may equal `expected`, within twice its
+/// error.
 fn is_close(number: Rounded, expected: f64) -> bool {
     number.is_within(expected, number.error + 1e-12)
 }

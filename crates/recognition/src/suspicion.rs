@@ -104,8 +104,7 @@ fn is_central(meaning: &MatrixMeaning) -> bool {
     matches!(meaning, MatrixMeaning::Perspective { .. } | MatrixMeaning::ApexMoved { .. })
 }
 
-/// Undoes exchanged rows and columns (24): the matrix is for row vectors or stored column by
-/// column.
+/// Undoes exchanged rows and columns (24): the matrix is for row vectors, or stored by columns.
 fn undo_transposition(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let transposed = transpose(m);
     let symmetric = (0..4).all(|i| (0..4).all(|j| m[i][j].equals(m[j][i])));

@@ -454,7 +454,7 @@ impl Sheet {
         core::iter::once(frame).chain(zones).collect()
     }
 
-    /// Returns the line group, or 0.5 mm if the style has other widths.
+    /// Returns the line group, or the 0.5 mm group if the style has other widths.
     fn line_width_group(&self) -> IsoLineGroup {
         match self.style.line_widths {
             LineWidths::Iso(group) => group,

@@ -92,8 +92,7 @@ pub(super) fn traced_border(sides: &[Side]) -> Vec<[Point; 2]> {
     border
 }
 
-/// Returns whether each cell of a row is covered, that is, has a positive winding number at its
-/// center.
+/// Returns for each cell of a row whether the winding number at its center is positive.
 fn covered_cells(grid: &Grid, active: &[&Side], row: i64) -> Vec<bool> {
     let mut changes = vec![0_i32; grid.columns + 1];
     for (ends, sign) in active {

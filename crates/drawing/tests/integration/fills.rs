@@ -70,7 +70,7 @@ fn cuts_stay_blank_under_grays() {
     let scene = TestScene { sections: vec![cut], ..drawing_scene(model, oblique_view()) };
     let page = page(&scene, FaceFill::Gray);
     let gray = page.layers.iter().find(|layer| layer.id.starts_with("gray-")).unwrap();
-    // The right and upper sides of the remaining half; the cut has an area of 4 units.
+    // The fills cover the right and upper sides of the remaining half, but not the cut.
     let actual = area(&gray.groups[0].fills);
     assert!((actual - 2.0).abs() < 0.02, "{actual}");
 }

@@ -207,8 +207,8 @@ impl<'a> FacesInSight<'a> {
 }
 
 impl IntersectionSearch<'_> {
-    /// Returns the faces in a leaf, without its fillings; with a box, only the faces whose boxes
-    /// overlap it.
+    /// Returns the faces in a leaf, without its fillings. If a box is passed, returns only the
+    /// faces whose boxes overlap it.
     fn leaf_triangles(
         &self,
         items: &[u32],
@@ -249,7 +249,7 @@ impl IntersectionSearch<'_> {
         }
     }
 
-    /// Intersects two triangles; the one with the smaller box comes first.
+    /// Intersects two triangles, starting with the triangle that has the smaller box.
     fn intersect_pair(
         &self,
         a: &IntersectionTriangle,

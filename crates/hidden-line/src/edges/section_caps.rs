@@ -52,7 +52,7 @@ fn group_holes_with_outlines(
     let mut outer: Vec<(f64, Vec<SectionLoop>)> = Vec::new();
     let mut holes: Vec<SectionLoop> = Vec::new();
     let areas: Vec<f64> = loops.iter().map(|points| axes.doubled_area(points)).collect();
-    // A negative total area: the surface is inside out, for example because of a reflection.
+    // A negative total area means that the surface is inside out, for example after a reflection.
     let sign = if areas.iter().sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
     for (points, area) in loops.into_iter().zip(areas) {
         if area * sign < 0.0 {

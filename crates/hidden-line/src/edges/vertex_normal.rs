@@ -15,7 +15,7 @@ use glam::{DVec2, DVec3};
 pub(crate) struct VertexNormal(u32);
 
 /// Normals agree if the cosine of the angle between them is greater than this. It corresponds to
-/// 2.5°, because files store normals with few bits.
+/// 2.5°, which is so large because files store normals with few bits.
 const AGREEMENT_COSINE: f64 = 0.999;
 
 /// The largest 16-bit value that encodes a normal; 0 means no normal.

@@ -238,7 +238,7 @@ impl Bvh {
     }
 
     /// Calls `visit` with the items of a leaf and `true`, then with the items of each later leaf
-    /// whose box overlaps its box; stops after `most` items and returns `false`.
+    /// with an overlapping box; stops after `most` items and returns `false`.
     ///
     /// Calling it for every leaf visits each pair of overlapping leaves once.
     pub(crate) fn for_each_later_leaf(

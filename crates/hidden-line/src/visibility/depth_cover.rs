@@ -23,8 +23,8 @@ use glam::{DVec2, DVec3};
 
 /// The number of cells along the longer side of the screen.
 const CELLS: f64 = 256.0;
-/// The number of pixels by which a face shrinks on all sides: more than any tolerance of the exact
-/// tests.
+/// The number of pixels by which a face is shrunk on all sides: more than any tolerance of the
+/// exact tests.
 const MARGIN: f64 = 1.0 / 64.0;
 /// The number of touching distances by which a face is moved back, so that anything that touches it
 /// does not count as hidden.
@@ -121,8 +121,7 @@ impl DepthCover {
         cover
     }
 
-    /// Creates the cover formed by a crowd of faces together, or returns `None` if they are not a
-    /// crowd.
+    /// Creates the cover formed by a crowd of faces, or returns `None` if they are not a crowd.
     pub(crate) fn of_crowd<I: Iterator<Item = [DVec3; 3]>>(
         faces: impl Fn() -> I,
         projector: Projector,

@@ -97,8 +97,7 @@ fn evaluate_linear([start, end]: LinearFunction, s: f64) -> f64 {
 }
 
 impl Occluder {
-    /// Returns the parts of an edge that pass over this face or beside it, or `None` if there are
-    /// none.
+    /// Returns the parts of an edge that pass over this face or beside it, or `None` if none do.
     ///
     /// The cheapest rejection comes first: the whole edge is outside one side. A side that the edge
     /// runs along does not bound the interior interval, because only rounding decides on which side
@@ -131,7 +130,7 @@ impl Occluder {
     }
 
     /// Returns the distances of an edge from the sides, and whether the whole edge is outside one
-    /// of them, or `None` if it is outside by more than the width of a crack.
+    /// of them. Returns `None` if it is outside by more than the width of a crack.
     fn sides_near(
         &self,
         edge: &ProjectedEdge,

@@ -36,7 +36,7 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
-    /// Returns tolerances for a scene whose bounding box has this diagonal.
+    /// Returns tolerances for a scene whose bounding box has the given diagonal.
     ///
     /// `world` is diagonal / 2²¹: a few units in the last place of coordinates stored in single
     /// precision. `screen` is 1/4096 pixel and `min_part` is 1/1024 pixel, far below the resolution
@@ -186,8 +186,7 @@ pub(crate) struct OcclusionScratch {
     cracks: CrackIntervals,
     /// Hierarchy nodes still to visit.
     node_stack: Vec<u32>,
-    /// The number of boxes and triangles that may still be compared with edges, or `None` for no
-    /// limit.
+    /// The remaining number of boxes and triangles to compare with edges, or `None` for no limit.
     pub(crate) work_left: Option<u64>,
 }
 

@@ -7,12 +7,12 @@
 //! ```
 //!
 //! The tree is built once for all views of a sheet; each view only computes the new boxes, from the
-//! leaves up. Points close in space are close on the screen, so these boxes are as good as in a
-//! tree built on the screen, and boxes at different depths remain separate.
+//! leaves up. Points close in space are close on the screen, so the tree is as good as a tree built
+//! on the screen, and boxes at different depths remain separate.
 //!
 //! A triangle is stored here as an index and a box; its vertices are in the mesh. When an edge
 //! meets a leaf, most of the leaf's triangles are beside or behind the edge. Their boxes, which are
-//! consecutive in memory, prove this without a lookup of the vertices.
+//! consecutive in memory, prove this without looking up the vertices.
 
 use super::bounds::{greatest, least, round_down, round_up};
 use super::bvh::{Bvh, NodeContents};

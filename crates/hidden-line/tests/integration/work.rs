@@ -6,7 +6,7 @@ use homog::Affine;
 use model::{Model, ModelInstance};
 use std::sync::Arc;
 
-/// Returns sheets behind each other, each a little larger than the previous one. All borders are
+/// Returns sheets one behind another, each a little larger than the previous one. All borders are
 /// visible, and each border passes over the boxes of all nearer sheets.
 fn stack_of_sheets(count: u16) -> Model {
     let sheet = |at: u16| {

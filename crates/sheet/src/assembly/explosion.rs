@@ -23,8 +23,8 @@ pub(crate) const MAX_EXPLODED_PARTS: usize = 5000;
 /// The distance between parts, as a fraction of the assembly's diagonal.
 const DEFAULT_DISTANCE: f64 = 0.08;
 
-/// The maximum distance between the center of an aligned part and the line, as a fraction of that
-/// diagonal.
+/// The maximum distance between the center of an aligned part and the axis through the base's
+/// center, as a fraction of that diagonal.
 const IN_LINE: f64 = 0.01;
 
 /// The direction in which the parts of an exploded view move.
@@ -49,8 +49,8 @@ pub enum ExplosionAxis {
 pub struct ExplosionSettings {
     /// The direction of the moves.
     pub axis: ExplosionAxis,
-    /// The minimum distance between parts in this direction, in scene units, not negative; `None`
-    /// means 0.08 of the assembly's diagonal.
+    /// The minimum distance between parts along that direction, in scene units, not negative;
+    /// `None` means 0.08 of the assembly's diagonal.
     pub distance: Option<f64>,
 }
 

@@ -15,8 +15,7 @@ use std::sync::Arc;
 /// parts.
 const SHAPE_TOLERANCE: f64 = 1e-5;
 
-/// The maximum number of sizes of a mesh that are compared. Each further size counts as a separate
-/// part.
+/// The maximum number of compared sizes of a mesh. Each further size counts as a separate part.
 const MAX_SIZES: usize = 1000;
 
 /// A size at which a mesh occurs: its linear map, whether it is mirrored, and its class number.

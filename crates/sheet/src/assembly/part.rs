@@ -47,8 +47,7 @@ pub(crate) fn drawn_primitives(
     primitives.filter(|one| one.topology != Topology::Points && one.item_count() > 0)
 }
 
-/// Returns the bounding box of the vertices used by lines and triangles, or `None` if there are
-/// none.
+/// Returns the bounding box of all vertices of lines and triangles, or `None` if there are none.
 fn part_bounds(placed: &ModelInstance, instance: MeshInstance) -> Option<Bounds<World>> {
     let mut extent: Option<[DVec3; 2]> = None;
     for primitive in drawn_primitives(&placed.model, instance) {

@@ -7,9 +7,9 @@
 //!     └─┘
 //! ```
 //!
-//! A part blocks another if it is ahead of it in more than a few cells of a grid across the axis.
-//! Parts are removed one by one as soon as nothing blocks them, on the preferred side if possible.
-//! If no part can leave, the part that is blocked least leaves first.
+//! A part blocks another part by being ahead of it in more than a few cells of a grid across the
+//! axis. Parts are removed one by one as soon as nothing blocks them, on the preferred side if
+//! possible. If no part can leave, the part that is blocked least leaves first.
 
 use super::part_shapes::{CellHeights, Column, PartShapes};
 use std::collections::VecDeque;
@@ -116,7 +116,7 @@ impl Hindrances {
         Some(found)
     }
 
-    /// Removes a part and returns the parts that only it still blocked, with the sides that are now
+    /// Removes a part and returns the parts that only it still blocked, each with the side now
     /// free.
     fn take_away(&mut self, part: usize) -> Vec<(usize, AxisSide)> {
         let mut freed = Vec::new();

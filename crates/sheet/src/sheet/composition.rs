@@ -45,7 +45,7 @@ pub(super) enum Composition {
     /// Strips, each cut by a plane.
     Stepped {
         planes: Vec<Plane<World>>,
-        /// A point on each border between strips; there is one border fewer than planes.
+        /// A point on each border between strips; there is one fewer border than there are planes.
         borders: Vec<Point<World>>,
         /// The direction in which the strips follow each other.
         along: Vector<World>,

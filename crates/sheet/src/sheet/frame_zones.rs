@@ -21,8 +21,8 @@ pub enum SheetFrame {
     /// A line with centering marks in the middle of each side.
     #[default]
     Plain,
-    /// The same line, with zones marked by letters and numbers, and trimming marks at the corners
-    /// of the paper.
+    /// A line with centering marks, zones with letters and numbers, and trimming marks at the
+    /// corners of the paper.
     Zones,
 }
 

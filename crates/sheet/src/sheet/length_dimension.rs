@@ -315,8 +315,7 @@ impl LengthRow<'_> {
     /// Adds a number that is wider than its space, farther out at the end of a leader.
     fn add_raised_text(&self, candidate: &mut Candidate, at: usize, text: &str) -> Option<()> {
         let middle = (self.line_point(at) + self.line_point(at + 1)) * 0.5;
-        // If the text's up direction points away from the part, its baseline is the edge closer to
-        // the part.
+        // If the text's up direction points away from the part, its baseline faces the part.
         let own_height = if self.outward.dot(self.above()) > 0.0 { 0.0 } else { 1.0 };
         for level in 0..TEXT_LEVELS {
             let raised = 0.9 + 1.5 * f64::from(level);

@@ -30,7 +30,7 @@ pub(super) fn projection_symbol(angle: SheetAngle, middle: DVec2, height: f64) -
     let cone = middle - DVec2::new(side * height * 0.8, 0.0);
     let eye = middle + DVec2::new(side * height * 0.8, 0.0);
     let cone_point = |x: f64, y: f64| cone + DVec2::new(x, y) * half;
-    // In both angles, the narrow end of the cone is on its left.
+    // In both projection angles, the narrow end of the cone is on its left.
     let corners = [
         cone_point(-1.0, -0.5),
         cone_point(1.0, -1.0),

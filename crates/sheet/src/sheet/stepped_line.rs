@@ -14,8 +14,7 @@ use super::view_plan::PlannedView;
 use glam::DVec2;
 use homog::{Point, Vector, World};
 
-/// The maximum number of corners. More are likely a mistake, and each pair requires an additional
-/// drawing.
+/// The maximum number of corners. More are likely a mistake, and each pair needs another drawing.
 const MAX_CORNERS: usize = 32;
 
 /// The line of a stepped section in space.

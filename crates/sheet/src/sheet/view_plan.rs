@@ -64,7 +64,7 @@ pub(super) struct ViewPlan {
     pub(super) principal: [PlannedView; 3],
     /// The views without a fixed position: sections, then the axonometric view.
     pub(super) free: Vec<PlannedView>,
-    /// All views that are placed instead, if the sheet has requests.
+    /// If the sheet has requests, all its views, which replace the views above.
     pub(super) requested: Vec<PlannedView>,
     /// Warnings about sections that are not shown as requested.
     pub(super) warnings: Vec<SheetWarning>,

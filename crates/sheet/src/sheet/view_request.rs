@@ -55,8 +55,7 @@ pub enum ViewRequest {
         center: Point<World>,
         /// The radius of the circle, in scene units.
         radius: f64,
-        /// The position, scale and caption. By default, the scale is two to five times the scale of
-        /// the view.
+        /// The position, scale and caption. By default, the scale is two to five times the view's.
         place: ViewPlace,
     },
     /// A section along parallel planes joined by steps (ISO 128-3, 5.4).

@@ -173,9 +173,8 @@ impl PartImage {
         }
     }
 
-    /// Returns the distance of each pixel to another part, the paper or the border, in steps to
-    /// neighboring pixels, including diagonal neighbors. Uses two passes, from above and from
-    /// below.
+    /// Returns each pixel's distance to another part, the paper or the border, in steps between
+    /// neighbors, including diagonals. Uses two passes, from above and from below.
     fn distances_to_others(&self) -> Vec<u32> {
         let (width, height) = (self.width as isize, self.height as isize);
         let mut distances = vec![u32::MAX / 2; self.parts.len()];
