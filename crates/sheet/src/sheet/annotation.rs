@@ -334,21 +334,21 @@ impl AnnotationLayer {
         let lettering = || Pen::solid(letters * 0.1, ink);
         let (id, title, pen) = match self {
             Self::CenterLines => ("center-lines", "center lines", chain()),
-            Self::CutLines => ("cut-lines", "lines of cuts", chain()),
-            Self::CutEnds => ("cut-ends", "ends of cuts", butt(group.wide_width())),
-            Self::CutArrows => ("cut-arrows", "arrows of cuts", butt(group.lettering_width())),
+            Self::CutLines => ("cut-lines", "cutting lines", chain()),
+            Self::CutEnds => ("cut-ends", "cutting line ends", butt(group.wide_width())),
+            Self::CutArrows => ("cut-arrows", "cutting line arrows", butt(group.lettering_width())),
             Self::CutNames => {
-                ("cut-names", "names of cuts", Pen::solid(group.lettering_width(), ink))
+                ("cut-names", "section names", Pen::solid(group.lettering_width(), ink))
             }
             Self::Dimensions => ("dimensions", "dimensions", butt(group.narrow_width())),
             Self::DimensionTexts => ("dimensions-text", "dimensions: text", lettering()),
-            Self::ScaleNotes => ("other-scale", "scales of single views", lettering()),
+            Self::ScaleNotes => ("other-scale", "view scales", lettering()),
             Self::SymmetryLines => ("symmetry-lines", "lines of symmetry", chain()),
-            Self::ViewMarks => ("view-marks", "marks of other views", butt(group.narrow_width())),
+            Self::ViewMarks => ("view-marks", "view marks", butt(group.narrow_width())),
             Self::OverlayLines => ("overlay-lines", "overlays", butt(group.narrow_width())),
             Self::OverlayTexts => ("overlay-text", "overlays: text", lettering()),
             Self::ViewNames => {
-                ("view-names", "names of views", Pen::solid(group.lettering_width(), ink))
+                ("view-names", "view names", Pen::solid(group.lettering_width(), ink))
             }
         };
         Layer::new(id, title, pen)

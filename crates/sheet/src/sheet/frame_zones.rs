@@ -70,7 +70,7 @@ pub(super) fn zone_layers(paper: Paper, ink: Ink) -> Vec<Layer> {
     let butt = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(LINE_WIDTH, ink) };
     let mut lines = Layer::new("frame-zones", "frame: zones", butt.clone());
     let mut names =
-        Layer::new("frame-zone-names", "frame: names of zones", Pen::solid(LINE_WIDTH, ink));
+        Layer::new("frame-zone-names", "frame: zone names", Pen::solid(LINE_WIDTH, ink));
     let outer = rectangle_from_size(
         frame.x() - ZONE_BORDER,
         frame.y() - ZONE_BORDER,

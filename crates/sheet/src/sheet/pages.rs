@@ -251,7 +251,7 @@ impl<'a> DrawnAssembly<'a> {
         let mut layers = paths.to_layers(style, placement, "path-", self.ink);
         let width = self.sheet.line_width_group().narrow_width();
         for layer in &mut layers {
-            "paths of parts".clone_into(&mut layer.title);
+            "part paths".clone_into(&mut layer.title);
             layer.pen = LineType::LongDashedDotted.to_pen(width, self.ink, Cap::Butt, Join::Miter);
         }
         layers
