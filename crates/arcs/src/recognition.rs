@@ -119,7 +119,8 @@ fn step_angle(from: DVec2, to: DVec2, circle: Circle) -> f64 {
 fn corner_index(points: &[DVec2], tolerance: f64) -> usize {
     let count = points.len();
     let is_arc = |first: usize| {
-        // Four points are not enough: those of an isosceles trapezoid are on a circle too.
+        // Four points do not suffice, because the corners of an isosceles trapezoid are on a
+        // circle.
         let five = [0, 1, 2, 3, 4].map(|k| points[(first + k) % count]);
         fit_circle([five[0], five[2], five[4]])
             .is_some_and(|circle| has_arc_steps(&five, circle, tolerance))
@@ -174,7 +175,7 @@ fn longest_arc(points: &[DVec2], tolerance: f64) -> Option<(usize, f64)> {
     Some((best.0 - 1, best.1))
 }
 
-/// Returns the circle through a run of points; `None` if they do not form an arc.
+/// Returns the circle through a run of points, or `None` if they do not form an arc.
 fn circle_of(points: &[DVec2], tolerance: f64) -> Option<Circle> {
     let last = points.len() - 1;
     let circle = fit_circle([points[0], points[last / 2], points[last]])
@@ -209,7 +210,7 @@ fn has_arc_steps(points: &[DVec2], circle: Circle, tolerance: f64) -> bool {
         && inner.iter().all(|angle| longest - angle * sense <= slack || is_short(angle * sense))
 }
 
-/// Returns the circle through three points; `None` if they are collinear.
+/// Returns the circle through three points, or `None` if they are collinear.
 fn fit_circle([a, b, c]: [DVec2; 3]) -> Option<Circle> {
     let (b, c) = (b - a, c - a);
     let doubled = 2.0 * b.perp_dot(c);

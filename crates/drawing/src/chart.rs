@@ -79,7 +79,7 @@ pub struct Curve {
     pub title: String,
     /// The color.
     pub ink: Ink,
-    /// Whether the curve is dashed, so that one under it shows through.
+    /// Whether the curve is dashed, so that a curve under it shows through.
     pub dashed: bool,
     /// The points of the curve, in units of the axes; clamped to the axis ranges.
     pub points: Vec<[f64; 2]>,
@@ -105,8 +105,8 @@ struct Plot<'a> {
 }
 
 impl Chart {
-    /// Returns the layers of the chart. Its axes span the rectangle with this upper left corner and
-    /// size, in millimeters; labels are outside it.
+    /// Returns the layers of the chart. Its axes span the rectangle with the given upper left
+    /// corner and size, in millimeters; labels are outside it.
     #[must_use]
     pub fn to_layers(&self, corner: DVec2, size: DVec2) -> Vec<Layer> {
         let plot = Plot { chart: self, corner, size };
@@ -120,7 +120,7 @@ impl Chart {
 }
 
 impl Plot<'_> {
-    /// Returns a layer of the chart with these strokes.
+    /// Returns a layer of the chart that contains the given strokes.
     fn plot_layer(&self, id: &str, title: &str, pen: Pen, strokes: Vec<Polyline>) -> Layer {
         let mut layer = Layer::new(format!("{}-{id}", self.chart.id), title, pen);
         layer.groups.push(Group { strokes, ..Group::default() });

@@ -8,7 +8,7 @@
 //!   └──┴──┴──┘        ●──●
 //! ```
 //!
-//! The border between two junctions is straightened in one fixed direction, for both of its areas.
+//! The border between two junctions is straightened in the same direction for both of its areas.
 //! Neighbors therefore share the same border, without gaps or overlaps.
 
 use picture::Picture;
@@ -63,7 +63,7 @@ struct ColorImage<'a> {
 }
 
 impl ColorImage<'_> {
-    /// Returns the color of a pixel; `None` if it is transparent or outside.
+    /// Returns the color of a pixel, or `None` if it is transparent or outside.
     fn color(&self, [x, y]: PixelCorner) -> Option<[u8; 4]> {
         let is_inside = (0..self.size[0]).contains(&x) && (0..self.size[1]).contains(&y);
         let color = is_inside.then(|| self.picture.pixels[(y * self.size[0] + x) as usize]);
@@ -204,7 +204,7 @@ fn squared_distance(point: PixelCorner, [a, b]: [PixelCorner; 2]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Returns an image drawn in letters, one color per letter; dots are transparent.
+    /// Returns an image from rows of letters, one letter per color; dots are transparent.
     fn image(rows: &[&str]) -> Picture {
         let color = |letter: u8| if letter == b'.' { [0; 4] } else { [letter, 0, 0, 255] };
         Picture {

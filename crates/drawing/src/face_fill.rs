@@ -50,8 +50,7 @@ impl FillOptions {
 pub(super) struct KeyLight {
     /// The unit vector toward the light, in world space.
     direction: DVec3,
-    /// Gives the direction to the viewer, so that both sides of a face are lit like the visible
-    /// side.
+    /// Provides the direction to the viewer, so both sides of a face are lit like the visible side.
     projector: Projector,
 }
 
@@ -90,13 +89,13 @@ impl KeyLight {
     }
 }
 
-/// Renders each face in one flat color, or in the gray of its material. Returns an image of the
-/// visible parts, transparent elsewhere, or `None` for other fills or if there are no faces.
+/// Renders each face in one flat color, or in the gray of its material. Returns an image that is
+/// transparent outside the visible parts. Returns `None` for other fills, or if there are no faces.
 ///
 /// Each face comes with the linear color of its material, or `None` for section caps, which are
 /// white or, in gray fills, blank. The image has `fill.scale` pixels per drawing pixel, but no side
-/// is longer than [`MAX_FILL_SIDE`]. It is not filtered, because its pixels are finer than those of
-/// the output.
+/// is longer than [`MAX_FILL_SIDE`]. It is not filtered, because its pixels are finer than the
+/// output pixels.
 ///
 /// # Errors
 /// Fails if the image has no valid viewport or there are more faces than ids.

@@ -62,7 +62,7 @@ impl Placement {
         is_traced(region.edges.iter().map(|edge| (edge.ends.map(on_page), edge.winding)))
     }
 
-    /// Returns the area of a hatched region on the page; `None` if it has no hatching.
+    /// Returns the area of a hatched region on the page, or `None` if it has no hatching.
     fn hatch_area(&self, region: &Region) -> Option<HatchArea> {
         let RegionHatching { direction, spacing } = region.hatching?;
         let loops = self.region_loops(region);
@@ -176,7 +176,7 @@ impl Drawing {
         layers
     }
 
-    /// Returns the outline layer, with one group for the whole or one for each object.
+    /// Returns the outline layer, with one group for the whole drawing or one for each object.
     fn outline_layer(
         &self,
         kinds: &LineKinds<'_>,
@@ -253,7 +253,7 @@ impl Drawing {
 }
 
 impl LineStyle {
-    /// Returns the ink of the style on paper of this color: the style's own ink if it has one,
+    /// Returns the ink of the style on paper of a given color: the style's own ink if it has one,
     /// otherwise an ink that contrasts with the paper, as in [`ink_on_paper`].
     #[must_use]
     pub fn ink_on(&self, paper: Option<Ink>) -> Ink {

@@ -1,4 +1,4 @@
-//! Line density: dense lines are drawn thinner and paler, so that they do not merge into a blot.
+//! Line density: draws dense lines thinner and paler so that they do not merge into a solid area.
 //!
 //! ```text
 //!   coverage   area of the ink / area of the page, near the lines
@@ -36,8 +36,7 @@ impl Thinning {
     /// No thinning.
     pub(crate) const NONE: Self = Self { width: 1.0, contrast: 1.0 };
 
-    /// Computes the thinning of the selected segments of a drawing, drawn with this width in
-    /// pixels.
+    /// Computes the thinning of selected segments of a drawing with the given line width in pixels.
     ///
     /// With `keeps_width`, lines only become paler; this is for drawings whose widths follow a
     /// standard.
@@ -53,13 +52,13 @@ impl Thinning {
         }
         let factor = MAX_COVERAGE / coverage;
         let width = if keeps_width { 1.0 } else { factor.max(MIN_WIDTH_FACTOR) };
-        // The square root, because overlapping lines darken the page by less than their sum.
+        // Uses the square root, because overlapping lines darken the page by less than their sum.
         Self { width, contrast: (factor / width).sqrt().clamp(MIN_CONTRAST, 1.0) }
     }
 }
 
-/// Returns the mean coverage around the points of the selected segments; more than 1 where lines
-/// overlap.
+/// Returns the mean coverage around the points of the selected segments. It may exceed 1, because
+/// lines may overlap.
 fn mean_coverage(drawing: &Drawing, width: f64, selects: impl Fn(&EdgeSegment) -> bool) -> f64 {
     let [columns, rows] =
         [drawing.size.x, drawing.size.y].map(|side| (side / CELL_SIDE).ceil().max(1.0));
@@ -67,7 +66,7 @@ fn mean_coverage(drawing: &Drawing, width: f64, selects: impl Fn(&EdgeSegment) -
     for segment in drawing.segments.iter().filter(|segment| selects(segment)) {
         let [from, to] = segment.ends;
         let length = from.distance(to);
-        // Steps of at most half a cell, each counted at its midpoint.
+        // Divides the segment into steps of at most half a cell, each counted at its midpoint.
         let steps = (2.0 * length / CELL_SIDE).ceil().max(1.0);
         for step in 0..steps as usize {
             let middle = from.lerp(to, (step as f64 + 0.5) / steps);

@@ -1,4 +1,4 @@
-//! Line styles: which edges and hidden lines a line drawing has, and its pens and fills.
+//! Line styles: the edges and hidden lines to draw, and the pens and fills.
 
 use super::face_fill::FillOptions;
 use hidden_line::{DrawOptions, EdgeClass, EdgeClasses, HiddenEdges, SilhouetteMethod};
@@ -39,9 +39,9 @@ pub struct LineStyle {
     pub depth_cue: f64,
     /// The widths of the lines.
     pub line_widths: LineWidths,
-    /// The color of the lines; `None` for a color that contrasts with the paper.
+    /// The color of the lines, or `None` for a color that contrasts with the paper.
     pub ink: Option<Ink>,
-    /// The color of the paper of sheets; `None` for white.
+    /// The color of the paper of sheets, or `None` for white.
     pub paper: Option<Ink>,
     /// The shape of line ends.
     pub cap: Cap,
@@ -51,7 +51,7 @@ pub struct LineStyle {
     pub hatch_spacing: f64,
     /// The fill of faces under the lines.
     pub face_fill: FaceFill,
-    /// The amplitude, in millimeters, with which hand-drawn strokes waver; 0 for exact lines.
+    /// The amplitude, in millimeters, with which hand-drawn strokes waver, or 0 for exact lines.
     pub hand_drawn: f64,
 }
 
@@ -69,7 +69,7 @@ pub enum EdgeSelection {
     Contours,
     /// Only the outline: edges next to the background.
     Silhouette,
-    /// Closed loops around the whole and its holes or, with section planes, around the cuts.
+    /// Closed loops around the whole scene and its holes or, with section planes, around the cuts.
     Outline,
 }
 
@@ -172,7 +172,7 @@ impl LineStyle {
     pub const CONTOURS: Self = Self { edges: EdgeSelection::Contours, ..Self::HIDDEN_REMOVED };
     /// Only the outline.
     pub const SILHOUETTE: Self = Self { edges: EdgeSelection::Silhouette, ..Self::HIDDEN_REMOVED };
-    /// Only closed loops around the whole and its holes.
+    /// Only closed loops around the whole scene and its holes.
     pub const OUTLINE: Self = Self { edges: EdgeSelection::Outline, ..Self::HIDDEN_REMOVED };
     /// Visible, hidden and tangent edges with the line types and widths of ISO 128.
     pub const TECHNICAL: Self = Self {

@@ -11,8 +11,8 @@
 //! practice: visible lines before hidden lines (ISO 128-2). Adjacent segments of one object and
 //! layer are merged.
 //!
-//! Segments are grouped by their supporting line, rounded to a grid; sorting dominates the cost,
-//! O(n log n).
+//! Segments are grouped by their supporting line, rounded to a grid; sorting takes O(n log n) and
+//! dominates the cost.
 
 use glam::DVec2;
 use std::collections::BTreeMap;
@@ -95,7 +95,7 @@ fn bounds_center(segments: &[PageSegment]) -> DVec2 {
     if middle.is_finite() { middle } else { DVec2::ZERO }
 }
 
-/// Returns the supporting line of a segment and its interval on that line; `None` if the segment
+/// Returns the supporting line of a segment and its interval on that line, or `None` if the segment
 /// has no clear direction.
 ///
 /// Lines are written as y = slope · x + height, with x and y swapped if they are steep, so that

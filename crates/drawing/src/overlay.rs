@@ -116,7 +116,7 @@ struct DividedStrokes {
 const DEPTH_RANGE_FACTOR: f64 = 1000.0;
 
 impl PicturePlane {
-    /// Creates the picture plane of a subject; `None` if there are no models.
+    /// Creates the picture plane of a subject, or returns `None` if there are no models.
     fn new(subject: &Subject<'_>, hidden: HiddenLines) -> Option<Self> {
         let bounds = Bounds::from_points(model::world_points(subject.models))?;
         let size = DVec2::from(subject.size.map(f64::from));
@@ -292,14 +292,14 @@ fn overlay_layer(id: &str, title: &str, ink: Ink) -> Layer {
     Layer::new(id, title, Pen { cap: Cap::Butt, ..Pen::solid(LINE_WIDTH, ink) })
 }
 
-/// Returns an arrowhead with this tip, pointing in the direction `along`.
+/// Returns an arrowhead with its tip at `tip`, pointing in the direction `along`.
 fn arrowhead(tip: DVec2, along: DVec2) -> Option<Polyline> {
     let across = DVec2::new(-along.y, along.x) * (ARROW_LENGTH / 6.0);
     let base = tip - along * ARROW_LENGTH;
     Polyline::through_points(&[tip, base + across, base - across], true)
 }
 
-/// Returns the largest length of the form 1, 2 or 5 · 10ⁿ that is at most `most`; 1 if `most` is
+/// Returns the largest length of the form 1, 2 or 5 · 10ⁿ that is at most `most`, or 1 if `most` is
 /// not positive.
 fn round_grid_step(most: f64) -> f64 {
     if !(most > 0.0 && most.is_finite()) {

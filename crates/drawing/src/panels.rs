@@ -72,7 +72,7 @@ pub struct Panels {
 }
 
 impl Panel {
-    /// Returns the panel with these notes.
+    /// Returns the panel with the given notes.
     #[must_use]
     pub fn with_notes(self, notes: Vec<String>) -> Self {
         Self { notes, ..self }

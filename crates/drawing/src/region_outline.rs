@@ -52,8 +52,8 @@ pub(super) fn outline_loops(sides: impl Iterator<Item = ([PagePoint; 2], i32)>) 
                     break;
                 }
                 sides = snap_to_points(&sides, crossings);
-                // There are as many pieces as crossings, so the limit grows too, and the pieces
-                // rarely cross.
+                // The limit grows with the number of pieces, and pieces rarely cross, so it is not
+                // exceeded here.
                 crossings = find_crossings(&sides).unwrap_or_default();
             }
             border_sides(&sides)
@@ -72,7 +72,7 @@ pub(super) fn is_traced(sides: impl Iterator<Item = ([PagePoint; 2], i32)>) -> b
 
 /// An outline is exact up to this many crossings, plus [`CROSSINGS_PER_SIDE`] for each side.
 const ANY_CROSSINGS: usize = 1 << 14;
-/// See [`ANY_CROSSINGS`].
+/// The additional crossings for each side; see [`ANY_CROSSINGS`].
 const CROSSINGS_PER_SIDE: usize = 8;
 
 /// Orients sides from the smaller to the larger end, adds up equal sides, and drops sides that
@@ -133,7 +133,7 @@ fn add_crossings([a, b]: [Point; 2], [c, d]: [Point; 2], crossings: &mut Vec<Poi
         return;
     }
     if from_c == from_d {
-        // Collinear sides: add the ends of each that are on the other.
+        // For collinear sides, adds the ends of each side that are on the other.
         let on = |point: Point, [low, high]: [Point; 2]| low < point && point < high;
         crossings.extend([c, d].into_iter().filter(|&end| from_c == 0 && on(end, [a, b])));
         crossings.extend([a, b].into_iter().filter(|&end| from_c == 0 && on(end, [c, d])));
@@ -389,7 +389,7 @@ fn is_clockwise_before(center: Point, from: Point, a: Point, b: Point) -> bool {
     half(a).cmp(&half(b)).then_with(|| cross(center, a, b).cmp(&0)).is_lt()
 }
 
-/// Converts a loop to a polyline without collinear points; `None` if it is only a gap.
+/// Converts a loop to a polyline without collinear points, or returns `None` if it is only a gap.
 fn finish_loop(points: &[Point]) -> Option<Polyline> {
     let count = points.len();
     let at = |index: usize| points[index % count];
@@ -400,7 +400,7 @@ fn finish_loop(points: &[Point]) -> Option<Polyline> {
     let length = |(a, b): (&Point, &Point)| libm::hypot((b[0] - a[0]) as f64, (b[1] - a[1]) as f64);
     let perimeter: f64 = pairs().map(length).sum();
     let is_area = kept.len() >= 3 && doubled.unsigned_abs() as f64 > MIN_WIDTH * perimeter;
-    // The page points were i32, and crossings are between page points.
+    // This cannot overflow: page points are `i32`, and crossings are between page points.
     let narrow = |point: &Point| point.map(|c| c as i32);
     is_area.then(|| Polyline { points: kept.iter().map(narrow).collect(), closed: true })
 }

@@ -5,7 +5,7 @@
 //!         ╰─────·──     a stub of a crease or a crossing next to longer lines
 //! ```
 //!
-//! On scanned surfaces single facets can be silhouettes, and rounding errors make touching bodies
+//! On scanned surfaces, single facets can be silhouettes, and rounding errors make touching bodies
 //! intersect in places. An edge that bridges a gap between longer lines stays, however short.
 
 use super::polyline_chain::PolylineChain;
@@ -20,7 +20,7 @@ pub(super) const LEAST_CHAIN_LENGTH: f64 = 0.3;
 pub(super) enum ShortChains {
     /// Drawn.
     Retained,
-    /// Removed if all lines connected with them are shorter in total.
+    /// Removed if the total length of the chains connected to them is also below this length.
     RemovedAlone(f64),
     /// Also removed if they branch off a longer line and have a free end.
     RemovedAtEnds(f64),
@@ -105,7 +105,7 @@ impl Contacts {
         here.map(|(_, other)| *other).filter(move |other| *other != chain)
     }
 
-    /// Returns, for each chain, the total length of all chains connected with it by common points.
+    /// Returns, for each chain, the total length of all chains connected to it by common points.
     fn connected_lengths(&self, lengths: &[f64]) -> Vec<f64> {
         // Union-find: each chain points to an earlier connected chain, or to itself.
         let mut parents: Vec<usize> = (0..self.count).collect();

@@ -5,7 +5,7 @@ use core::cmp::Ordering;
 use core::fmt;
 use files::visible_excerpt;
 
-/// A part that a drawing lacks, or that is not exact. The `Display` text gives the reason.
+/// A part of a drawing that is missing or not exact. The `Display` text gives the reason.
 ///
 /// Warnings are sorted and reported once each, so their order does not depend on threads: sections
 /// first, then labels, then work limits. They are part of the result and are not logged: the caller

@@ -49,13 +49,13 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     file.finish()
 }
 
-/// A temporary file that replaces the target next to it when finished. Dropping it earlier removes
-/// it.
+/// A temporary file next to its target, which it replaces when finished. Dropping it earlier
+/// removes it.
 #[derive(Debug)]
 pub struct AtomicFile {
     /// The file to replace when the temporary file is finished.
     target_path: PathBuf,
-    /// The temporary file: the target's name with the process id and `.part`.
+    /// The temporary file: the target's name followed by the process id and `.part`.
     partial_path: PathBuf,
     file: File,
     /// Whether the file was renamed, so that it must not be removed.

@@ -114,8 +114,8 @@ fn foreign_files(folder: &Path) -> Vec<ForeignFile> {
 }
 
 impl ForeignFile {
-    /// Parses a name such as `a.png.4711.part`; `None` for other names and for this process's
-    /// files.
+    /// Parses a name such as `a.png.4711.part`. Returns `None` for other names and for this
+    /// process's files.
     fn from_name(name: OsString) -> Option<Self> {
         let name = name.into_string().ok()?;
         let (target, process) = name.strip_suffix(".part")?.rsplit_once('.')?;

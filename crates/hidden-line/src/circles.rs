@@ -39,7 +39,7 @@ struct ChainPlane {
 }
 
 impl ChainPlane {
-    /// Finds the plane that contains all points within a tolerance; `None` if no plane does.
+    /// Finds the plane that contains all points within a tolerance, if there is such a plane.
     ///
     /// Its normal is the area vector of the chain, normalized (Newell's method).
     fn of_chain(chain: &FeatureChain, tolerance: f64) -> Option<Self> {
@@ -97,7 +97,7 @@ pub(crate) fn circles_of_chain(chain: &FeatureChain, tolerance: f64) -> Vec<Worl
     }
 }
 
-/// Returns the circle and the angle of an arc of a polyline; `None` for a straight side.
+/// Returns the circle and the angle of an arc of a polyline, or `None` for a straight side.
 fn arc_of_bulge(from: &ArcVertex, to: DVec2) -> Option<(Circle, f64)> {
     let (bulge, chord) = (from.bulge, to - from.point);
     if bulge == 0.0 {

@@ -45,17 +45,17 @@ use viewport::Viewport;
 pub struct DrawnFaces(WeldedSurface);
 
 impl DrawnFaces {
-    /// Returns each face with the linear color of its material; `None` for section caps.
+    /// Returns each face with the linear color of its material, or `None` for section caps.
     pub fn colored(&self) -> impl Iterator<Item = ([DVec3; 3], Option<[f32; 3]>)> {
         self.0.faces_with_colors()
     }
 }
 
 /// Draws the edges of a subject with hidden-line removal. `workers` is the number of threads,
-/// optionally with a monitor; it does not change the drawing.
+/// optionally with a monitor. The number does not change the drawing.
 ///
 /// # Errors
-/// If the image has no pixels, or if the mesh instances have too many triangles.
+/// Fails if the image has no pixels, or if the mesh instances have too many triangles.
 pub fn draw<'a>(
     subject: &Subject<'_>,
     options: &DrawOptions,
@@ -138,7 +138,8 @@ struct Candidates<'a> {
     edges: Vec<CandidateEdge>,
     /// Whether intersections are missing.
     is_cut_off: bool,
-    /// The depths behind which the surface hides everything; `None` if hidden lines do not matter.
+    /// The depths behind which the surface hides everything, or `None` if hidden lines do not
+    /// matter.
     cover: Option<ViewCover>,
     /// The hatch lines of faces other than section caps.
     face_hatching: FaceHatching<'a>,
@@ -286,7 +287,7 @@ const COMPARISONS_PER_FACE: u64 = 4096;
 /// Edges are independent of each other, so this step runs on several threads.
 struct EdgeDivider<'a> {
     projector: Projector,
-    /// The faces of the surface; `None` if visibility is ignored.
+    /// The faces of the surface, or `None` if visibility is ignored.
     occluders: Option<MeshOccluders<Occluding<'a>>>,
     /// The cover of a crowd of faces.
     crowd: Option<&'a DepthCover>,
@@ -330,8 +331,8 @@ impl<'a> EdgeDivider<'a> {
     /// Returns the segments of all edges, in the order of the edges, and `false` if the work limit
     /// was reached.
     ///
-    /// The work limit is divided among groups of edges that do not depend on the number of threads,
-    /// so the skipped parts do not depend on it either.
+    /// The work limit is divided among groups of edges. The groups do not depend on the number of
+    /// threads, so neither do the skipped parts.
     fn divide_edges(
         &self,
         edges: &[CandidateEdge],

@@ -20,7 +20,7 @@ use raster::{Frame, Opacity, Samples, ScreenVertex};
 /// `size` is the size of the viewport of `projector`.
 ///
 /// # Errors
-/// If the image is too large, or if there are more triangles than ids.
+/// Fails if the image is too large, or if there are more triangles than ids.
 pub fn rasterize_faces(
     triangles: impl Iterator<Item = [DVec3; 3]>,
     projector: &Projector,

@@ -61,7 +61,7 @@ impl<'a> FeaturePicker<'a> {
         })
     }
 
-    /// Returns the bounding box of the objects; `None` if they have no vertices.
+    /// Returns the bounding box of the objects, or `None` if they have no vertices.
     #[must_use]
     pub fn bounds(&self, objects: Option<&[u32]>) -> Option<Bounds<World>> {
         let points = self.vertices(objects).map(Point::from_raw);

@@ -166,8 +166,8 @@ impl Hatching {
         hatching
     }
 
-    /// Hatches the faces of each part with a pattern different from its neighbors', the same for
-    /// every viewer. Parts whose boxes touch are neighbors.
+    /// Hatches the faces of each part with a pattern that differs from its neighbors' and is the
+    /// same for every viewer. Parts whose boxes touch are neighbors.
     pub(super) fn hatch_parts(
         faces: impl Iterator<Item = ([DVec3; 3], u32)>,
         boxes: BTreeMap<u32, Aabb>,
@@ -325,8 +325,8 @@ fn hatch_triangle(
     }
 }
 
-/// Returns the segment of a triangle where a linear function with these vertex values is zero;
-/// `None` if it is empty or a point.
+/// Returns the segment of a triangle where a linear function with the given vertex values is zero,
+/// or `None` if it is empty or a point.
 fn zero_segment(vertices: [DVec3; 3], heights: [f64; 3]) -> Option<[DVec3; 2]> {
     let mut ends = [None; 2];
     for k in 0..3 {
@@ -335,8 +335,8 @@ fn zero_segment(vertices: [DVec3; 3], heights: [f64; 3]) -> Option<[DVec3; 2]> {
         if (one.1 < 0.0) == (other.1 < 0.0) {
             continue;
         }
-        // The orientation is the same for both faces at the side, so neighbors meet at identical
-        // bits.
+        // The orientation is the same for both faces at the side, so neighbors meet at
+        // bit-identical points.
         let rises = one.0.to_array() < other.0.to_array();
         let ((p, from), (q, to)) = if rises { (one, other) } else { (other, one) };
         let position = p + (q - p) * (from / (from - to));

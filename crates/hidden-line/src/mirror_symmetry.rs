@@ -3,7 +3,7 @@
 //! Models are symmetric about a plane if the mirror image of each vertex is on a face, and the
 //! mirror images of the ends and the middle of each feature edge are on feature edges. The
 //! triangulation of flat faces therefore does not matter. Round faces must be divided
-//! symmetrically, or as finely as the tolerance.
+//! symmetrically, or so finely that the difference is within the tolerance.
 
 use crate::circles::CIRCLE_TOLERANCE;
 use crate::edges::{FeatureEdge, WeldedSurface};
@@ -12,7 +12,7 @@ use crate::visibility::{Aabb, Bvh, TriangleMesh};
 use glam::DVec3;
 use homog::{Point, Vector, World};
 
-/// The difference from 1 up to which the cosine between two directions makes them the same.
+/// Two directions are the same if the cosine of the angle between them is within this much of 1.
 const SAME_COSINE: f64 = 1e-12;
 
 /// A search for planes of symmetry.
@@ -30,7 +30,7 @@ pub struct MirrorSymmetry<'a> {
 }
 
 impl<'a> MirrorSymmetry<'a> {
-    /// Prepares a search on a surface with these creases and boundaries.
+    /// Prepares a search on a surface with the given creases and boundaries.
     pub(crate) fn new(surface: &'a WeldedSurface, edges: &'a [FeatureEdge]) -> Self {
         let points = &surface.mesh().points;
         let ends = |edge: &FeatureEdge| edge.ends.map(|end| points[end as usize]);
@@ -48,7 +48,7 @@ impl<'a> MirrorSymmetry<'a> {
         }
     }
 
-    /// Returns a point of the plane of symmetry perpendicular to a unit vector; `None` if the
+    /// Returns a point of the plane of symmetry perpendicular to a unit vector, or `None` if the
     /// models have no such plane.
     pub fn plane_across(&mut self, direction: Vector<World>) -> Option<Point<World>> {
         let direction = direction.raw();
@@ -62,7 +62,7 @@ impl<'a> MirrorSymmetry<'a> {
         point
     }
 
-    /// Returns the point at the middle of the extent along a direction; `None` without faces.
+    /// Returns the midpoint of the extent along a direction, or `None` if there are no faces.
     fn middle_along(&self, direction: DVec3) -> Option<DVec3> {
         let points = self.vertices.iter().map(|&vertex| self.surface.position(vertex));
         let by_height = |a: &DVec3, b: &DVec3| a.dot(direction).total_cmp(&b.dot(direction));

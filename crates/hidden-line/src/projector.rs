@@ -32,8 +32,8 @@ impl Projector {
         self.0.project_to_clip(Point::from_raw(point))
     }
 
-    /// Applies the perspective divide and the viewport transform; `None` if the image is not
-    /// finite.
+    /// Applies the perspective divide and the viewport transform, or returns `None` if the image is
+    /// not finite.
     pub(super) fn project_to_screen(&self, point: HPoint<Clip>) -> Option<DVec3> {
         let screen = self.0.project_to_screen(point)?.raw();
         screen.is_finite().then_some(screen)
@@ -44,7 +44,7 @@ impl Projector {
         self.0.world_to_screen().raw()
     }
 
-    /// Returns the vector from a point to the eye; a unit vector in a parallel view.
+    /// Returns the vector from a point to the eye, or a unit vector in a parallel view.
     #[must_use]
     #[inline]
     pub fn towards_viewer(&self, from: DVec3) -> DVec3 {

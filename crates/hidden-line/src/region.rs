@@ -29,7 +29,7 @@ pub struct RegionEdge {
 /// An area on the screen covered by at least one face.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Region {
-    /// The object that the area belongs to; `None` for the whole scene.
+    /// The object that the area belongs to, or `None` for the whole scene.
     pub object: Option<u32>,
     /// The sides of the covering faces that did not cancel; other faces may cover some of them.
     pub edges: Vec<RegionEdge>,

@@ -6,7 +6,7 @@ use clip::cut_triangle;
 use homog::{Bounds, Plane, Point, World};
 use model::ModelInstance;
 
-/// Distances up to this fraction of the models' diagonal count as touching.
+/// The distance, as a fraction of the models' diagonal, up to which points are considered to touch.
 const TOUCHING: f64 = 1e-9;
 
 /// Returns the points of the model parts that section planes retain: the corners of the remaining

@@ -14,8 +14,8 @@ pub struct Subject<'a> {
     pub view_projection: ViewProjection,
     /// The width and height of the image in pixels.
     pub size: [u32; 2],
-    /// The height in pixels of the caption strip at the bottom, which does not show the view; 0 for
-    /// no caption.
+    /// The height in pixels of the caption strip at the bottom, which does not show the view, or 0
+    /// for no caption.
     pub caption_height: u32,
     /// The section planes; each retains the side to which its unit normal points.
     pub sections: &'a [Plane<World>],
@@ -28,7 +28,7 @@ impl Subject<'_> {
     /// Returns the viewport of the whole image.
     ///
     /// # Errors
-    /// If the image has no pixels, or too many.
+    /// Fails if the image has no pixels, or too many.
     pub fn viewport(&self) -> Result<Viewport, ViewportError> {
         Viewport::image_for(self.size[0], self.size[1], ClipRange::CHAPTER)
     }

@@ -60,7 +60,7 @@ impl Agreement {
 /// length is normal, because the image resolves a quarter of a pixel.
 ///
 /// # Errors
-/// If the image has no pixels or exceeds the maximum z-buffer size.
+/// Fails if the image has no pixels or exceeds the maximum z-buffer size.
 pub fn verify_with_z_buffer(
     subject: &Subject<'_>,
     segments: &[EdgeSegment],
@@ -188,8 +188,8 @@ impl ZBufferImage {
         normal.dot(at) - offset < -self.touching
     }
 
-    /// Returns the ids of the pixels within [`SEARCH_RADIUS`] of a point of the drawing; `None` for
-    /// pixels without a face.
+    /// Returns the ids of the pixels within [`SEARCH_RADIUS`] of a point of the drawing, or `None`
+    /// for pixels without a face.
     fn face_ids_near(&self, point: DVec2) -> impl Iterator<Item = Option<u32>> {
         let at = point * self.scale;
         let radius = SEARCH_RADIUS * self.scale;

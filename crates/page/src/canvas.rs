@@ -79,9 +79,9 @@ pub fn pixmap_to_picture(pixmap: &Pixmap) -> Picture {
 }
 
 impl<W> Page<W> {
-    /// Renders the page as a picture of this size in pixels, stretched to fill it, and transparent
-    /// if the page has no paper. For a resolution in dots per inch, multiply each side of the page
-    /// in millimeters by the resolution and divide by 25.4.
+    /// Renders the page as a picture of the given size in pixels, stretched to fill it, and
+    /// transparent if the page has no paper. For a resolution in dots per inch, multiply each side
+    /// of the page in millimeters by the resolution and divide by 25.4.
     ///
     /// Returns `None` if the picture would have no pixels or a side longer than 16,384.
     #[must_use]
@@ -92,7 +92,7 @@ impl<W> Page<W> {
             .then(|| self.to_picture_region([width, height], whole))
     }
 
-    /// Renders a region of the picture of this size in pixels.
+    /// Renders a region of a picture of `size` pixels.
     #[must_use]
     pub fn to_picture_region<C: Channel>(&self, size: [u32; 2], region: PixelRect) -> Picture<C> {
         let [width, height] = size.map(f64::from);
@@ -112,7 +112,7 @@ impl<W> Page<W> {
     }
 }
 
-/// Draws layers of a page at 96 pixels per inch over a region of a picture of this size.
+/// Draws layers of a page at 96 pixels per inch over a region of a picture of `size` pixels.
 pub fn draw_layers_over<C: Channel>(
     picture: &mut Picture<C>,
     size: [u32; 2],

@@ -64,7 +64,7 @@ pub enum DxfUnit {
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct DxfOptions {
-    /// The unit of the drawing; `None` if unknown.
+    /// The unit of the drawing, or `None` if unknown.
     pub unit: Option<DxfUnit>,
     /// Drawing units per millimeter of the page, greater than 0.
     pub units_per_millimeter: f64,

@@ -53,13 +53,13 @@ impl<'a> Label<'a> {
         Self { text, anchor, height, direction: DVec2::X, align: TextAlign::Start }
     }
 
-    /// Returns the label with this alignment.
+    /// Returns the label with the given alignment.
     #[must_use]
     pub const fn with_align(self, align: TextAlign) -> Self {
         Self { align, ..self }
     }
 
-    /// Returns the label with this direction.
+    /// Returns the label with the given direction.
     #[must_use]
     pub const fn with_direction(self, along: DVec2) -> Self {
         Self { direction: along, ..self }
@@ -86,7 +86,7 @@ impl<'a> Label<'a> {
         Pen::solid(self.height / CAP_HEIGHT, ink)
     }
 
-    /// Returns the start of the baseline for text of this width.
+    /// Returns the start of the baseline for text of the given width.
     fn start(&self, width: f64) -> DVec2 {
         let part = match self.align {
             TextAlign::Start => 0.0,

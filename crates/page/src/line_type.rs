@@ -82,8 +82,8 @@ pub enum LineType {
 }
 
 impl LineType {
-    /// Returns the alternating lengths of dashes and gaps, in millimeters, for a line of this
-    /// width; empty for a continuous line.
+    /// Returns the alternating lengths of dashes and gaps, in millimeters, for a line of the given
+    /// width. The result is empty for a continuous line.
     #[must_use]
     pub fn dash_pattern(self, width: f64) -> Vec<f64> {
         let in_widths: &[f64] = match self {

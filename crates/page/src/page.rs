@@ -36,7 +36,7 @@ pub struct Page<W = Infallible> {
     pub size: DVec2,
     /// The title of the document.
     pub title: String,
-    /// The color of the paper; `None` for a transparent background.
+    /// The color of the paper, or `None` for a transparent background.
     pub paper: Option<Ink>,
     /// Images on the paper, under the lines.
     pub images: Vec<PlacedImage>,
@@ -81,7 +81,7 @@ pub struct Group {
     pub title: String,
     /// Lines.
     pub strokes: Vec<Polyline>,
-    /// Areas filled with the pen's ink, such as arrowheads, by the even-odd rule.
+    /// Areas, such as arrowheads, filled with the pen's ink by the even-odd rule.
     pub fills: Vec<Polyline>,
     /// The meaning of the strokes, for formats that support text or hatches.
     pub content: GroupContent,
@@ -223,7 +223,8 @@ impl<W> Page<W> {
         Self { size, title: title.into(), paper, images, layers, warnings }
     }
 
-    /// Converts the warnings to another type, for example to that of a higher-level crate.
+    /// Converts the warnings to another type, for example to the warning type of a higher-level
+    /// crate.
     #[must_use]
     pub fn map_warnings<V>(self, map: impl FnMut(W) -> V) -> Page<V> {
         let Self { size, title, paper, images, layers, warnings } = self;

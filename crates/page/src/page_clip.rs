@@ -127,8 +127,8 @@ fn point_on([from, to]: [PagePoint; 2], t: f64) -> PagePoint {
     })
 }
 
-/// Returns the interval of fractions in which a side is inside the rectangle (Liang–Barsky); `None`
-/// if it is outside. If `closed`, the border counts as inside.
+/// Returns the interval of fractions in which a side is inside the rectangle (Liang–Barsky), or
+/// `None` if it is outside. If `closed`, the border counts as inside.
 fn inside_interval(
     [from, to]: [PagePoint; 2],
     [low, high]: PageRect,

@@ -161,8 +161,8 @@ fn write_image(pdf: &mut Pdf, [color, mask]: [Ref; 2], picture: &Picture) {
 
 /// Writes the page object, its resources and its content stream.
 ///
-/// `layers` and `pictures` count the layers and images on earlier pages, from which object
-/// ids follow.
+/// `layers` and `pictures` count the layers and images on earlier pages, which determine the object
+/// ids.
 fn write_page(
     pdf: &mut Pdf,
     ids: &ObjectIds,

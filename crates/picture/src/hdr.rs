@@ -1,10 +1,10 @@
 //! Decoder for Radiance `.hdr` images (RGBE), in which three mantissas share an exponent.
 //!
 //! Source: G. Ward, *Real Pixels*, Graphics Gems II, 1991, and the file format description in the
-//! Radiance manual. Both scanline encodings are supported, flat with old-style runs and run-length
-//! encoded channels, but only the orientation `-Y … +X …`. Sizes are checked against the file
-//! length before anything is allocated. Sixteen bytes can encode a row of 16,384 texels, so a file
-//! of a hundred kilobytes could take 800 MB. Rows are therefore halved as they arrive.
+//! Radiance manual. Both scanline encodings (flat with old-style runs, and run-length encoded
+//! channels) are supported, but only the orientation `-Y … +X …`. Sizes are checked against the
+//! file length before anything is allocated. Sixteen bytes can encode a row of 16,384 texels, so a
+//! file of a hundred kilobytes could take 800 MB. Rows are therefore halved as they arrive.
 //!
 //! ```text
 //!  value = (mantissa + ½) · 2^(exponent − 136)     0 if the exponent is 0

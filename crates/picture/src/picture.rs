@@ -12,13 +12,13 @@ pub struct Picture<C = u8> {
     pub width: u32,
     /// The height in pixels.
     pub height: u32,
-    /// The pixels, `width` × `height` of them, as red, green, blue and alpha.
+    /// The `width` × `height` pixels, each as red, green, blue and alpha.
     pub pixels: Vec<[C; 4]>,
 }
 
 impl<C: Channel> Picture<C> {
-    /// Returns the pixel in column `x` and row `y`, counted from the upper left corner; `None` if
-    /// it is outside.
+    /// Returns the pixel in column `x` and row `y`, counted from the upper left corner, or `None`
+    /// if it is outside.
     #[must_use]
     pub fn pixel(&self, x: u32, y: u32) -> Option<[C; 4]> {
         let is_inside = x < self.width && y < self.height;

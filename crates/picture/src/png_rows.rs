@@ -20,8 +20,8 @@ pub struct PngRows<'a, 'out> {
     bytes: Vec<u8>,
 }
 
-/// Encodes a PNG file of this width and height with 8 or 16 bits per channel, as RGB if the picture
-/// is opaque, otherwise as RGBA with straight alpha. `draw` writes its pixels.
+/// Encodes a PNG file of the given width and height with 8 or 16 bits per channel, as RGB if the
+/// picture is opaque, otherwise as RGBA with straight alpha. `draw` writes its pixels.
 ///
 /// The file is tagged as sRGB. Encoding needs memory for only one chunk of compressed data.
 ///

@@ -4,8 +4,8 @@
 //! ```text
 //!   entries ─► precision ─► every reader ─► readings with a cost ─► sorted ─► suspicions
 //!              (decimals,    (one file        2 per digit of a                (misprints that
-//!               f32, f64)     each)           parameter, and how               explain the entries
-//!                                             rarely such a matrix is met       better)
+//!               f32, f64)     each)           parameter, plus a                explain the entries
+//!                                             penalty for rare matrices         better)
 //! ```
 //!
 //! A matrix's numbers do not determine its meaning: the OpenGL matrix of (N, F) is the

@@ -30,7 +30,8 @@ pub enum CodeLanguage {
 }
 
 impl CodeLanguage {
-    /// Returns the matrix with these rows as a statement in the language, or as a LaTeX formula.
+    /// Returns the matrix with the given rows as a statement in the language, or as a LaTeX
+    /// formula.
     ///
     /// ```
     /// use recognition::CodeLanguage;

@@ -13,7 +13,7 @@ pub(crate) const UNNAMED: u32 = 1000;
 /// Readings whose costs differ by at most this amount are equally likely.
 pub(crate) const EQUAL: u32 = 3;
 
-/// The saving in cost required to assume a coarser precision than that of the most precise entry.
+/// The saving in cost required to assume a coarser precision than the most precise entry has.
 pub(crate) const COARSER: u32 = 8;
 
 /// One meaning of a matrix.

@@ -25,8 +25,8 @@ pub enum GivenMatrix {
 pub struct ParsedMatrix {
     /// The matrix.
     pub matrix: GivenMatrix,
-    /// The order and the reason for it, such as `column by column, as in mat constructors`; `None`
-    /// for plain numbers.
+    /// The order and the reason for it, such as `column by column, as in mat constructors`, or
+    /// `None` for plain numbers.
     pub order: Option<&'static str>,
 }
 

@@ -89,16 +89,16 @@ pub enum MatrixMeaning {
     Intrinsics(IntrinsicsReading),
     /// The textbook's P (PE-1; Shirley and Marschner, ch. 8), with signed n and f.
     ChapterP {
-        /// z of the near plane.
+        /// The z of the near plane.
         n: f64,
-        /// z of the far plane.
+        /// The z of the far plane.
         f: f64,
     },
     /// The inverse of the textbook's P; the factor is nf if it is printed without fractions.
     ChapterPInverse {
-        /// z of the near plane.
+        /// The z of the near plane.
         n: f64,
-        /// z of the far plane.
+        /// The z of the far plane.
         f: f64,
     },
     /// A perspective, from view to clip space (GL-1, PE-2, D3D-1 and others).
@@ -107,7 +107,7 @@ pub enum MatrixMeaning {
         frustum: Frustum,
         /// Its angles and proportions.
         lens: Lens,
-        /// The convention in which it has these parameters.
+        /// The convention in which the parameters are expressed.
         convention: Convention,
     },
     /// The inverse of a perspective, from clip to view space (IV-1).
@@ -116,14 +116,14 @@ pub enum MatrixMeaning {
         frustum: Frustum,
         /// Its angles and proportions.
         lens: Lens,
-        /// The convention in which it has these parameters.
+        /// The convention in which the parameters are expressed.
         convention: Convention,
     },
     /// The frustum of the WebGL lesson, with its apex beside the origin (LW-1).
     ApexMoved {
         /// The window on the near plane, with near and far as distances.
         frustum: ApexMovedFrustum,
-        /// The convention in which it has these parameters.
+        /// The convention in which the parameters are expressed.
         convention: Convention,
     },
     /// A perspective with an inclined near plane (Lengyel 2005).
@@ -132,14 +132,14 @@ pub enum MatrixMeaning {
         slopes: Window,
         /// The near plane; its normal has length 1 and points to the visible side.
         near_plane: Plane<View>,
-        /// The convention in which it has these parameters.
+        /// The convention in which the parameters are expressed.
         convention: Convention,
     },
     /// An orthographic box, from view to clip space (OR-1, GL-3).
     Orthographic {
         /// The window, with near and far as distances.
         volume: Orthographic,
-        /// The convention in which it has these parameters.
+        /// The convention in which the parameters are expressed.
         convention: Convention,
     },
     /// An oblique prism, from view to clip space (VV-1).
@@ -148,7 +148,7 @@ pub enum MatrixMeaning {
         projection: Oblique,
         /// The window on z = 0, with near and far as distances.
         volume: Orthographic,
-        /// The convention in which it has these parameters.
+        /// The convention in which the parameters are expressed.
         convention: Convention,
     },
     /// The depth-preserving shear of an oblique projection (OB-1).
@@ -207,8 +207,8 @@ pub enum MatrixMeaning {
         frustum: Frustum,
         /// Its angles and proportions.
         lens: Lens,
-        /// The convention in which it has these parameters; the world has the handedness of its
-        /// view space.
+        /// The convention in which the parameters are expressed. The world has the handedness of
+        /// its view space.
         convention: Convention,
     },
     /// A perspective and a viewport in one matrix, from view or world space to pixels (PL-1). The
@@ -220,13 +220,13 @@ pub enum MatrixMeaning {
         y_down: bool,
         /// True if pixel centers have integer coordinates.
         integer_centers: bool,
-        /// The camera in the world; `None` if the map starts in view space.
+        /// The camera in the world, or `None` if the map starts in view space.
         camera: Option<CameraReading>,
         /// The window on the near plane, with near and far as distances.
         frustum: Frustum,
         /// Its angles and proportions.
         lens: Lens,
-        /// The convention in which it has these parameters.
+        /// The convention in which the parameters are expressed.
         convention: Convention,
     },
     /// A camera and an orthographic box. The matrix does not determine the eye, which is placed at
@@ -236,8 +236,8 @@ pub enum MatrixMeaning {
         camera: CameraReading,
         /// The window, with near and far as distances.
         volume: Orthographic,
-        /// The convention in which it has these parameters; the world has the handedness of its
-        /// view space.
+        /// The convention in which the parameters are expressed. The world has the handedness of
+        /// its view space.
         convention: Convention,
     },
     /// An unnamed affine map.

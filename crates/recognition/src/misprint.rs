@@ -9,8 +9,8 @@ use glam::{DMat4, DVec4};
 use homog::{Clip, Projective, View};
 use projection::{ApexMovedFrustum, Convention, Frustum, Orthographic, Perspective};
 
-/// A known misprint. The descriptions begin with its number, from M1 to M28, and its row in the
-/// formula collection's table of misprints, in parentheses.
+/// A known misprint. Most descriptions begin with the number of the misprint, from M1 to M28, and
+/// its row in the formula collection's table of misprints, in parentheses.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 #[non_exhaustive]
 pub enum Misprint {
@@ -78,7 +78,7 @@ impl Misprint {
         Self::Transposed,
     ];
 
-    /// Returns the number of the misprint, from M1 to M28; `None` if it is unnumbered.
+    /// Returns the number of the misprint, from M1 to M28, or `None` if it is unnumbered.
     #[must_use]
     pub const fn id(self) -> Option<&'static str> {
         match self {
@@ -158,7 +158,7 @@ impl Misprint {
         }
     }
 
-    /// Returns the intended matrix with this misprint; `None` if the misprint does not apply.
+    /// Returns the intended matrix with this misprint, or `None` if the misprint does not apply.
     #[must_use]
     pub fn misprinted_matrix(self, wanted: IntendedProjection) -> Option<Projective<View, Clip>> {
         self.misprint(wanted.correct_matrix().raw(), wanted).map(Projective::from_raw)
@@ -256,7 +256,7 @@ fn apex_moved(frustum: Frustum) -> Option<DMat4> {
     Some(lesson.view_to_clip(Convention::OPENGL).raw())
 }
 
-/// Returns the misprint that turns the intended matrix into `matrix`; `None` if the matrix is
+/// Returns the misprint that turns the intended matrix into `matrix`, or `None` if the matrix is
 /// correct up to a positive factor or wrong in an unknown way. Entries may differ by one part in a
 /// million, as in f32 programs.
 ///

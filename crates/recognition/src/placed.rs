@@ -49,7 +49,8 @@ pub(crate) fn read_placed_perspective(m: &Entries<4>, found: &mut Vec<MatrixRead
     }
 }
 
-/// Whether a length computed from three rounded numbers may be `expected`, within twice its error.
+/// Whether a length computed from three rounded numbers may equal `expected`, within twice its
+/// error.
 fn is_close(number: Rounded, expected: f64) -> bool {
     number.is_within(expected, number.error + 1e-12)
 }
@@ -135,7 +136,8 @@ impl PlacedFrame {
         Some(Self { eye, eye_error, right, up, gaze, scale, center, depth })
     }
 
-    /// Returns whether the camera is at its default position: such a matrix contains no camera.
+    /// Returns whether the camera is at its default position, so that the matrix contains no
+    /// camera.
     fn is_unplaced(&self) -> bool {
         let turn = 1e-9 + 4.0 * self.scale[0].error / self.scale[0].value.abs();
         let is_unrotated = self.right.distance(DVec3::X) < turn && self.gaze.z.abs() > 1.0 - turn;

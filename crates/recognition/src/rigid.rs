@@ -34,7 +34,7 @@ pub(crate) fn largest_error(rows: &[[Rounded; 3]; 3]) -> f64 {
     rows.as_flattened().iter().fold(0.0, |error: f64, entry| error.max(entry.error))
 }
 
-/// Returns the rows of a 3×3 matrix, made exactly orthonormal; `None` unless they are nearly
+/// Returns the rows of a 3×3 matrix, made exactly orthonormal, or `None` if they are not nearly
 /// orthonormal.
 pub(crate) fn orthonormal_rows(rows: &[[Rounded; 3]; 3]) -> Option<[DVec3; 3]> {
     let unit = rows.iter().all(|[x, y, z]| {
@@ -45,7 +45,7 @@ pub(crate) fn orthonormal_rows(rows: &[[Rounded; 3]; 3]) -> Option<[DVec3; 3]> {
         return None;
     }
     let [u, v, w] = rows.map(|row| DVec3::from_array(row.map(|entry| entry.value)));
-    // Gram–Schmidt, which turns rounded rows into a rotation again.
+    // Uses Gram–Schmidt, which turns rounded rows into a rotation again.
     let u = u / libm::sqrt(u.length_squared());
     let v = v - u * u.dot(v);
     let v = v / libm::sqrt(v.length_squared());
@@ -158,7 +158,7 @@ fn reflection(rows: &[[Rounded; 3]; 3], offset: [Rounded; 3]) -> Option<(MatrixM
 }
 
 /// Returns the axis, with length 1, and the angle in degrees, 0 to 180, of a rotation whose entries
-/// have this error (Shoemake 1994, by the largest component of the quaternion).
+/// have the given error (Shoemake 1994, by the largest component of the quaternion).
 pub(crate) fn axis_angle(rotation: DMat3, error: f64) -> ([f64; 3], f64) {
     let m = |i: usize, j: usize| rotation.col(j)[i];
     let trace = m(0, 0) + m(1, 1) + m(2, 2);

@@ -28,17 +28,17 @@ impl Rounded {
         Self { value, error: 0.0 }
     }
 
-    /// Returns the result of a function of this number, from its value and derivative.
+    /// Applies a function, given by its value and derivative at this number.
     pub(crate) fn mapped(self, value: f64, derivative: f64) -> Self {
         Self { value, error: self.error * derivative.abs() + 4.0 * f64::EPSILON * value.abs() }
     }
 
-    /// Returns whether the number may be `expected`, within its error.
+    /// Returns whether the number may equal `expected`, within its error.
     pub(crate) fn is(self, expected: f64) -> bool {
         self.is_within(expected, 0.0)
     }
 
-    /// Returns whether the number may be `expected`, with additional slack for lengths and angles.
+    /// Returns whether the number may equal `expected`, with more slack for lengths and angles.
     pub(crate) fn is_within(self, expected: f64, slack: f64) -> bool {
         self.error.is_finite() && (self.value - expected).abs() <= self.error + slack
     }
@@ -52,7 +52,7 @@ impl Rounded {
         self.is(0.0)
     }
 
-    /// Returns the square root; 0 for negative numbers.
+    /// Returns the square root, or 0 for negative numbers.
     pub(crate) fn sqrt(self) -> Self {
         let root = libm::sqrt(self.value.max(0.0));
         self.mapped(root, 0.5 / root.max(f64::MIN_POSITIVE))
@@ -75,8 +75,7 @@ impl Rounded {
         short.next().unwrap_or(self.value)
     }
 
-    /// Returns whether the number may be a power of ten, such as 0.01, 0.1, 1 or 10, within its
-    /// error.
+    /// Returns whether the number may be a power of ten, such as 0.1, 1 or 10, within its error.
     pub(crate) fn is_power_of_ten(self) -> bool {
         let simplest = self.simplest();
         let exponent = libm::round(libm::log10(simplest.abs())) as i32;
@@ -85,7 +84,8 @@ impl Rounded {
     }
 
     /// Returns the number of significant digits of the shortest decimal within the error, or a
-    /// small cost for a simple fraction such as 16/9; 0 for zero, and 8 if neither exists.
+    /// small cost for a simple fraction such as 16/9. Returns 0 for zero, and 8 if there is neither
+    /// a short decimal nor a simple fraction.
     pub(crate) fn digits(self) -> u32 {
         if self.is_zero() || !self.value.is_finite() {
             return 0;
@@ -103,7 +103,7 @@ impl Rounded {
     }
 }
 
-/// Returns the decimal nearest to x with this many significant digits.
+/// Returns the decimal nearest to x with the given number of significant digits.
 fn round_to_digits(x: f64, digits: u32) -> f64 {
     let exponent = libm::floor(libm::log10(x.abs())) as i32;
     let decimals = digits as i32 - 1 - exponent;
@@ -170,7 +170,7 @@ pub(crate) fn coarser_measures<const N: usize>(rows: [[f64; N]; N]) -> Vec<Entri
     (3..most).rev().filter(|&n| found.contains(&n) && usual(n)).map(measure).collect()
 }
 
-/// Returns whether x has at most this number of decimals.
+/// Returns whether x has at most the given number of decimals.
 fn has_decimals(x: f64, decimals: u32) -> bool {
     let shifted = x * power_of_ten(decimals);
     (shifted - libm::round(shifted)).abs() <= 4.0 * f64::EPSILON * shifted.abs()

@@ -37,8 +37,8 @@ pub struct Suspicion {
     pub misprint: Misprint,
     /// The confidence in the suspicion.
     pub strength: SuspicionStrength,
-    /// The rows of the matrix that was probably intended; `None` if the missing numbers cannot be
-    /// recovered.
+    /// The rows of the matrix that was probably intended, or `None` if the missing numbers cannot
+    /// be recovered.
     pub remedied: Option<[[f64; 4]; 4]>,
 }
 
@@ -49,7 +49,7 @@ struct Remedy {
     remedied: Option<[[f64; 4]; 4]>,
 }
 
-/// Returns the possible misprints in a matrix with these readings, in descending order of
+/// Returns the possible misprints in a matrix with the given readings, in descending order of
 /// certainty.
 pub(crate) fn suspicions_of(m: &Entries<4>, readings: &[MatrixReading]) -> Vec<Suspicion> {
     if !m.as_flattened().iter().all(|entry| is_moderate(entry.value)) {
@@ -104,8 +104,7 @@ fn is_central(meaning: &MatrixMeaning) -> bool {
     matches!(meaning, MatrixMeaning::Perspective { .. } | MatrixMeaning::ApexMoved { .. })
 }
 
-/// Undoes (24), rows and columns exchanged: the matrix is for row vectors or stored column by
-/// column.
+/// Undoes exchanged rows and columns (24): the matrix is for row vectors, or stored by columns.
 fn undo_transposition(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let transposed = transpose(m);
     let symmetric = (0..4).all(|i| (0..4).all(|j| m[i][j].equals(m[j][i])));

@@ -34,12 +34,12 @@ pub struct AssemblyPages {
     /// Whether to draw a parts list: on the assembly page if it fits there, otherwise on separate
     /// pages.
     pub parts_list: bool,
-    /// Whether a page shows the assembly with balloons that contain the item numbers.
+    /// Whether to add a page that shows the assembly with item numbers in balloons.
     pub balloons: bool,
     /// The settings for moving the parts apart on that page, or `None` to keep them in place. An
     /// exploded view is drawn even without balloons.
     pub explosion: Option<ExplosionSettings>,
-    /// Whether each item in the list has a page with its principal views.
+    /// Whether to add a page with the principal views of each item in the list.
     pub part_sheets: bool,
     /// The densities used for the masses in the list; if empty, the list has no masses.
     pub densities: Vec<PartDensity>,

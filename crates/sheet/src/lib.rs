@@ -7,7 +7,7 @@
 //!
 //!  module | technique |
 //!  --- | --- |
-//!  `sheet` | orthographic views in first or third angle, title block, dimensions |
+//!  `sheet` | first-angle or third-angle views, title block, dimensions |
 //!  `warning` | what is missing from a sheet, and why |
 //!  `assembly` | parts counted by content, masses by the divergence theorem, exploded views |
 

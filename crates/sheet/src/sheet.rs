@@ -139,7 +139,7 @@ pub struct Sheet {
     /// The models count as symmetric if reflected vertices are on faces and reflected edges are on
     /// edges, within 1/20,000 of the models' diagonal.
     pub symmetry_lines: bool,
-    /// The objects that section planes do not cut: indices of nodes with a mesh, over all models.
+    /// The objects that section planes do not cut: indices among all nodes with a mesh.
     pub uncut: Vec<u32>,
     /// The text of the title block.
     pub title_block: TitleBlockText,
@@ -232,8 +232,8 @@ fn in_few_digits(length: f64) -> String {
 }
 
 impl Sheet {
-    /// Returns a technical drawing on this paper, in first-angle projection, with a left view, an
-    /// isometric view and overall dimensions.
+    /// Returns a technical drawing on the given paper, in first-angle projection, with a left view,
+    /// an isometric view and overall dimensions.
     ///
     /// The line group grows with the paper: 0.35 mm up to A5, 0.5 mm up to A2, and 0.7 mm above.
     #[must_use]
@@ -284,7 +284,7 @@ impl Sheet {
         self.draw_views(models, sections, &mut SurfaceCache::new(models, &self.uncut), threads)
     }
 
-    /// Draws models like [`draw`](Self::draw), with surfaces shared with other pages.
+    /// Draws models like [`draw`](Self::draw), with surfaces that are shared between pages.
     fn draw_views(
         &self,
         models: &[ModelInstance],
@@ -454,7 +454,7 @@ impl Sheet {
         core::iter::once(frame).chain(zones).collect()
     }
 
-    /// Returns the line group, or 0.5 mm if the style has other widths.
+    /// Returns the line group, or the 0.5 mm group if the style has other widths.
     fn line_width_group(&self) -> IsoLineGroup {
         match self.style.line_widths {
             LineWidths::Iso(group) => group,
@@ -492,7 +492,7 @@ impl Sheet {
     }
 }
 
-/// Returns a rectangle from finite values, with its sides made positive.
+/// Returns a rectangle with positive sides, or a fallback if a value is not finite.
 fn rectangle_from_size(x: f64, y: f64, width: f64, height: f64) -> Rectangle {
     let fallback = || Rectangle::from_size(1.0, 1.0);
     let rectangle = Rectangle::new(x, y, width.max(1e-6), height.max(1e-6)).or_else(|_| fallback());

@@ -80,13 +80,13 @@ impl Axis {
         let steps = [power - 1, power].into_iter().flat_map(|n| [1.0, 2.0, 5.0].map(|d| (d, n)));
         for (digit, power) in steps {
             let step = nearest_decimal(digit, power);
-            // Rounding must not lose a tick at an end, so ticks up to 1/2000 of a step beyond it
-            // count.
+            // Rounding must not lose a tick at an end, so ticks up to 1/2000 of a step beyond the
+            // end are included.
             let first = libm::ceil(self.from / step - 5e-4) as i64;
             let last = libm::floor(self.to / step + 5e-4) as i64;
             if last - first < MAX_TICKS as i64 {
-                // A quotient if the step is a fraction: 3 / 10 has the same bits as the literal
-                // 0.3.
+                // If the step is a fraction, divides by an integer: 3 / 10 has the same bits as the
+                // literal 0.3.
                 let value = |n: i64| match power {
                     ..0 => n as f64 * digit / power_of_ten(-power),
                     _ => n as f64 * step,

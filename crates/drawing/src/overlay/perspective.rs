@@ -33,7 +33,7 @@ impl PicturePlane {
         line.groups.push(Group { strokes, ..Group::default() });
         let mut text = overlay_layer("horizon-text", "horizon: text", BROWN);
         let along = (ends[1] - ends[0]).normalize_or(DVec2::X);
-        // Below the line, because the vanishing point names are above it.
+        // The label is below the line, because the vanishing point names are above it.
         let (height, below) = (0.8 * LETTER_HEIGHT, DVec2::new(-along.y, along.x));
         let at = ends[0] + along * 2.0 + below * (height + 0.8);
         let label = Label::new("horizon", at, height);

@@ -23,7 +23,7 @@ use page::{
 const LEADER_GAP: f64 = 0.3;
 /// The distance between baselines, in character heights.
 const LINE_PITCH: f64 = 1.7;
-/// How far a halo extends beyond the character strokes, in millimeters.
+/// The distance that a halo extends beyond the character strokes, in millimeters.
 const HALO: f64 = 0.5;
 /// The radius of the dot at the end of a leader line, in millimeters.
 const DOT_RADIUS: f64 = 0.15 * LETTER_HEIGHT;
@@ -60,8 +60,8 @@ pub enum LabelFault {
 }
 
 impl PointLabel {
-    /// Returns the reason why the label is not in a picture; `None` if it is. `view_height` is the
-    /// fraction of the picture's height, measured from the top, that shows the view.
+    /// Returns the reason why the label is not in a picture, or `None` if it is. `view_height` is
+    /// the fraction of the picture's height, measured from the top, that shows the view.
     #[must_use]
     pub fn fault(&self, view: &ViewProjection, view_height: f64) -> Option<LabelFault> {
         let clip = view.world_to_clip().transform_point(self.at).raw();

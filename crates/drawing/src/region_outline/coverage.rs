@@ -50,8 +50,8 @@ impl Grid {
         [self.low[0] + column as i64 * self.cell, self.low[1] + row * self.cell]
     }
 
-    /// Returns the first column whose cell center in a row is to the right of a side; `None` if the
-    /// side does not cross the height of the centers.
+    /// Returns the first column whose cell center in a row is to the right of a side, or `None` if
+    /// the side does not cross the height of the centers.
     fn column_after(&self, [a, b]: [Point; 2], row: i64) -> Option<usize> {
         let (low, high) = if a[1] < b[1] { (a, b) } else { (b, a) };
         let y = self.doubled_center(row);
@@ -74,7 +74,7 @@ pub(super) fn traced_border(sides: &[Side]) -> Vec<[Point; 2]> {
     let grid = Grid::over(sides);
     let mut waiting: Vec<&Side> =
         sides.iter().filter(|(ends, _)| ends[0][1] != ends[1][1]).collect();
-    // The lowest is last.
+    // The lowest side is last, so it is popped first.
     waiting.sort_by_key(|(ends, _)| std::cmp::Reverse(ends[0][1].min(ends[1][1])));
     let (mut active, mut border) = (Vec::<&Side>::new(), Vec::new());
     let mut below = vec![false; grid.columns];
@@ -92,7 +92,7 @@ pub(super) fn traced_border(sides: &[Side]) -> Vec<[Point; 2]> {
     border
 }
 
-/// Returns whether each cell of a row is covered: the winding number at its center is above zero.
+/// Returns for each cell of a row whether the winding number at its center is positive.
 fn covered_cells(grid: &Grid, active: &[&Side], row: i64) -> Vec<bool> {
     let mut changes = vec![0_i32; grid.columns + 1];
     for (ends, sign) in active {

@@ -1,5 +1,5 @@
-//! Tests outlines against known areas, and outlines of random triangles against the triangles
-//! around points.
+//! Compares outlines with known areas, and winding numbers around points with the random triangles
+//! that contain the points.
 
 use super::*;
 

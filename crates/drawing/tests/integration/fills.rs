@@ -70,7 +70,7 @@ fn cuts_stay_blank_under_grays() {
     let scene = TestScene { sections: vec![cut], ..drawing_scene(model, oblique_view()) };
     let page = page(&scene, FaceFill::Gray);
     let gray = page.layers.iter().find(|layer| layer.id.starts_with("gray-")).unwrap();
-    // The right and upper sides of the remaining half; the cut has an area of 4 units.
+    // The fills cover the right and upper sides of the remaining half, but not the cut.
     let actual = area(&gray.groups[0].fills);
     assert!((actual - 2.0).abs() < 0.02, "{actual}");
 }
@@ -94,7 +94,7 @@ fn hatch_lines(drawing: &Drawing) -> BTreeMap<u32, (i64, usize)> {
         let step = line.ends[1] - line.ends[0];
         let angle = libm::round(libm::atan(-step.y / step.x).to_degrees()) as i64;
         let (known, count) = lines.entry(line.object).or_insert((angle, 0));
-        assert_eq!(*known, angle, "each object has one hatch direction");
+        assert_eq!(*known, angle, "each object must have a single hatch direction");
         *count += 1;
     }
     lines

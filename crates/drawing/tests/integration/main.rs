@@ -4,7 +4,7 @@
 #![allow(unreachable_pub, reason = "modules of a test program have no outside users")]
 
 mod fills;
-#[allow(dead_code, reason = "other tests of hidden lines use the rest")]
+#[allow(dead_code, reason = "the hidden-line tests use the rest")]
 #[path = "../../../hidden-line/tests/integration/stage.rs"]
 mod stage;
 mod styles;

@@ -64,7 +64,7 @@ fn scanned_surfaces_have_no_speckles() {
         let [width, _] = style.line_widths.wide_and_narrow();
         for layer in &page.layers {
             for line in layer.groups.iter().flat_map(|group| &group.strokes) {
-                // A line must be long enough alone or be connected to other lines.
+                // A line must either be long enough by itself or be connected to other lines.
                 let ends = [line.points[0], line.points[line.points.len() - 1]];
                 let meets = |other: &page::Polyline| {
                     other != line && ends.iter().any(|end| other.points.contains(end))

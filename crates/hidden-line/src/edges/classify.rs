@@ -44,8 +44,8 @@ impl FaceNormals {
     /// Returns the normal and the facing of the face at a half-edge, both flipped if the half-edge
     /// runs backward.
     ///
-    /// Both faces are thus seen along the edge from its lower to its higher end and need no common
-    /// orientation, so a mesh with inconsistent winding is classified like any other.
+    /// Both faces are thus oriented along the edge from its lower to its higher end, so a mesh with
+    /// inconsistent winding is classified like any other.
     fn normal_along(&self, side: HalfEdge) -> (DVec3, bool) {
         let face = side.face() as usize;
         let (normal, is_front) = (self.normals[face], self.is_front[face]);

@@ -43,7 +43,7 @@ impl HalfEdge {
 /// The half-edges of all faces, sorted by their ends.
 #[derive(Clone, Debug, Default)]
 pub(super) struct HalfEdges {
-    /// For each vertex, the start in `half_edges` of the half-edges with this lower end.
+    /// The index in `half_edges` of the first half-edge with each vertex as its lower end.
     starts: Vec<u32>,
     /// Sorted by lower end, higher end, face and side.
     half_edges: Vec<HalfEdge>,

@@ -17,9 +17,9 @@
 //! This is an approximation that fails in known ways. A contour can have gaps or loose ends at
 //! cusps, where the surface turns along the line of sight, because visibility is computed from the
 //! mesh. The contour is not the border of the area that the mesh covers: with large triangles, it
-//! runs beside that border. At a crease, it ends off the crease by the height of the lift. Averaged
-//! normals round off edges that are slightly too blunt to be creases, so their silhouettes can be
-//! missing.
+//! runs beside that border. Where it ends at a crease, it misses the crease by the height of the
+//! lift. Averaged normals round off edges that are slightly too blunt to be creases, so their
+//! silhouettes can be missing.
 
 use super::classify::EdgeClassifier;
 use super::half_edges::{HalfEdge, HalfEdges};
@@ -62,7 +62,7 @@ struct Corner {
     facing: f64,
 }
 
-/// Returns the lifted point of a side where n·v is zero; `None` if n·v has the same sign at both
+/// Returns the lifted point of a side where n·v is zero, or `None` if n·v has the same sign at both
 /// ends.
 ///
 /// It is computed from the lower vertex to the higher, so both faces get identical bits.

@@ -23,8 +23,8 @@ use raster::Workers;
 use std::cell::OnceCell;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Triangles are coplanar if they are nowhere farther than this many touching distances from each
-/// other's planes.
+/// Two triangles are coplanar if no vertex is farther than this many touching distances from the
+/// other triangle's plane.
 const COPLANAR_FACTOR: f64 = 512.0;
 
 /// The minimum sine of the angle between planes that intersect: about one degree.
@@ -59,7 +59,7 @@ pub(super) struct SearchBounds<'a> {
     pub(super) is_unlimited: bool,
 }
 
-/// A pair of intersecting faces, starting with the face of the searching leaf, and the segment.
+/// Two intersecting faces, with the face from the searching leaf first, and their common segment.
 type IntersectingPair = ([u32; 2], IntersectionSegment);
 
 /// Finds all intersection edges of a mesh's faces, on several threads.
@@ -89,7 +89,7 @@ pub(super) fn intersect_faces(
         true => [usize::MAX; 2],
         false => [most, Bvh::query_budget(leaves.len())],
     };
-    // Several parts of two faces find the same segment, but only visible parts count.
+    // In a view, several parts of two faces may find the same segment, so the limit is higher.
     let least = if in_sight.is_some() { 1024 } else { 256 };
     let search = IntersectionSearch {
         mesh,
@@ -156,7 +156,7 @@ struct IntersectionSearch<'a> {
     in_sight: Option<FacesInSight<'a>>,
 }
 
-/// A face index, and the index of the compared part; `None` for the whole face.
+/// A face index, and the index of the compared part, or `None` for the whole face.
 #[derive(Clone, Copy, Debug)]
 struct FacePart {
     face: u32,
@@ -207,8 +207,8 @@ impl<'a> FacesInSight<'a> {
 }
 
 impl IntersectionSearch<'_> {
-    /// Returns the faces in a leaf, without its fillings; with a box, only the faces whose boxes
-    /// overlap it.
+    /// Returns the faces in a leaf, without its fillings. If a box is passed, returns only the
+    /// faces whose boxes overlap it.
     fn leaf_triangles(
         &self,
         items: &[u32],
@@ -249,7 +249,7 @@ impl IntersectionSearch<'_> {
         }
     }
 
-    /// Intersects two triangles; the one with the smaller box comes first.
+    /// Intersects two triangles, starting with the triangle that has the smaller box.
     fn intersect_pair(
         &self,
         a: &IntersectionTriangle,
@@ -274,7 +274,7 @@ impl IntersectionSearch<'_> {
         };
         let (one, other) = if size(a) < size(b) { (a, b) } else { (b, a) };
         let ends = one.intersect_triangle(other, self.touching)?;
-        // In a triangle soup, most pairs meet where they are hidden, which does not count.
+        // In a triangle soup, most pairs intersect where they are hidden. Such pairs do not count.
         if self.in_sight.as_ref().is_some_and(|in_sight| in_sight.cover.hides_segment(ends)) {
             return None;
         }
@@ -292,12 +292,12 @@ struct FaceBorders(Vec<FaceBorder>);
 struct FaceBorder {
     face: u32,
     side: u8,
-    /// The maximum distance at which points count as on the side.
+    /// The maximum distance at which points are considered to be on the side.
     distance: f64,
 }
 
 impl FaceBorders {
-    /// Collects the sides that have a part among these boundary edges.
+    /// Collects the sides that contain at least one of the given boundary edges.
     fn new(borders: &[BorderEdge], weld_radii: &WeldRadii) -> Self {
         let border = |(ends, side): &BorderEdge| FaceBorder {
             face: side.face(),
@@ -329,14 +329,14 @@ impl FaceBorders {
 #[derive(Clone, Debug)]
 struct IntersectionTriangle {
     face: u32,
-    /// The index of the compared part; `None` for the whole face.
+    /// The index of the compared part, or `None` for the whole face.
     part: Option<u32>,
     vertices: [DVec3; 3],
     /// The bounding box of the part.
     bounds: Aabb,
     /// The unit normal.
     normal: DVec3,
-    /// The image of the part, computed on demand; `None` if the part has no image.
+    /// The image of the part, computed on demand, or `None` if the part has no image.
     image: OnceCell<Option<ScreenBox>>,
 }
 
@@ -358,8 +358,8 @@ impl IntersectionTriangle {
         p && q && r || u && v && w
     }
 
-    /// Returns the segment where two triangles intersect; `None` if they do not, touch, or are
-    /// coplanar.
+    /// Returns the segment where two triangles intersect. Returns `None` if they do not intersect,
+    /// only touch, or are coplanar.
     fn intersect_triangle(&self, other: &Self, touching: f64) -> Option<[DVec3; 2]> {
         let our_heights = self.distances_to_plane(other, touching);
         let ours = self.cut_at_zero(our_heights)?;
@@ -392,8 +392,8 @@ impl IntersectionTriangle {
         })
     }
 
-    /// Returns the segment of the triangle where a linear function with these vertex values is
-    /// zero; `None` if its sign does not change.
+    /// Returns the segment of the triangle where a linear function with the given vertex values is
+    /// zero, or `None` if its sign does not change.
     fn cut_at_zero(&self, heights: [f64; 3]) -> Option<[DVec3; 2]> {
         if heights.iter().all(|height| *height >= 0.0)
             || heights.iter().all(|height| *height <= 0.0)

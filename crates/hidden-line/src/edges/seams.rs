@@ -22,15 +22,15 @@ pub(super) const WELD_FRACTION: f64 = 1.0 / 4096.0;
 /// The maximum number of cuts of boundary edges per boundary vertex.
 const CUTS_PER_VERTEX: usize = 4;
 
-/// A boundary edge, or a part of one between T-junctions: its ends, the lower index first, and its
-/// half-edge.
+/// A boundary edge, or a part of one between T-junctions: its ends, with the lower index first, and
+/// its half-edge.
 pub(super) type BorderEdge = ([u32; 2], HalfEdge);
 
 /// The weld radius of each vertex: another boundary vertex within this distance may be the same
 /// vertex.
 ///
-/// The radius is relative to the object, since each one is quantized in its own bounding box; if
-/// objects share a vertex, the smaller radius counts.
+/// The radius is relative to the object, because each object is quantized in its own bounding box;
+/// if objects share a vertex, the smaller radius counts.
 #[derive(Clone, Debug)]
 pub(super) struct WeldRadii(Vec<f64>);
 
@@ -151,7 +151,7 @@ pub(super) fn split_at_t_junctions(
         });
         cuts.sort_unstable_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
         let stops = || cuts.iter().map(|&(_, vertex)| vertex).chain([b]);
-        // A fan of slivers around `a`: one between each cut and the next stop.
+        // Slivers form a fan around `a`, one for each cut and the stop after it.
         let face = mesh.faces[side.face() as usize];
         let sliver = |(from, to)| Face { vertices: [a, from, to], ..face };
         fillings.extend(stops().zip(stops().skip(1)).map(sliver));

@@ -25,8 +25,8 @@ pub(super) type SectionLoop = Vec<Point<World>>;
 /// The maximum number of points in a cap: triangulation time is quadratic in it.
 const MAX_CAP_POINTS: usize = 1 << 14;
 
-/// Triangulates the caps of one object's loops; `None` if there are more than [`MAX_CAP_POINTS`]
-/// points.
+/// Triangulates the caps of one object's loops, or returns `None` if there are more than
+/// [`MAX_CAP_POINTS`] points.
 pub(super) fn triangulate_caps(
     loops: Vec<SectionLoop>,
     plane: Plane<World>,
@@ -52,7 +52,7 @@ fn group_holes_with_outlines(
     let mut outer: Vec<(f64, Vec<SectionLoop>)> = Vec::new();
     let mut holes: Vec<SectionLoop> = Vec::new();
     let areas: Vec<f64> = loops.iter().map(|points| axes.doubled_area(points)).collect();
-    // A negative total area: the surface is inside out, for example because of a reflection.
+    // A negative total area means that the surface is inside out, for example after a reflection.
     let sign = if areas.iter().sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
     for (points, area) in loops.into_iter().zip(areas) {
         if area * sign < 0.0 {

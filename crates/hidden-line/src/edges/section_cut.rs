@@ -333,14 +333,14 @@ mod tests {
         let cylinder = || solid_of_revolution(&CYLINDER, 60);
         let round = closed_cap_area(cylinder(), [0.0, 1.3, 0.0], [0.0, -1.0, 0.0]);
         assert!((round - regular_polygon_area(2.0, 60)).abs() < 1e-12, "{round}");
-        // First along the axis and through two edges, then off the axis, along a chord of the
-        // polygon.
+        // The first plane contains the axis and two edges. The second plane is off the axis and
+        // cuts the polygon along a chord.
         let along = closed_cap_area(cylinder(), [0.0; 3], [0.0, 0.0, 1.0]);
         assert!((along - 12.0).abs() < 1e-12, "{along}");
         let (sine, cosine) = libm::sincos(TAU / 60.0 * 5.0);
         let beside = closed_cap_area(cylinder(), [0.0, 0.0, 2.0 * sine], [0.0, 0.0, -1.0]);
         assert!((beside - 3.0 * 4.0 * cosine).abs() < 1e-9, "{beside}");
-        // Tilted by 45° and between the ends, the section is √2 times as large as a cross section.
+        // A section between the ends, tilted by 45°, is √2 times as large as a cross section.
         let tilted = solid_of_revolution(&[(0.0, -9.0), (2.0, -9.0), (2.0, 9.0), (0.0, 9.0)], 60);
         let tilted = closed_cap_area(tilted, [0.1, 0.2, 0.3], [1.0, 1.0, 0.0]);
         let expected = regular_polygon_area(2.0, 60) * std::f64::consts::SQRT_2;

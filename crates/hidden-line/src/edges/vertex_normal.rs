@@ -15,7 +15,7 @@ use glam::{DVec2, DVec3};
 pub(crate) struct VertexNormal(u32);
 
 /// Normals agree if the cosine of the angle between them is greater than this. It corresponds to
-/// 2.5°, because files store normals with few bits.
+/// 2.5°, which is so large because files store normals with few bits.
 const AGREEMENT_COSINE: f64 = 0.999;
 
 /// The largest 16-bit value that encodes a normal; 0 means no normal.
@@ -42,7 +42,7 @@ impl VertexNormal {
         Self(step(folded.x) << 16 | step(folded.y))
     }
 
-    /// Unpacks the unit vector; `None` for [`Self::NONE`].
+    /// Unpacks the unit vector, or returns `None` for [`Self::NONE`].
     pub(crate) fn unpack(self) -> Option<DVec3> {
         let value = |step: u32| (f64::from(step) - 1.0) / STEPS * 2.0 - 1.0;
         let (x, y) = (value(self.0 >> 16), value(self.0 & 0xffff));

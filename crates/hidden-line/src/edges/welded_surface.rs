@@ -134,8 +134,8 @@ impl WeldedSurface {
         surface
     }
 
-    /// Marks parts as moved away from these boxes, one for each of the first objects, so that they
-    /// are hatched as in the assembly.
+    /// Records the original boxes of moved parts, one for each of the first objects. The parts are
+    /// then hatched as in the assembly.
     pub fn exploded_from(self, boxes: impl Iterator<Item = Aabb>) -> Self {
         Self { assembled_boxes: Some((0..).zip(boxes).collect()), ..self }
     }
@@ -240,7 +240,7 @@ impl WeldedSurface {
         })
     }
 
-    /// Returns each face with the linear color of its material; `None` for section caps.
+    /// Returns each face with the linear color of its material, or `None` for section caps.
     pub fn faces_with_colors(&self) -> impl Iterator<Item = ([DVec3; 3], Option<[f32; 3]>)> {
         let faces = self.colored_faces().zip(&self.mesh.faces);
         faces.map(|((vertices, _, color), face)| {
@@ -364,7 +364,7 @@ impl WeldedSurface {
     }
 
     /// Computes the depths behind which nothing of a crowd of faces is visible, up to gaps of a few
-    /// pixels; `None` if the faces are not a crowd.
+    /// pixels, or returns `None` if the faces are not a crowd.
     pub(crate) fn crowd_cover(&self, projector: Projector, size: [u32; 2]) -> Option<DepthCover> {
         DepthCover::of_crowd(
             || self.occluder_triangles().map(|corners| corners.map(Point::raw)),

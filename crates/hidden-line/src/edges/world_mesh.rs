@@ -26,7 +26,7 @@ pub(crate) struct Face {
     /// The index of the section plane, if the face is part of a section cap.
     pub(crate) cap_section: Option<u16>,
     /// The visibility of its three sides in the file (`EXT_mesh_primitive_edge_visibility`),
-    /// starting with the side from the first vertex to the second; `None` if the file does not
+    /// starting with the side from the first vertex to the second, or `None` if the file does not
     /// specify it.
     pub(crate) edge_visibility: Option<[EdgeVisibility; 3]>,
 }
@@ -191,7 +191,7 @@ impl WorldMesh {
         self.uncut.binary_search(&object).is_err()
     }
 
-    /// Returns the diagonal of the bounding box of all finite points, 0 if there are none.
+    /// Returns the diagonal of the bounding box of all finite points, or 0 if there are none.
     pub(crate) fn bounds_diagonal(&self) -> f64 {
         let finite = self.points.iter().filter(|point| point.is_finite());
         let (min, max) = finite.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), &p| {

@@ -153,7 +153,7 @@ impl Bvh {
         tree
     }
 
-    /// Returns the index of the root; `None` if there are no items.
+    /// Returns the index of the root, or `None` if there are no items.
     pub(crate) fn root_node(&self) -> Option<u32> {
         (!self.nodes.is_empty()).then_some(0)
     }
@@ -217,8 +217,8 @@ impl Bvh {
     }
 
     /// Like [`for_each_overlapping`](Self::for_each_overlapping), for every item whose box may be
-    /// within `radius` of a segment. For a long segment, these are far fewer items than those that
-    /// overlap its box.
+    /// within `radius` of a segment. For a long segment, these are far fewer items than the items
+    /// that overlap its box.
     pub(crate) fn for_each_near_segment(
         &self,
         [from, to]: [DVec3; 2],
@@ -238,7 +238,7 @@ impl Bvh {
     }
 
     /// Calls `visit` with the items of a leaf and `true`, then with the items of each later leaf
-    /// whose box overlaps its box; stops after `most` items and returns `false`.
+    /// with an overlapping box; stops after `most` items and returns `false`.
     ///
     /// Calling it for every leaf visits each pair of overlapping leaves once.
     pub(crate) fn for_each_later_leaf(
@@ -387,7 +387,7 @@ fn partition_by_sah<const BINS: usize>(
 }
 
 /// Returns the last bin on the left side of the cheapest split, found by a sweep from the right and
-/// a sweep from the left; `None` if no box has an area.
+/// a sweep from the left, or `None` if no box has an area.
 fn cheapest_bin_split<const BINS: usize>(bins: &[BoundsOfItems; BINS]) -> Option<usize> {
     let mut right = [0.0; BINS];
     let mut extents = BoundsOfItems::EMPTY;

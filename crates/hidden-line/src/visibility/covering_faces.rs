@@ -31,8 +31,8 @@ impl FaceCount {
         let (interval, halves) = match occlusion {
             Occlusion::Interior(interval) => (interval, 2),
             Occlusion::Along(side) => (side.interval, 1),
-            // The tolerance leaves no cracks here. A face that is only beside the edge would be
-            // counted in addition to the face that hides it.
+            // Cracks are ignored here. A face that is only beside the edge would be counted in
+            // addition to the face that hides the edge.
             Occlusion::Beside(_) => return,
         };
         self.changes.extend([(interval[0], halves), (interval[1], -halves)]);

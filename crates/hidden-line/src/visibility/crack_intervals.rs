@@ -1,5 +1,5 @@
-//! The parts of an edge behind the sides of faces, and those that the faces on both sides hide
-//! together.
+//! The parts of an edge behind the sides of faces, and the parts that faces on both sides of the
+//! edge hide together.
 //!
 //! ```text
 //!    ███████ │ ▓▓▓▓▓▓▓      Together, a face on the left and a face on the right hide a line

@@ -23,8 +23,8 @@ use glam::{DVec2, DVec3};
 
 /// The number of cells along the longer side of the screen.
 const CELLS: f64 = 256.0;
-/// The number of pixels by which a face shrinks on all sides: more than any tolerance of the exact
-/// tests.
+/// The number of pixels by which a face is shrunk on all sides: more than any tolerance of the
+/// exact tests.
 const MARGIN: f64 = 1.0 / 64.0;
 /// The number of touching distances by which a face is moved back, so that anything that touches it
 /// does not count as hidden.
@@ -68,7 +68,7 @@ pub(crate) struct ScreenBox {
 }
 
 impl ScreenBox {
-    /// Returns the box around points in front of the viewer; `None` if a point has no image.
+    /// Returns the box around points in front of the viewer, or `None` if a point has no image.
     fn around(points: &[DVec3], projector: &Projector) -> Option<Self> {
         let mut all = Self::around_images(&[]);
         for point in points {
@@ -103,7 +103,7 @@ impl ScreenBox {
 }
 
 impl DepthCover {
-    /// Creates the cover formed by single faces on a screen of this size in pixels.
+    /// Creates the cover formed by single faces on a screen of the given size in pixels.
     pub(crate) fn new(
         faces: impl Iterator<Item = [DVec3; 3]>,
         projector: Projector,
@@ -121,7 +121,7 @@ impl DepthCover {
         cover
     }
 
-    /// Creates the cover formed by a crowd of faces together; `None` if they are not a crowd.
+    /// Creates the cover formed by a crowd of faces, or returns `None` if they are not a crowd.
     pub(crate) fn of_crowd<I: Iterator<Item = [DVec3; 3]>>(
         faces: impl Fn() -> I,
         projector: Projector,
@@ -259,7 +259,7 @@ impl DepthCover {
         [[a, middle], [middle, b]].into_iter().all(|half| self.hides_image(half, divisions - 1))
     }
 
-    /// Returns the box around the images of points; `None` if a point has no image.
+    /// Returns the box around the images of points, or `None` if a point has no image.
     pub(crate) fn image_of(&self, points: &[DVec3]) -> Option<ScreenBox> {
         ScreenBox::around(points, &self.projector)
     }

@@ -2,14 +2,14 @@
 
 use glam::{DVec2, DVec3};
 
-/// The depth tolerance: points on a surface are nearer than its samples minus this value.
+/// The depth tolerance: the depth of a point on a surface is at least its sample minus this value.
 const ROUNDING: f64 = 1e-9;
 
 /// One level of the pyramid.
 #[derive(Clone, Debug)]
 pub(super) struct Level {
     pub(super) size: [usize; 2],
-    /// The depths, row by row; 0 where no face covers the cell.
+    /// The depths, row by row, or 0 where no face covers the cell.
     pub(super) depths: Vec<f64>,
 }
 
@@ -44,8 +44,8 @@ impl Level {
         Self { size, depths: vec![0.0; size[0] * size[1]] }
     }
 
-    /// Returns the next coarser level, with half as many cells along each side; `None` for a single
-    /// cell. Cells beyond the border are ignored, because nothing is drawn there.
+    /// Returns the next coarser level, with half as many cells along each side, or `None` for a
+    /// single cell. Cells beyond the border are ignored, because nothing is drawn there.
     pub(super) fn halved(&self) -> Option<Self> {
         let [width, height] = self.size;
         if width.max(height) <= 1 {
@@ -146,8 +146,8 @@ fn centers([from, to]: [f64; 2], count: usize) -> std::ops::Range<usize> {
     if first < last { first as usize..last as usize } else { 0..0 }
 }
 
-/// Returns the interval of x where a triangle meets a horizontal line; the ends are reversed if it
-/// does not.
+/// Returns the interval of x where a triangle meets a horizontal line. If it does not meet the
+/// line, the ends are reversed.
 fn span_at(corners: [DVec2; 3], y: f64) -> [f64; 2] {
     let mut span = [f64::INFINITY, f64::NEG_INFINITY];
     for k in 0..3 {

@@ -76,7 +76,7 @@ pub(super) struct ScreenOverlap {
 /// The part of an edge along or beside a side of a face, on the screen.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct SideOverlap {
-    /// The index of the side, which runs from this vertex to the next.
+    /// The index of the side, which is also the index of the vertex where the side starts.
     pub(super) side: usize,
     /// The interval of s.
     pub(super) interval: [f64; 2],
@@ -97,8 +97,7 @@ fn evaluate_linear([start, end]: LinearFunction, s: f64) -> f64 {
 }
 
 impl Occluder {
-    /// Returns the parts of an edge that pass over this face or beside it; `None` if there are
-    /// none.
+    /// Returns the parts of an edge that pass over this face or beside it, or `None` if none do.
     ///
     /// The cheapest rejection comes first: the whole edge is outside one side. A side that the edge
     /// runs along does not bound the interior interval, because only rounding decides on which side
@@ -131,7 +130,7 @@ impl Occluder {
     }
 
     /// Returns the distances of an edge from the sides, and whether the whole edge is outside one
-    /// of them; `None` if it is outside by more than the width of a crack.
+    /// of them. Returns `None` if it is outside by more than the width of a crack.
     fn sides_near(
         &self,
         edge: &ProjectedEdge,
@@ -203,8 +202,8 @@ impl OccluderInWorld<'_> {
         interval_behind_plane(plane, edge, interval, tolerance)
     }
 
-    /// Returns the plane through a point, with this normal or its opposite, oriented toward the
-    /// viewer.
+    /// Returns the plane through a point, with the given normal or its opposite, oriented toward
+    /// the viewer.
     fn plane_towards_viewer(&self, normal: DVec3, point: DVec3) -> Option<OrientedPlane> {
         let normal = normal.normalize_or_zero();
         let towards = normal.dot(self.projector.towards_viewer(point));
@@ -360,7 +359,7 @@ fn side_function([from, to]: [DVec2; 2], edge: &ProjectedEdge) -> LinearFunction
     })
 }
 
-/// Returns the open interval of s in [0, 1] where all functions are positive; `None` if it is
+/// Returns the open interval of s in [0, 1] where all functions are positive, or `None` if it is
 /// empty.
 fn positive_interval(functions: impl Iterator<Item = LinearFunction>) -> Option<[f64; 2]> {
     let mut interval = [0.0_f64, 1.0];

@@ -36,7 +36,7 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
-    /// Returns tolerances for a scene whose bounding box has this diagonal.
+    /// Returns tolerances for a scene whose bounding box has the given diagonal.
     ///
     /// `world` is diagonal / 2²¹: a few units in the last place of coordinates stored in single
     /// precision. `screen` is 1/4096 pixel and `min_part` is 1/1024 pixel, far below the resolution
@@ -186,13 +186,12 @@ pub(crate) struct OcclusionScratch {
     cracks: CrackIntervals,
     /// Hierarchy nodes still to visit.
     node_stack: Vec<u32>,
-    /// The number of boxes and triangles that may still be compared with edges; `None` for no
-    /// limit.
+    /// The remaining number of boxes and triangles to compare with edges, or `None` for no limit.
     pub(crate) work_left: Option<u64>,
 }
 
 impl OcclusionScratch {
-    /// Takes some of the remaining work; returns `false` if not enough is left.
+    /// Deducts from the remaining work, and returns `false` if not enough is left.
     pub(super) fn take_work(&mut self, count: usize) -> bool {
         let Some(left) = &mut self.work_left else { return true };
         let is_left = *left >= count as u64;

@@ -2,17 +2,17 @@
 //!
 //! ```text
 //!   world      nodes ──────────────────► the same nodes, with boxes on the screen
-//!   vertices   projected once each ────► leaves: the triangles that face neither edge-on nor away
-//!                                        from the view volume, clipped where they cross it
+//!   vertices   projected once each ────► leaves: triangles that are neither edge-on nor outside
+//!                                        the view volume, clipped where they cross its border
 //! ```
 //!
 //! The tree is built once for all views of a sheet; each view only computes the new boxes, from the
-//! leaves up. Points close in space are close on the screen, so these boxes are as good as in a
-//! tree built on the screen, and boxes at different depths remain separate.
+//! leaves up. Points close in space are close on the screen, so the tree is as good as a tree built
+//! on the screen, and boxes at different depths remain separate.
 //!
 //! A triangle is stored here as an index and a box; its vertices are in the mesh. When an edge
 //! meets a leaf, most of the leaf's triangles are beside or behind the edge. Their boxes, which are
-//! consecutive in memory, prove this without a lookup of the vertices.
+//! consecutive in memory, prove this without looking up the vertices.
 
 use super::bounds::{greatest, least, round_down, round_up};
 use super::bvh::{Bvh, NodeContents};
@@ -136,7 +136,7 @@ pub(super) struct ScreenBvh {
     vertices: Vec<DVec2>,
 }
 
-/// The vertices of a mesh on their way to the screen.
+/// The projected vertices of a mesh, with their outcodes.
 struct ProjectedVertices {
     screen: Vec<DVec2>,
     /// The depths, rounded toward the viewer.
@@ -160,7 +160,7 @@ impl ProjectedVertices {
     }
 }
 
-/// The inputs for the triangles of leaves.
+/// The inputs needed to add triangles to leaves.
 struct LeafView<'a> {
     projector: &'a Projector,
     projected: &'a ProjectedVertices,
@@ -301,7 +301,7 @@ impl ScreenBvh {
         edge.interval_behind(&self.nodes[node as usize].bounds)
     }
 
-    /// Returns the root; `None` if the hierarchy is empty.
+    /// Returns the root, or `None` if the hierarchy is empty.
     pub(super) fn root_node(&self) -> Option<u32> {
         (!self.nodes.is_empty()).then_some(0)
     }
@@ -333,8 +333,8 @@ fn reverse_if<T>(is_reversed: bool, [a, b, c]: [T; 3]) -> [T; 3] {
     if is_reversed { [a, c, b] } else { [a, b, c] }
 }
 
-/// Whether two vertices must be swapped so that the signed area of a triangle is positive; `None`
-/// if the triangle is thinner than `thinnest` pixels, or has no image.
+/// Whether two vertices must be swapped so that the signed area of a triangle is positive, or
+/// `None` if the triangle is thinner than `thinnest` pixels, or has no image.
 fn orientation([a, b, c]: [DVec2; 3], thinnest: f64) -> Option<bool> {
     let area = (b - a).perp_dot(c - a);
     let sides = [b - a, c - b, a - c];

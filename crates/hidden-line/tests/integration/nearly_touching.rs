@@ -170,7 +170,7 @@ fn random_view(models: &[ModelInstance], random: &mut Random) -> ViewProjection 
     ViewProjection { camera: f.camera, view_to_clip }
 }
 
-/// Builds the scene with this number.
+/// Builds the scene with the given number.
 fn nearly_touching_scene(number: u64) -> TestScene {
     let random = &mut Random(number.wrapping_mul(0xd134_2543_de82_ef95));
     let models = assembly(random);

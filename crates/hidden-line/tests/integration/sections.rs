@@ -10,7 +10,7 @@ use homog::{Normal, Plane, Point, World};
 use model::{Model, Primitive};
 use std::collections::BTreeMap;
 
-/// Returns the section plane at this x; it retains the side with lower x.
+/// Returns the section plane at a given x, which retains the side with lower x.
 fn plane_x(at: f64) -> Plane<World> {
     Plane::through(Point::new(at, 0.0, 0.0), Normal::new(-1.0, 0.0, 0.0))
 }
@@ -139,7 +139,7 @@ fn an_open_section_adds_a_warning() {
     let mut open = cuboid_mesh([-1.0; 3], [1.0; 3]);
     open.indices.drain(24..30);
     let whole = cut_scene(build_model(vec![open.clone()]), &[plane_x(0.0)]);
-    assert!(draw_scene_lines(&whole).warnings.is_empty(), "the cut is closed");
+    assert!(draw_scene_lines(&whole).warnings.is_empty(), "the cut must be closed");
     let lengthwise = Plane::through(Point::ORIGIN, Normal::new(0.0, 0.0, -1.0));
     let mut named = build_model(vec![cuboid_mesh([-3.0, -1.0, -1.0], [-2.0, 1.0, 1.0]), open]);
     named.nodes[1].name = Some("tray".to_owned());
@@ -237,7 +237,7 @@ fn assert_closed_outlines(drawing: &LineDrawing) {
     }
 }
 
-/// This occurs, for example, in spheres whose vertices are on the plane up to rounding.
+/// For example, some vertices of a sphere may be on the plane except for rounding errors.
 #[test]
 fn a_section_through_vertices_nearly_on_the_plane_closes() {
     for nudge in [0.0_f32, 1e-7, -1e-7, 3e-8] {

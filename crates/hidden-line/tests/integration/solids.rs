@@ -111,8 +111,8 @@ fn a_bar_through_the_side_of_a_cube() {
     assert_segments_cover(&segments_where(&drawing, |line| line.visible && line.object == 1), &bar);
 }
 
-/// A column is in front of the left side of the cube. Its outline is where x − z/2 of its corners
-/// is smallest and largest.
+/// A column is in front of the left side of the cube. Its outline passes through the corners with
+/// the smallest and the largest x − z/2.
 #[test]
 fn a_cylinder_in_front_of_a_box() {
     let sides = 48;

@@ -6,7 +6,7 @@ use homog::Affine;
 use model::{Model, ModelInstance};
 use std::sync::Arc;
 
-/// Returns sheets behind each other, each a little larger than the previous one. All borders are
+/// Returns sheets one behind another, each a little larger than the previous one. All borders are
 /// visible, and each border passes over the boxes of all nearer sheets.
 fn stack_of_sheets(count: u16) -> Model {
     let sheet = |at: u16| {
@@ -62,7 +62,7 @@ fn lengths(drawing: &LineDrawing) -> [f64; 2] {
 }
 
 #[test]
-fn a_crowd_is_drawn_nearly_as_without_limits() {
+fn a_crowd_is_drawn_nearly_the_same_as_without_limits() {
     let options = DrawOptions::hidden_edges_retained();
     let exact = draw_model(soup(2000), &DrawOptions { is_unlimited: true, ..options }, 2);
     assert_eq!(exact.warnings, []);

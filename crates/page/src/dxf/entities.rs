@@ -51,7 +51,7 @@ impl EntityWriter {
         (self.tags, self.handle)
     }
 
-    /// Returns the rectangle around all entities; `None` if there are none.
+    /// Returns the rectangle around all entities, or `None` if there are none.
     pub(super) fn bounds(&self) -> Option<Extents> {
         (self.bounds[0].x <= self.bounds[1].x).then_some(self.bounds)
     }
@@ -246,8 +246,8 @@ impl EntityWriter {
     /// Writes the pattern of a hatch, one family of continuous lines.
     fn write_pattern(&mut self, area: &HatchArea) {
         let along = DVec2::new(area.direction.x, -area.direction.y);
-        // Rounded, because the size of a view in pixels is rounded and its scales in x and y
-        // therefore differ slightly.
+        // The angle is rounded, because a view's size in pixels is rounded, so its scales in x and
+        // y differ slightly.
         let angle = degrees_within(libm::atan2(along.y, along.x), 180.0, 1e5);
         let spacing = area.spacing * self.options.units_per_millimeter;
         // A predefined pattern, rotated and scaled. Its lines rise at 45° with a spacing of 3.175

@@ -38,7 +38,7 @@ const ISO_LINE_TYPES: [(&str, &[f64]); 3] = [
 struct FileLayer {
     name: String,
     color: u8,
-    /// The index of the line type and the factor for its lengths; `None` for continuous lines.
+    /// The index of the line type and the factor for its lengths, or `None` for continuous lines.
     line_type: Option<(usize, f64)>,
     /// The line width in hundredths of a millimeter.
     weight: u16,
@@ -98,8 +98,8 @@ impl LayerTable {
         [self.layers.len(), self.dashed.len()]
     }
 
-    /// Returns the index of a pen's line type and the factor for its lengths; `None` for continuous
-    /// lines. Adds the line type if it is new.
+    /// Returns the index of a pen's line type and the factor for its lengths, or `None` for
+    /// continuous lines. Adds the line type if it is new.
     fn line_type_of(&mut self, pen: &Pen) -> Option<(usize, f64)> {
         let first = *pen.dashes.first()?;
         let fits = |pattern: &[f64]| {

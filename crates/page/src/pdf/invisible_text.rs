@@ -196,7 +196,7 @@ mod tests {
     fn text_is_shown_along_its_baseline() {
         let page = page_of(&["BA"]);
         let fonts = TextFonts::new(&[page.content()]);
-        let line = texts_of(page.content()).next().expect("a text");
+        let line = texts_of(page.content()).next().expect("text");
         let shown = String::from_utf8(fonts.show(line)).expect("text");
         assert_eq!(shown, "BT\n/F0 1 Tf\n5 0 0 -5 10 20 Tm\n<0201> Tj\nET\n");
         let up = TextLine { baseline: [[0, 0], [0, -9000]], ..line.clone() };

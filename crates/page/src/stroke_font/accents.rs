@@ -43,7 +43,7 @@ const MARKED_LETTERS: &[(&str, &str)] = &[
 /// (Czech and Slovak usage).
 const APOSTROPHE_CARON_LETTERS: &str = "ďdťtľlĽL";
 
-/// Returns the glyph of an accented letter; `None` for any other character.
+/// Returns the glyph of an accented letter, or `None` for any other character.
 ///
 /// The caron of d, t, l and L is an apostrophe at the upper right corner. It widens the letter.
 pub(super) fn accented_glyph(character: char) -> Option<Glyph> {

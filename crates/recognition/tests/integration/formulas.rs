@@ -17,7 +17,7 @@ pub(crate) fn scaled(m: Rows, factor: f64) -> Rows {
     m.map(|row| row.map(|entry| entry * factor))
 }
 
-/// Rounds a matrix as if printed with this number of decimals.
+/// Rounds a matrix as if printed with the given number of decimals.
 pub(crate) fn rounded(m: Rows, decimals: usize) -> Rows {
     m.map(|row| row.map(|x| format!("{x:.decimals$}").parse::<f64>().expect("a number") + 0.0))
 }

@@ -1,4 +1,4 @@
-//! Matrices as people type them: with entries of different precision, for row vectors, and of
+//! Matrices as people type them: with entries of different precision, for row vectors, or for
 //! projections that the builders do not produce.
 
 use super::formulas::*;
@@ -54,7 +54,7 @@ fn a_stored_translation_is_not_a_three_point_perspective() {
 
 /// C77, C78: sines and cosines with three or four decimals are read as these projections.
 #[test]
-fn rounded_cavalier_and_cabinet_projections_are_named() {
+fn rounded_cavalier_and_cabinet_projections_are_recognized() {
     for (length, class) in [(1.0, ProjectionClass::Cavalier), (0.5, ProjectionClass::Cabinet)] {
         for degrees in [30.0, 45.0, 60.0, -135.0_f64] {
             let (sin, cos) = libm::sincos(degrees.to_radians());
@@ -74,7 +74,7 @@ fn rounded_cavalier_and_cabinet_projections_are_named() {
 }
 
 #[test]
-fn the_military_projection_is_named() {
+fn the_military_projection_is_recognized() {
     for (turn, decimals) in [(30.0, 4), (45.0, 3), (45.0, 12), (-20.0, 6)] {
         let military = Planometric::military(f64::to_radians(turn)).expect("valid");
         let of = |matrix: DMat4| rounded(matrix.transpose().to_cols_array_2d(), decimals);

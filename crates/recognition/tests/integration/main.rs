@@ -11,7 +11,7 @@ mod planar;
 mod random_matrices;
 mod right_matrices;
 mod rigid;
-#[allow(dead_code, reason = "the law tests of `projection` use more of them")]
+#[allow(dead_code, reason = "the law tests of `projection` use the rest")]
 #[path = "../../../projection/tests/integration/laws/samples.rs"]
 mod samples;
 mod table;
@@ -71,7 +71,7 @@ fn the_perspective_onto_a_plane_may_drop_z() {
 proptest::proptest! {
     #![proptest_config(samples::cases(512))]
 
-    /// Any numbers have a reading, at least as an unnamed map, and nothing panics.
+    /// Every matrix has a reading, at least as an unnamed map, and recognition never panics.
     #[test]
     fn any_matrix_has_a_reading(entries in proptest::array::uniform16(any_entry())) {
         let found = recognize(rows_of(DMat4::from_cols_array(&entries)));

@@ -172,7 +172,7 @@ fn m15_the_wrong_sign_sends_near_and_far_out_of_the_cube() {
 }
 
 #[test]
-fn m16_a_difference_for_a_sum_misplaces_the_window() {
+fn m16_a_difference_instead_of_a_sum_misplaces_the_window() {
     let slip = printed(Misprint::FrustumOffsetOne, wanted_frustum());
     assert!(!fits(slip, FAR / NEAR) && fits(wanted_frustum().correct_matrix().raw(), FAR / NEAR));
     let told = recognize(rows_of(slip)).suspicions;
@@ -305,7 +305,7 @@ fn printed_39_and_40_q_and_r_belong_to_y_and_z() {
 }
 
 #[test]
-fn printed_49_near_and_far_go_to_zero_and_one_they_are_not_set_to_them() {
+fn printed_49_near_and_far_map_to_zero_and_one_instead_of_being_set_to_them() {
     assert!(matches!(
         Frustum::new(LEFT, RIGHT, BOTTOM, TOP, 0.0, 1.0),
         Err(ProjectionError::OutOfRange { .. })

@@ -49,10 +49,9 @@ fn check_camera(found: &MatrixMeaning, eye: [f64; 3], gaze: [f64; 3], context: &
     assert!((frustum.near() - 1.0).abs() < 1e-3 && (frustum.far() / 50.0 - 1.0).abs() < 1e-2);
 }
 
-/// The camera is level, turned by a yaw, and turned by yaw and pitch; the matrix is exact, rounded,
-/// and for row vectors.
+/// Tests cameras with yaw and pitch. Each matrix is tried as it is, rounded, and for row vectors.
 #[test]
-fn a_camera_of_direct3d_is_upright_in_a_left_handed_world() {
+fn a_direct3d_camera_is_upright_in_a_left_handed_world() {
     for (eye, gaze) in [
         ([0.0, 0.0, -5.0], [0.0, 0.0, 1.0]),
         ([3.0, 0.0, -4.0], [-3.0, 0.0, 4.0]),
@@ -76,7 +75,7 @@ fn a_camera_of_direct3d_is_upright_in_a_left_handed_world() {
 
 /// Vulkan in a right-handed world where y or z is up; OpenGL may look in any direction.
 #[test]
-fn a_camera_of_vulkan_is_upright_in_a_right_handed_world() {
+fn a_vulkan_camera_is_upright_in_a_right_handed_world() {
     let vulkan = |degrees: f64| -> Rows {
         let scale = 1.0 / libm::tan(0.5 * degrees.to_radians());
         let (n, f) = (0.5, 100.0);
@@ -106,7 +105,7 @@ fn a_camera_of_vulkan_is_upright_in_a_right_handed_world() {
 
 /// glOrtho(0, w, h, 0, −1, 1), the common matrix for two-dimensional pictures.
 #[test]
-fn a_box_of_pixels_from_the_upper_left_is_opengls() {
+fn a_box_of_pixels_from_the_upper_left_is_read_as_glortho() {
     for [width, height] in [[800.0, 600.0], [1920.0, 1080.0], [640.0, 480.0]] {
         let exact = gl_ortho([0.0, width, height, 0.0], -1.0, 1.0);
         for rows in [exact, rounded(exact, 9), single(exact)] {

@@ -66,7 +66,7 @@ fn intrinsics_are_recognized_and_their_transpose_is_for_row_vectors() {
 }
 
 #[test]
-fn maps_of_the_plane_are_named() {
+fn maps_of_the_plane_are_recognized() {
     let moved = |x: f64, y: f64| [[1.0, 0.0, x], [0.0, 1.0, y], [0.0, 0.0, 1.0]];
     assert_eq!(plane(moved(0.0, 0.0)), MatrixMeaning::Identity);
     assert_eq!(plane(moved(2.0, 3.0)), MatrixMeaning::Translation { by: [2.0, 3.0, 0.0] });

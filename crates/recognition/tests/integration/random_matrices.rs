@@ -21,8 +21,8 @@ impl Random {
         mixed ^ (mixed >> 31)
     }
 
-    /// Returns a number in an interval, with three digits, as people write numbers, or with all
-    /// digits.
+    /// Returns a number in an interval, either with three digits, as people write numbers, or with
+    /// all digits.
     fn number(&mut self, low: f64, high: f64) -> f64 {
         let part = (self.bits() >> 11) as f64 / (1_u64 << 53) as f64;
         let x = low + (high - low) * part;

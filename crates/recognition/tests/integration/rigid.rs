@@ -57,7 +57,7 @@ fn a_pose_is_read_as_the_camera_in_the_world() {
 
 /// The matrix is glm::perspective with +1 in its last row.
 #[test]
-fn a_negated_last_row_is_named() {
+fn a_negated_last_row_is_reported() {
     for (degrees, n, f) in [(60.0, 0.1, 100.0), (45.0, 1.0, 50.0)] {
         let mut rows = gl(degrees, 16.0 / 9.0, n, f);
         rows[3][2] = 1.0;
@@ -71,7 +71,7 @@ fn a_negated_last_row_is_named() {
 
 /// The matrix is a look-at with the sign of one entry of its rotation flipped.
 #[test]
-fn the_one_wrong_sign_of_a_camera_is_found() {
+fn a_single_wrong_sign_in_a_camera_is_found() {
     let exact = m_cam([4.0, 3.0, 6.0], [-4.0, -2.0, -6.0], [0.1, 1.0, 0.0]);
     for right in [exact, rounded(exact, 5)] {
         for at in 0..9 {

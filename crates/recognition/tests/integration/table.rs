@@ -179,7 +179,7 @@ fn recognized(rows: Rows) -> Recognition {
     recognize(rows)
 }
 
-/// Returns a complaint about a row; `None` if its matrix is recognized as expected.
+/// Returns a complaint about a row, or `None` if its matrix is recognized as expected.
 fn complaint(row: &Row) -> Option<String> {
     let found = recognized(row.matrix);
     let first = found.first();

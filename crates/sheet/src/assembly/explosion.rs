@@ -23,8 +23,8 @@ pub(crate) const MAX_EXPLODED_PARTS: usize = 5000;
 /// The distance between parts, as a fraction of the assembly's diagonal.
 const DEFAULT_DISTANCE: f64 = 0.08;
 
-/// The maximum distance between the center of an aligned part and the line, as a fraction of that
-/// diagonal.
+/// The maximum distance between the center of an aligned part and the axis through the base's
+/// center, as a fraction of that diagonal.
 const IN_LINE: f64 = 0.01;
 
 /// The direction in which the parts of an exploded view move.
@@ -49,8 +49,8 @@ pub enum ExplosionAxis {
 pub struct ExplosionSettings {
     /// The direction of the moves.
     pub axis: ExplosionAxis,
-    /// The minimum distance between parts in this direction, in scene units, not negative; `None`
-    /// means 0.08 of the assembly's diagonal.
+    /// The minimum distance between parts along that direction, in scene units, not negative;
+    /// `None` means 0.08 of the assembly's diagonal.
     pub distance: Option<f64>,
 }
 
@@ -62,7 +62,7 @@ impl ExplosionSettings {
         let Some([low, high]) = whole else { return Vec::new() };
         let size = high - low;
         let gap = self.distance.unwrap_or(size.length() * DEFAULT_DISTANCE).max(0.0);
-        // Rounding could make parts that touch overlap.
+        // With a gap of 0, rounding could make touching parts overlap.
         let gap = gap.max(size.length() * 1e-6);
         let base = largest(boxes);
         let axis = match self.axis {
@@ -143,8 +143,8 @@ impl Direction {
         (part[usize::from(self.sign > 0.0)][self.axis] - self.base) * self.sign
     }
 
-    /// Returns how far the box of a part has to move to be beyond all parts in its column; never
-    /// negative.
+    /// Returns how far the box of a part must move to clear all parts in its column. The result is
+    /// never negative.
     fn clearance(self, part: Corners, shapes: &PartShapes, placed: &[PlacedPart], gap: f64) -> f64 {
         // The margin keeps rounding from deciding whether a part at the border is in the column.
         let column = Column::new(part, self.axis, gap * 1e-3);

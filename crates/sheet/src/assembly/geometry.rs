@@ -15,11 +15,10 @@ use std::sync::Arc;
 /// parts.
 const SHAPE_TOLERANCE: f64 = 1e-5;
 
-/// The maximum number of sizes of a mesh that are compared. Each further size counts as a separate
-/// part.
+/// The maximum number of compared sizes of a mesh. Each further size counts as a separate part.
 const MAX_SIZES: usize = 1000;
 
-/// A size of a mesh content: its linear map, whether it is mirrored, and its class number.
+/// A size at which a mesh occurs: its linear map, whether it is mirrored, and its class number.
 type SizeClass = (DMat3, bool, usize);
 
 /// Assigns the same class number to identical parts.
@@ -63,8 +62,8 @@ impl<'a> PartClasses<'a> {
         class
     }
 
-    /// Returns the digest of a part's mesh and the index of its content among those with this
-    /// digest.
+    /// Returns the digest of a part's mesh and the index of its content among the contents with
+    /// this digest.
     fn content_of(&mut self, part: &Part) -> (u64, usize) {
         let model = &self.models[part.model].model;
         // Instances of one model share its meshes, so they use the cache entry of the first
@@ -81,7 +80,7 @@ impl<'a> PartClasses<'a> {
         }
         let digest = digest_of_mesh(model, part.instance);
         let same_digest = self.contents.entry(digest).or_default();
-        // Digests may collide, so the contents are compared as well.
+        // Digests may collide, so the contents must be compared too.
         let is_equal = |(number, instance): &(usize, MeshInstance)| {
             let other = &self.models[*number].model;
             meshes_are_equal(model, part.instance, other, *instance)

@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 use homog::{Affine, Bounds, Model as ModelSpace, Point, World};
 use model::{MeshInstance, Model, ModelInstance, Primitive, SkinnedPrimitive, Topology};
 
-/// A node with a mesh that has lines or triangles, once for each instance of the mesh.
+/// A node whose mesh has lines or triangles. An instanced node gives one part per instance.
 #[derive(Clone, Debug)]
 pub(crate) struct Part {
     /// The name, on one line; see [`part_name`].
@@ -47,8 +47,7 @@ pub(crate) fn drawn_primitives(
     primitives.filter(|one| one.topology != Topology::Points && one.item_count() > 0)
 }
 
-/// Returns the bounding box of the vertices used by lines and triangles, or `None` if there are
-/// none.
+/// Returns the bounding box of all vertices of lines and triangles, or `None` if there are none.
 fn part_bounds(placed: &ModelInstance, instance: MeshInstance) -> Option<Bounds<World>> {
     let mut extent: Option<[DVec3; 2]> = None;
     for primitive in drawn_primitives(&placed.model, instance) {
@@ -115,8 +114,8 @@ impl Part {
     }
 }
 
-/// Returns the name of a part: the name of its node, its mesh, or the nearest named ancestor.
-/// Otherwise returns the model's name if the model has no other part, or `part`.
+/// Returns the name of a part: the name of its node, its mesh, or the nearest named ancestor. If
+/// none of them has a name, returns the model's name if this is its only part, otherwise `part`.
 fn part_name(model: &Model, node: usize, is_alone: bool) -> String {
     let own = model.nodes[node].name.as_deref();
     let mesh = || model.nodes[node].mesh.and_then(|mesh| model.meshes[mesh].name.as_deref());
@@ -153,7 +152,7 @@ mod tests {
     use model::{Mesh, Node};
 
     #[test]
-    fn names_are_one_line() {
+    fn names_are_written_on_one_line() {
         for (text, line) in [
             ("bolt\r\n M8\t\u{202e}x", "bolt M8 x"),
             ("  ", ""),

@@ -1,4 +1,4 @@
-//! Part models: a single part, or all parts moved apart with their paths.
+//! Models built from parts: a single part, or all parts moved apart, with their paths.
 
 use super::explosion::ExplosionSettings;
 use super::part::{Part, drawn_primitives, gather_parts};
@@ -89,7 +89,7 @@ pub(crate) fn exploded_models(
 
 /// Returns the paths of the moved parts' centers, as lines, or `None` if nothing moved.
 fn path_model(parts: &[Part], moves: &[DVec3]) -> Option<ModelInstance> {
-    // Positions are `f32`; relative to a point in the scene they keep their precision.
+    // Positions are `f32`, so they are relative to a point in the scene to keep their precision.
     let about = parts.first()?.bounds.center().raw();
     let moved = parts.iter().zip(moves).filter(|(_, by)| by.length() > 0.0);
     let ends = moved.flat_map(|(part, by)| {

@@ -2,7 +2,7 @@
 //! of a grid.
 //!
 //! ```text
-//!        ┆ column ┆              a column is the cross-section of a box, without ends;
+//!        ┆ column ┆              a column is a box extended without limit along an axis;
 //!   ┌────┆───┐    ┆              triangles are clipped to it, so the result is exact
 //!   │    ┆   └────┆──┐ ◄ reach
 //!   └────┆────────┆──┘
@@ -71,7 +71,7 @@ impl PartShapes {
         Self { boxes, triangles, visits_left: Cell::new(MAX_VISITS) }
     }
 
-    /// Takes visits from the remaining budget, and returns `false` if there are too few.
+    /// Deducts visits from the remaining budget, and returns `false` if the budget is too small.
     pub(super) fn take_visits(&self, count: usize) -> bool {
         let left = self.visits_left.get();
         self.visits_left.set(left.saturating_sub(count as u64));
@@ -120,7 +120,7 @@ impl PartShapes {
     }
 }
 
-/// The cross-section of a box, unbounded along an axis.
+/// A column: the cross-section of a box, extended without limit along an axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Column {
     pub(super) axis: usize,

@@ -58,7 +58,7 @@ pub struct PartPlace {
 }
 
 impl PartPlace {
-    /// Returns the place of a part in these models.
+    /// Returns the place of a part in the given models.
     fn from_part(part: &Part, models: &[ModelInstance]) -> Self {
         let nodes = &models[part.model].model.nodes;
         let name = |node: usize| {
@@ -75,7 +75,7 @@ impl PartPlace {
 }
 
 impl PartsList {
-    /// Lists the parts of models at this number of millimeters per unit.
+    /// Creates the list of all parts in models with a given number of millimeters per scene unit.
     ///
     /// Parts share an item if their meshes have the same positions, indices and materials at the
     /// same size, and if their names differ at most in a trailing number: `bolt.001` and `bolt.002`
@@ -90,7 +90,7 @@ impl PartsList {
         Self::from_parts(models, &parts, densities, millimeters_per_unit)
     }
 
-    /// Lists these parts of the models.
+    /// Creates the list of the given parts.
     pub(crate) fn from_parts(
         models: &[ModelInstance],
         parts: &[Part],

@@ -7,9 +7,9 @@
 //!     └─┘
 //! ```
 //!
-//! A part blocks another if it is ahead of it in more than a few cells of a grid across the axis.
-//! Parts are removed one by one as soon as nothing blocks them, on the preferred side if possible.
-//! If no part can leave, the least hindered part leaves first.
+//! A part blocks another part by being ahead of it in more than a few cells of a grid across the
+//! axis. Parts are removed one by one as soon as nothing blocks them, on the preferred side if
+//! possible. If no part can leave, the part that is blocked least leaves first.
 
 use super::part_shapes::{CellHeights, Column, PartShapes};
 use std::collections::VecDeque;
@@ -27,12 +27,12 @@ type AxisSide = usize;
 /// The parts that prevent others from leaving.
 #[derive(Debug)]
 struct Hindrances {
-    /// For each part, the parts that it hinders, each with the side and the fraction of cells it
-    /// covers.
+    /// For each part, the parts that it blocks, each with the blocked side and the fraction of
+    /// cells covered.
     hinders: Vec<Vec<(usize, AxisSide, f64)>>,
-    /// The number of parts that hinder each part on each side.
+    /// The number of parts that block each part on each side.
     counts: Vec<[u32; 2]>,
-    /// The summed fraction of each part's cells that hindering parts cover.
+    /// For each part and side, the sum of the fractions of its cells that blocking parts cover.
     covers: Vec<[f64; 2]>,
 }
 
@@ -61,7 +61,7 @@ pub(super) fn removal_sides(
     }
     loop {
         let next = queues[0].pop_front().or_else(|| queues[1].pop_front());
-        // If the remaining parts interlock, the least hindered part breaks the cycle.
+        // If the remaining parts interlock, the part that is blocked least breaks the cycle.
         let next = next.or_else(|| hindrances.least_hindered(&sides, preferred));
         let Some((part, side)) = next else { break };
         // A part may be queued for both sides.
@@ -116,7 +116,7 @@ impl Hindrances {
         Some(found)
     }
 
-    /// Removes a part and returns the parts that only it hindered, with the sides that are now
+    /// Removes a part and returns the parts that only it still blocked, each with the side now
     /// free.
     fn take_away(&mut self, part: usize) -> Vec<(usize, AxisSide)> {
         let mut freed = Vec::new();
@@ -130,7 +130,7 @@ impl Hindrances {
         freed
     }
 
-    /// Returns the least hindered remaining part and the side on which it leaves.
+    /// Returns the remaining part that is blocked least, and the side on which it leaves.
     fn least_hindered(
         &self,
         sides: &[Option<AxisSide>],
@@ -140,7 +140,7 @@ impl Hindrances {
         for part in (0..sides.len()).filter(|&part| sides[part].is_none()) {
             for side in [preferred[part], 1 - preferred[part]] {
                 let cover = self.covers[part][side];
-                // The order of summation must not affect the choice either.
+                // The tolerance keeps the order of summation from affecting the choice.
                 if least.is_none_or(|(most, ..)| cover < most - 1e-9) {
                     least = Some((cover, part, side));
                 }
@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn interlocked_parts_leave_on_the_least_hindered_side() {
+    fn interlocked_parts_leave_on_the_least_blocked_side() {
         // A pin through a plate and the collar on it; the pin is a quarter as wide as the collar.
         let boxes = [
             ([-5.0, 0.0, -5.0], [5.0, 1.0, 5.0]),

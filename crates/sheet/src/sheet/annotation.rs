@@ -3,7 +3,7 @@
 //! ```text
 //!   ┌ ─ ─ ─ ─ ─ ─ ─ ┐
 //!      ◄── 150 ──►         coordinates are in millimeters on paper from the center of the view;
-//!   │  ┌─────────┐  │      a layout must keep the extent of the object and annotations free
+//!   │  ┌─────────┐  │      the layout reserves space for the object and its annotations
 //!      │    +    │
 //!   │  └─────────┘  │
 //!   └ ─ ─ ─ ─ ─ ─ ─ ┘
@@ -85,7 +85,7 @@ pub(super) struct ViewAnnotations {
     items: Vec<PlacedShape>,
     /// The requested dimensions, each as a separate group.
     dimensions: Vec<PlacedDimension>,
-    /// The dimensions for which there was no room, by name.
+    /// The names of the dimensions for which there was no room.
     pub(super) left_out: Vec<String>,
     /// The text of missing labels, with the reasons.
     pub(super) labels_left_out: Vec<(String, SheetLabelFault)>,
@@ -184,8 +184,8 @@ impl ViewAnnotations {
         self.push(layer, AnnotationShape::Line(ends));
     }
 
-    /// Adds the first candidate that touches neither another annotation nor the object, or the
-    /// first of all if every candidate touches something.
+    /// Adds the first candidate that touches neither another annotation nor the object. If there is
+    /// no such candidate, adds the first one anyway.
     pub(super) fn push_first_free_text(
         &mut self,
         layer: AnnotationLayer,
@@ -334,21 +334,21 @@ impl AnnotationLayer {
         let lettering = || Pen::solid(letters * 0.1, ink);
         let (id, title, pen) = match self {
             Self::CenterLines => ("center-lines", "center lines", chain()),
-            Self::CutLines => ("cut-lines", "lines of cuts", chain()),
-            Self::CutEnds => ("cut-ends", "ends of cuts", butt(group.wide_width())),
-            Self::CutArrows => ("cut-arrows", "arrows of cuts", butt(group.lettering_width())),
+            Self::CutLines => ("cut-lines", "cutting lines", chain()),
+            Self::CutEnds => ("cut-ends", "cutting line ends", butt(group.wide_width())),
+            Self::CutArrows => ("cut-arrows", "cutting line arrows", butt(group.lettering_width())),
             Self::CutNames => {
-                ("cut-names", "names of cuts", Pen::solid(group.lettering_width(), ink))
+                ("cut-names", "section names", Pen::solid(group.lettering_width(), ink))
             }
             Self::Dimensions => ("dimensions", "dimensions", butt(group.narrow_width())),
             Self::DimensionTexts => ("dimensions-text", "dimensions: text", lettering()),
-            Self::ScaleNotes => ("other-scale", "scales of single views", lettering()),
+            Self::ScaleNotes => ("other-scale", "view scales", lettering()),
             Self::SymmetryLines => ("symmetry-lines", "lines of symmetry", chain()),
-            Self::ViewMarks => ("view-marks", "marks of other views", butt(group.narrow_width())),
+            Self::ViewMarks => ("view-marks", "view marks", butt(group.narrow_width())),
             Self::OverlayLines => ("overlay-lines", "overlays", butt(group.narrow_width())),
             Self::OverlayTexts => ("overlay-text", "overlays: text", lettering()),
             Self::ViewNames => {
-                ("view-names", "names of views", Pen::solid(group.lettering_width(), ink))
+                ("view-names", "view names", Pen::solid(group.lettering_width(), ink))
             }
         };
         Layer::new(id, title, pen)

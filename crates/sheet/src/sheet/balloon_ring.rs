@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn leaders_stay_clear_of_other_places() {
+    fn leaders_stay_clear_of_other_positions() {
         // All spots are near one corner, and leaders to most positions near it are at a flat angle.
         let places = ring_places([DVec2::ZERO, DVec2::splat(100.0)], 11.0);
         let spots: Vec<DVec2> =
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn places_are_on_the_ring_and_keep_their_distance() {
+    fn positions_are_on_the_ring_and_at_least_the_pitch_apart() {
         let ring = [DVec2::ZERO, DVec2::new(100.0, 37.0)];
         let places = ring_places(ring, 10.0);
         for (index, a) in places.iter().enumerate() {

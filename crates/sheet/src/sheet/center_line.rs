@@ -23,14 +23,14 @@ use viewport::DrawingScale;
 /// The overhang of center lines beyond the circle or part, in millimeters on paper.
 pub(super) const CENTER_LINE_OVERHANG: f64 = 2.5;
 
-/// The minimum radius, in millimeters on paper, of circles with a cross, which would hide smaller
-/// circles.
+/// The minimum radius, in millimeters on paper, of a circle that gets a cross. A cross would hide a
+/// smaller circle.
 const LEAST_RADIUS: f64 = 0.75;
 
-/// The minimum arc of a circle with a cross. Smaller arcs are fillets, not holes or shafts.
+/// The minimum arc of a circle that gets a cross. Smaller arcs are fillets, not holes or shafts.
 const LEAST_SWEEP: f64 = PI - 1e-6;
 
-/// Axes and centers closer than this fraction of the view size are the same.
+/// Axes and centers closer than this fraction of the view size are considered the same.
 const SAME: f64 = 1e-4;
 
 /// The maximum number of crosses and the maximum number of axes in a view. More would only clutter

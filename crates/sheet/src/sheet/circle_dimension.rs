@@ -27,7 +27,7 @@ const DIRECTIONS: [f64; 20] = [
 const LENGTHS: u32 = 40;
 
 impl DimensionBoard {
-    /// Returns the free position of a diameter or radius with the shortest leader.
+    /// Returns the free position for a diameter or radius that needs the shortest leader.
     pub(super) fn leader_candidate(&self, dimension: &ViewDimension) -> Option<Candidate> {
         let ViewMeasure::Round { center, radius, prefix, radii } = &dimension.measure else {
             return None;

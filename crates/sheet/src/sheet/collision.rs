@@ -25,7 +25,7 @@ pub(super) fn text_outline(text: &AnnotationText, margin: f64) -> [DVec2; 4] {
     [start, start + across, start + across + height, start + height]
 }
 
-/// Returns the convex parts of a shape, with this margin around text.
+/// Returns the convex parts of a shape, with a margin around text.
 pub(super) fn convex_parts(shape: &AnnotationShape, margin: f64) -> Vec<Vec<DVec2>> {
     match shape {
         AnnotationShape::Line(ends) => vec![ends.to_vec()],
@@ -86,8 +86,8 @@ pub(super) fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     hull
 }
 
-/// Returns how far the part of a convex outline between two positions along an axis extends in a
-/// direction perpendicular to the axis, or `None` if there is no such part.
+/// Clips a convex outline to an interval along an axis, and returns how far the result extends in a
+/// direction perpendicular to the axis. Returns `None` if nothing is left.
 pub(super) fn reach_between(
     hull: &[DVec2],
     along: DVec2,

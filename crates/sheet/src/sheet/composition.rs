@@ -45,7 +45,7 @@ pub(super) enum Composition {
     /// Strips, each cut by a plane.
     Stepped {
         planes: Vec<Plane<World>>,
-        /// A point on each border between strips; there is one border fewer than planes.
+        /// A point on each border between strips; there is one fewer border than there are planes.
         borders: Vec<Point<World>>,
         /// The direction in which the strips follow each other.
         along: Vector<World>,
@@ -149,7 +149,7 @@ impl From<Drawing> for ComposedDrawing {
 }
 
 impl ViewSide {
-    /// Returns the area on this side of a point in pixels, starting `inset` pixels away from it.
+    /// Returns the area on this side of a point. It starts `inset` pixels away from the point.
     fn area(self, point: DVec2, inset: f64) -> ClipArea {
         let outward = match self {
             Self::Left => -DVec2::X,
@@ -271,7 +271,7 @@ impl PartDrawing<'_, '_> {
         Ok(ComposedDrawing { drawing, break_lines })
     }
 
-    /// Returns the parts of a line in front of the uncut object.
+    /// Returns the parts of a line inside the outline of the uncut object.
     fn within_outline(&mut self, line: &[DVec2]) -> Result<Vec<Vec<DVec2>>, SheetError> {
         let (view_projection, size) = self.view.view_projection()?;
         let surface: &WeldedSurface = self.surfaces.cut_by(&[]);

@@ -79,8 +79,7 @@ pub(super) struct DimensionSettings {
     pub(super) scale: DrawingScale,
     /// The format of the lengths.
     pub(super) format: LengthFormat,
-    /// The space around the outline for cut lines and their letters, in millimeters; 0 if there are
-    /// none.
+    /// The space around the outline for cut lines and letters, in millimeters, or 0 if unused.
     pub(super) reserved: f64,
     /// The length that a broken view omits along each axis of the paper, in object millimeters.
     pub(super) left_out: DVec2,
@@ -199,7 +198,7 @@ pub(super) fn arrowhead(tip: DVec2, into: DVec2, length: f64) -> [DVec2; 3] {
 mod tests {
     use super::*;
 
-    /// Returns the annotations of an object of this half size at 1:1.
+    /// Returns the overall dimensions of an object with the given half size, at 1:1.
     fn annotated(half: DVec2, side: OverallSide, reserved: f64) -> ViewAnnotations {
         let (scale, format) = (DrawingScale::STANDARD[5], LengthFormat::default());
         let settings =

@@ -33,7 +33,7 @@ pub(super) struct Candidate {
     pub(super) span: Option<[DVec2; 2]>,
 }
 
-/// The space around a view, in millimeters on paper from its center.
+/// The space around a view. Coordinates are in millimeters on paper, relative to the view's center.
 #[derive(Clone, Debug)]
 pub(super) struct DimensionBoard {
     /// The convex hull of the object.
@@ -97,7 +97,7 @@ impl DimensionBoard {
         TEXT_MARGIN * self.settings.letters
     }
 
-    /// Occupies the space of a shape.
+    /// Marks the space of a shape as occupied.
     fn add_shape(&mut self, shape: &AnnotationShape) {
         let parts = convex_parts(shape, self.text_margin());
         match shape {
@@ -149,7 +149,7 @@ impl DimensionBoard {
             && other_low < high
     }
 
-    /// Occupies the space of a candidate.
+    /// Marks the space of a candidate as occupied.
     pub(super) fn take(&mut self, candidate: &Candidate) {
         candidate.shapes.iter().for_each(|(_, shape)| self.add_shape(shape));
         self.spans.extend(candidate.span);

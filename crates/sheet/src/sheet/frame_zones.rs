@@ -1,11 +1,11 @@
-//! Sheet zones (ISO 5457): letters and numbers in a border around the frame, which identify
-//! positions on the sheet, and trimming marks.
+//! Sheet zones (ISO 5457): a border with letters and numbers that identify positions on the sheet.
+//! Trimming marks show where to cut the paper.
 //!
 //! ```text
 //!      │  1  │  2  │  3  │  4  │
 //!   ───┌─────┴─────┼─────┴─────┐───
-//!    A │           │           │ A     fields of 50 mm, counted from the middle of each
-//!   ───┤           │           ├───    side; the corner fields take the rest
+//!    A │           │           │ A     zones of 50 mm, counted from the middle of each
+//!   ───┤           │           ├───    side; the corner zones take up the rest
 //!    B │           │           │ B
 //! ```
 
@@ -21,7 +21,8 @@ pub enum SheetFrame {
     /// A line with centering marks in the middle of each side.
     #[default]
     Plain,
-    /// In addition, zones with letters and numbers, and trimming marks at the corners of the paper.
+    /// A line with centering marks, zones with letters and numbers, and trimming marks at the
+    /// corners of the paper.
     Zones,
 }
 
@@ -69,7 +70,7 @@ pub(super) fn zone_layers(paper: Paper, ink: Ink) -> Vec<Layer> {
     let butt = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(LINE_WIDTH, ink) };
     let mut lines = Layer::new("frame-zones", "frame: zones", butt.clone());
     let mut names =
-        Layer::new("frame-zone-names", "frame: names of zones", Pen::solid(LINE_WIDTH, ink));
+        Layer::new("frame-zone-names", "frame: zone names", Pen::solid(LINE_WIDTH, ink));
     let outer = rectangle_from_size(
         frame.x() - ZONE_BORDER,
         frame.y() - ZONE_BORDER,

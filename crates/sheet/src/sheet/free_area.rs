@@ -3,7 +3,7 @@
 //! ```text
 //!   ┌───────┬──────┐
 //!   │ front │ side │      a maximal free rectangle ends at obstacles or at the frame, so its sides
-//!   ├───────┼──────┤      are among theirs, few enough to try them all
+//!   ├───────┼──────┤      are among theirs; there are few enough to try them all
 //!   │  top  │ ████ │
 //!   └───────┴──────┘
 //! ```
@@ -38,11 +38,11 @@ pub(super) fn free_rectangles(area: Extent, obstacles: &[Extent]) -> Vec<Extent>
     free
 }
 
-/// The multiple of the space a view needs beyond which more space is no longer better.
+/// The multiple of a view's required space beyond which additional space has no value.
 const AMPLE: f64 = 1.3;
 
-/// Returns the best rectangle for a view of this size. Prefers rectangles with ample space, then
-/// those around `wanted`, then larger ones.
+/// Returns the best rectangle for a view of the given size. Prefers rectangles with ample space,
+/// then rectangles that contain `wanted`, then larger rectangles.
 pub(super) fn best_rectangle(free: &[Extent], size: DVec2, wanted: DVec2) -> Option<Extent> {
     let holds = |[low, high]: &&Extent| (*high - *low).cmpge(size).all();
     let score = |[low, high]: &Extent| {

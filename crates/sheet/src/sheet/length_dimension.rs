@@ -136,7 +136,7 @@ impl DimensionBoard {
         }
     }
 
-    /// Returns how far the part beside a length extends.
+    /// Returns how far the part extends in the direction `outward` beside a length.
     fn level_beside(&self, feet: &[DVec2], along: DVec2, outward: DVec2) -> f64 {
         let is_upright = along.x.abs() < 1e-9 || along.y.abs() < 1e-9;
         let places = feet.iter().map(|foot| foot.dot(along));
@@ -240,7 +240,7 @@ impl LengthRow<'_> {
                 self.add_text(&mut candidate, text, middle, TextAlign::Middle);
                 continue;
             }
-            // Both ends of a single length are free. `is_text_first` selects the first one.
+            // A single length has free space at both ends; `is_text_first` selects the first end.
             let is_end = at == last && !(last == 0 && self.is_text_first);
             if is_end || at == 0 {
                 // The text is beyond the extension line, which extends above the dimension line.
@@ -277,8 +277,8 @@ impl LengthRow<'_> {
         }
     }
 
-    /// Adds the arrowheads, which are outside at narrow ends, and oblique strokes at narrow
-    /// positions in a chain.
+    /// Adds arrowheads, or oblique strokes between narrow lengths in a chain. At a narrow end, the
+    /// arrowhead is outside.
     fn add_terminators(&self, candidate: &mut Candidate) {
         let last = self.feet.len() - 1;
         for at in 0..=last {
@@ -315,7 +315,7 @@ impl LengthRow<'_> {
     /// Adds a number that is wider than its space, farther out at the end of a leader.
     fn add_raised_text(&self, candidate: &mut Candidate, at: usize, text: &str) -> Option<()> {
         let middle = (self.line_point(at) + self.line_point(at + 1)) * 0.5;
-        // If "up" for the reader is away from the part, the baseline is on the side of the part.
+        // If the text's up direction points away from the part, its baseline faces the part.
         let own_height = if self.outward.dot(self.above()) > 0.0 { 0.0 } else { 1.0 };
         for level in 0..TEXT_LEVELS {
             let raised = 0.9 + 1.5 * f64::from(level);

@@ -2,7 +2,7 @@
 //!
 //! | unit | 1234.5 mm | decimals |
 //! | --- | --- | --- |
-//! | millimeters | 1235, and 234.5 below a meter | at most 2, none from one meter up |
+//! | millimeters | 1235 (below a meter, such as 234.5) | at most 2, none from one meter up |
 //! | inches | 48.602 | at most 3 |
 //! | feet and inches | 4'-0 5/8" | sixteenths of an inch |
 
@@ -41,7 +41,7 @@ pub struct NumberFormat {
 }
 
 impl NumberFormat {
-    /// The upper limit for `decimals`; a micrometer in meters needs six.
+    /// The upper limit for `decimals`. Six decimals express a micrometer in meters.
     pub const MAX_DECIMALS: u8 = 6;
 
     /// Formats a number with at most `most` decimals, without trailing zeros.
@@ -197,7 +197,7 @@ mod tests {
             let comma = format(Some(decimals), DecimalMark::Comma).text(1234.5678);
             assert_eq!((point.as_str(), comma), (text, text.replace('.', ",")));
         }
-        // More decimals than allowed, and trailing zeros.
+        // Cases with too many decimals, and with trailing zeros.
         assert_eq!(format(Some(9), DecimalMark::Comma).text(0.25), "0,25");
         assert_eq!(format(None, DecimalMark::Comma).text_with_unit(500.0), "500 mm");
         assert_eq!(format(None, DecimalMark::Comma).text_with_unit(2500.0), "2,5 m");

@@ -85,7 +85,7 @@ pub(super) enum ViewMeasure {
     /// Lengths between the images of points along a unit vector that points to the right or upward.
     /// `prefix` precedes the number.
     Lengths { feet: Vec<DVec2>, along: DVec2, is_baseline: bool, prefix: &'static str },
-    /// A circle seen face-on, with the prefix of its number and the length measured, in radii.
+    /// A circle seen face-on. `prefix` precedes the number, which is `radii` times the radius.
     Round { center: DVec2, radius: f64, prefix: &'static str, radii: f64 },
     /// An angle, defined by its vertex and the ends of its sides.
     Angle { vertex: DVec2, ends: [DVec2; 2] },
@@ -122,7 +122,7 @@ impl SheetView {
         DVec2::new(seen.x, -seen.y) * self.millimeters_per_unit
     }
 
-    /// Returns the name, if it is a named view.
+    /// Returns the direction's name if this is a named view.
     pub(super) fn named_view(&self) -> Option<NamedView> {
         match self.name {
             ViewName::Named(name) => Some(name),
@@ -140,7 +140,7 @@ impl SheetView {
         vector.dot(self.gaze_vector()).abs() <= TRUE_SINE * vector.length()
     }
 
-    /// Whether a unit vector points along the view direction.
+    /// Whether a unit vector is parallel to the view direction.
     pub(super) fn looks_along(&self, unit: DVec3) -> bool {
         unit.cross(self.gaze_vector()).length() <= TRUE_SINE
     }

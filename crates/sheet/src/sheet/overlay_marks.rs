@@ -86,7 +86,7 @@ impl ViewPlan {
     }
 }
 
-/// Returns the warning if sheets do not show an overlay, or show it incompletely.
+/// Returns a warning if sheets cannot show an overlay, or cannot show all its characters.
 fn overlay_warning(overlay: &Overlay) -> Option<SheetWarning> {
     let overlay = match overlay {
         Overlay::Grid(_) => "grid",
@@ -103,7 +103,7 @@ fn overlay_warning(overlay: &Overlay) -> Option<SheetWarning> {
 }
 
 impl ViewOverlays {
-    /// Returns the labels and axes of a view, for models with this diagonal.
+    /// Returns the labels and axes of a view, for models with the given diagonal.
     fn in_view(view: &SheetView, overlays: &[Overlay], diagonal: f64) -> Self {
         let mut own = Self::default();
         for overlay in overlays {

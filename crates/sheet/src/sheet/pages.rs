@@ -251,7 +251,7 @@ impl<'a> DrawnAssembly<'a> {
         let mut layers = paths.to_layers(style, placement, "path-", self.ink);
         let width = self.sheet.line_width_group().narrow_width();
         for layer in &mut layers {
-            "paths of parts".clone_into(&mut layer.title);
+            "part paths".clone_into(&mut layer.title);
             layer.pen = LineType::LongDashedDotted.to_pen(width, self.ink, Cap::Butt, Join::Miter);
         }
         layers
@@ -299,7 +299,7 @@ impl<'a> DrawnAssembly<'a> {
         warnings: &mut Vec<SheetWarning>,
     ) -> Vec<[Layer; 2]> {
         let width = self.sheet.line_width_group().narrow_width();
-        // Balloons at some positions block the leaders of others.
+        // Some positions cannot be used, because a balloon there would block the leaders of others.
         let capacity = (layout.capacity() * 2 / 3).max(1);
         let page_count = targets.len().div_ceil(capacity).max(1);
         // Balloons are spread evenly over the pages, so that the last page is not almost empty.
@@ -385,8 +385,8 @@ impl Sheet {
     }
 }
 
-/// Returns the spot where the leader for identical parts ends: among the spots about as clear as
-/// the clearest, the one closest to the border of the view.
+/// Returns the spot where the leader for identical parts ends. Among the spots with at least 60% of
+/// the largest clearance, it is the one closest to the border of the view.
 fn outermost_clear_spot(spots: &[VisibleSpot], view: &SheetView) -> Option<VisibleSpot> {
     let clearest = spots.iter().map(|spot| spot.clearance).fold(0.0, f64::max);
     let clear = spots.iter().filter(|spot| spot.clearance >= 0.6 * clearest).copied();

@@ -25,8 +25,8 @@ const ROW_HEIGHT: f64 = 2.3;
 /// The distance from the border of a cell to its text, in millimeters.
 const INSET: f64 = 1.2;
 
-/// The minimum factor by which the height of text that is wider than its cell is reduced. Text that
-/// is still too wide is truncated.
+/// The minimum scale of text that is reduced in height to fit its cell. Text that is still too wide
+/// is truncated.
 const LEAST_REDUCTION: f64 = 0.7;
 
 /// The distance from a table on a separate page to the frame and to the title block, in
@@ -41,7 +41,7 @@ pub(super) struct PartsTable<'a> {
     letters: f64,
 }
 
-/// Rows of a list below or above a heading.
+/// A column of the table: rows of the list, below or above a heading.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct TableColumn {
     /// The indices of the items.
@@ -64,7 +64,7 @@ impl<'a> PartsTable<'a> {
         self.letters * ROW_HEIGHT
     }
 
-    /// Returns the height of this many rows plus the heading, in millimeters.
+    /// Returns the height of the given number of rows plus the heading, in millimeters.
     fn height(&self, rows: usize) -> f64 {
         self.row_height() * (rows + 1) as f64
     }
@@ -159,7 +159,7 @@ impl<'a> PartsTable<'a> {
         Group { strokes, ..Group::default() }
     }
 
-    /// Returns the start and width of each cell in a row of this width, in millimeters.
+    /// Returns the start and width of each cell in a row of the given width, in millimeters.
     fn cells(&self, width: f64) -> Vec<(f64, f64)> {
         let parts: &[f64] = if self.list.has_masses {
             &[0.08, 0.09, 0.42, 0.27, 0.14]

@@ -14,8 +14,8 @@ use projection::SheetAngle;
 /// The number of sides of the polygon that approximates a circle.
 const CIRCLE_SIDES: u32 = 48;
 
-/// Returns the symbol of a projection angle around a center. The cone is as long as it is high, and
-/// half as high at its narrow end.
+/// Returns the symbol for a projection angle, centered at a point. The cone is as long as it is
+/// high, and half as high at its narrow end.
 ///
 /// The second view shows the narrow end as two circles: in first-angle projection it is to the
 /// right of the cone, and in third-angle projection to the left.
@@ -30,7 +30,7 @@ pub(super) fn projection_symbol(angle: SheetAngle, middle: DVec2, height: f64) -
     let cone = middle - DVec2::new(side * height * 0.8, 0.0);
     let eye = middle + DVec2::new(side * height * 0.8, 0.0);
     let cone_point = |x: f64, y: f64| cone + DVec2::new(x, y) * half;
-    // In both angles, the narrow end of the cone is on its left.
+    // In both projection angles, the narrow end of the cone is on its left.
     let corners = [
         cone_point(-1.0, -0.5),
         cone_point(1.0, -1.0),

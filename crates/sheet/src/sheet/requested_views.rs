@@ -81,7 +81,7 @@ impl ViewPlan {
             self.warnings = warnings;
             views
         };
-        // Letters continue after those used for the sections.
+        // Letters continue after the letters of the sections.
         let lettered = views.iter().filter_map(|view| view.letter).max();
         let first = lettered.map_or('A', |last| char::from_u32(u32::from(last) + 1).unwrap_or('Z'));
         let mut planner =
@@ -102,7 +102,7 @@ impl ViewPlan {
 }
 
 impl RequestPlanner<'_> {
-    /// Assigns the views along the axes their positions around the front view.
+    /// Assigns grid positions around the front view to the views along the axes.
     fn assign_places(&mut self) {
         let angle = self.subject.sheet.projection_angle;
         for one in &mut self.views {

@@ -91,8 +91,7 @@ fn bar_segment(corner: DVec2, from: f64, length: f64) -> Polyline {
 
 /// Returns the largest length of the form 1, 2 or 5 · 10ⁿ that is at most `most`.
 ///
-/// Lengths below 1 mm are computed as 1 divided by an integer, so that the shortest decimal form is
-/// the label.
+/// Lengths below 1 mm are computed as 1 / integer, so that labels show no rounding errors.
 fn round_length(most: f64) -> f64 {
     let mut power = 1e-6;
     while power * 10.0 <= most {

@@ -26,8 +26,8 @@ const LONG_SIDE_PIXELS: f64 = 8192.0;
 /// The resolution of flat fills: 300 dots per inch.
 const FILL_DOTS_PER_MILLIMETER: f64 = 300.0 / viewport::MILLIMETERS_PER_INCH;
 
-/// The resolution at which the outlines of gray fills are traced, fine enough that the narrowest
-/// wide line covers them.
+/// The resolution at which the outlines of gray fills are traced. The pixel steps are small enough
+/// that even the narrowest wide line hides them.
 const GRAY_DOTS_PER_MILLIMETER: f64 = 2.0 * FILL_DOTS_PER_MILLIMETER;
 
 /// The factor by which the window is larger than the object, so that nothing touches its border.
@@ -71,7 +71,7 @@ pub(super) struct SheetView {
 }
 
 impl SheetView {
-    /// Creates an uncut view of these points in a named direction.
+    /// Creates an uncut view of the given points in a named direction.
     ///
     /// # Errors
     /// [`SheetError::Empty`] if there are no points, [`SheetError::View`] if they cannot be framed.
@@ -99,7 +99,7 @@ impl SheetView {
         Ok(view.cut_by(vec![plane]))
     }
 
-    /// Creates a view of these points in any direction, with the top of the models up.
+    /// Creates a view of the given points in any direction, with the top of the models up.
     ///
     /// # Errors
     /// See [`frame_points`](Self::frame_points).
@@ -161,7 +161,7 @@ impl SheetView {
         (self.image_of(point) / self.millimeters_per_unit / window + 0.5) * pixels
     }
 
-    /// Returns the view with the object cut by these planes.
+    /// Returns the view with the object cut by the given planes.
     pub(super) fn cut_by(self, sections: Vec<Plane<World>>) -> Self {
         Self { sections, ..self }
     }
@@ -171,7 +171,7 @@ impl SheetView {
         Self { size, ..self.clone() }
     }
 
-    /// Creates the view of these points with a camera of this orientation.
+    /// Creates the view of the given points with a camera of the given orientation.
     fn frame_from(
         points: &[Point<World>],
         name: ViewName,

@@ -14,8 +14,7 @@ use super::view_plan::PlannedView;
 use glam::DVec2;
 use homog::{Point, Vector, World};
 
-/// The maximum number of corners. More are likely a mistake, and each pair takes an additional
-/// drawing.
+/// The maximum number of corners. More are likely a mistake, and each pair needs another drawing.
 const MAX_CORNERS: usize = 32;
 
 /// The line of a stepped section in space.
@@ -54,8 +53,8 @@ impl SteppedLine<'_> {
     }
 }
 
-/// Moves the end of a line that begins inside a rectangle around the origin to the rectangle's
-/// border.
+/// Moves the end of a line to the border of a rectangle around the origin. The line must begin
+/// inside the rectangle.
 fn end_at_border(from: DVec2, end: DVec2, half: DVec2) -> DVec2 {
     let direction = (end - from).normalize_or_zero();
     let to_side = |axis: usize| match direction[axis] {

@@ -19,12 +19,12 @@ pub(super) struct SurfaceCache<'a> {
 }
 
 impl<'a> SurfaceCache<'a> {
-    /// Creates an empty cache for these models.
+    /// Creates an empty cache for the given models.
     pub(super) fn new(models: &'a [ModelInstance], uncut: &'a [u32]) -> Self {
         Self { models, uncut, surfaces: Vec::new() }
     }
 
-    /// Returns the surface cut by these planes, which is welded on demand.
+    /// Returns the surface cut by the given planes, which is welded on demand.
     pub(super) fn cut_by(&mut self, sections: &[Plane<World>]) -> &WeldedSurface {
         let cached = self.surfaces.iter().position(|(planes, _)| planes == sections);
         let index = cached.unwrap_or_else(|| {

@@ -45,7 +45,7 @@ pub struct TitleBlockText {
 }
 
 impl TitleBlockText {
-    /// Whether any field that only the larger block has is set.
+    /// Whether any field is set that exists only in the larger block.
     pub(super) fn has_all_fields(&self) -> bool {
         let texts = [
             &self.supplementary_title,

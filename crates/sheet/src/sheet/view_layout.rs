@@ -102,7 +102,7 @@ impl<'a> ViewCell<'a> {
         Self::with_annotations(planned, scale, planned.annotate(sheet, scale))
     }
 
-    /// Creates the cell of a view with these annotations.
+    /// Creates the cell of a view with the given annotations.
     pub(super) fn with_annotations(
         planned: &'a PlannedView,
         scale: DrawingScale,
@@ -146,9 +146,9 @@ impl<'a> ViewLayout<'a> {
         })
     }
 
-    /// Arranges views like [`arrange_views`](Self::arrange_views), on the best of these sheets,
-    /// which differ only in their paper. Returns the index of the sheet as well. If sheets are
-    /// equally good, the first one is used.
+    /// Arranges views like [`arrange_views`](Self::arrange_views), on the best of the given sheets,
+    /// which differ only in their paper. Also returns the index of the sheet. If sheets are equally
+    /// good, the first one is used.
     pub(super) fn arrange_on_best(sheets: &[&Sheet], plan: &'a ViewPlan) -> Option<(usize, Self)> {
         let at_scale = |scale: DrawingScale| {
             let layouts = sheets.iter().map(|sheet| Self::arrange_at_scale(sheet, plan, scale));
@@ -225,7 +225,8 @@ impl<'a> ViewLayout<'a> {
         }
     }
 
-    /// Whether every view has a position, and a scale that is not much smaller than the sheet's.
+    /// Whether every view has a position and a scale not much smaller than the sheet's, and no
+    /// views overlap.
     pub(super) fn is_satisfied(&self) -> bool {
         self.cramped_views().next().is_none() && self.overlaps.is_empty()
     }
@@ -249,7 +250,8 @@ impl<'a> ViewLayout<'a> {
         (high - low).max(DVec2::ZERO)
     }
 
-    /// Whether more views are placed than in `other`, or the same views at larger scales.
+    /// Whether this layout has a larger sheet scale than `other` or, at the same scale, more views
+    /// or the same number at larger scales.
     pub(super) fn is_better_than(&self, other: &Self) -> bool {
         let score = |layout: &Self| {
             let scales = layout.views.iter().map(|placed| placed.scale.ratio());
@@ -286,8 +288,8 @@ impl<'a> ViewLayout<'a> {
     }
 }
 
-/// Returns the cell of a view at the largest scale, up to the sheet's, at which the view fits into
-/// a free rectangle, with its center.
+/// Finds the largest scale, up to the sheet's, at which a view fits into a free rectangle. Returns
+/// its cell at that scale, and the center.
 fn fit_into<'a>(
     sheet: &Sheet,
     planned: &'a PlannedView,

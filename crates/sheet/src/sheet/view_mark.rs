@@ -197,7 +197,7 @@ fn add_circle_letter(
 ) {
     let MarkSettings { object, letters, .. } = *settings;
     let mut places: Vec<(f64, DVec2)> = Vec::new();
-    // Starts at the upper right, which is tried first.
+    // The upper right is tried first.
     let directions = circle_points(DVec2::ZERO, 1.0, LETTER_DIRECTIONS);
     let start = directions.len() - directions.len() / 8;
     for direction in directions.iter().cycle().skip(start).take(directions.len()) {

@@ -64,7 +64,7 @@ pub(super) struct ViewPlan {
     pub(super) principal: [PlannedView; 3],
     /// The views without a fixed position: sections, then the axonometric view.
     pub(super) free: Vec<PlannedView>,
-    /// All views that are placed instead, if the sheet has requests.
+    /// If the sheet has requests, all its views, which replace the views above.
     pub(super) requested: Vec<PlannedView>,
     /// Warnings about sections that are not shown as requested.
     pub(super) warnings: Vec<SheetWarning>,
@@ -175,8 +175,8 @@ impl<'a> PlanSubject<'a> {
         Ok(PlannedView::plain(view))
     }
 
-    /// Returns the views with these names, with their sections and overall dimensions, and the
-    /// section views.
+    /// Returns the views with the given names, including their sections and overall dimensions, and
+    /// the section views.
     pub(super) fn named_views(
         &self,
         names: &[(NamedView, &ViewPlace)],
@@ -453,8 +453,8 @@ impl PlannedView {
         captions
     }
 
-    /// Returns the annotations like [`annotate`](Self::annotate), with a note of the view's scale,
-    /// which differs from the sheet's.
+    /// Returns the annotations from [`annotate`](Self::annotate), plus a note of the view's scale,
+    /// because it differs from the sheet's.
     pub(super) fn annotate_with_scale(
         &self,
         sheet: &Sheet,

@@ -44,7 +44,7 @@ pub enum ViewRequest {
     Named {
         /// The direction.
         view: NamedView,
-        /// Its place.
+        /// The position, scale and caption.
         place: ViewPlace,
     },
     /// Part of a view at a larger scale. The view marks it with a circle and a letter.
@@ -55,7 +55,7 @@ pub enum ViewRequest {
         center: Point<World>,
         /// The radius of the circle, in scene units.
         radius: f64,
-        /// Its place. By default, the scale is two to five times the scale of the view.
+        /// The position, scale and caption. By default, the scale is two to five times the view's.
         place: ViewPlace,
     },
     /// A section along parallel planes joined by steps (ISO 128-3, 5.4).
@@ -65,14 +65,14 @@ pub enum ViewRequest {
         /// The corners of the cut line. Pieces perpendicular to `removed` alternate with steps
         /// along it; the line begins and ends with a piece.
         corners: Vec<Point<World>>,
-        /// Its place.
+        /// The position, scale and caption.
         place: ViewPlace,
     },
     /// A view of a face that is oblique to the views along the axes, with an arrow and a letter.
     Auxiliary {
         /// The direction in which the face points, toward the viewer.
         facing: Vector<World>,
-        /// Its place.
+        /// The position, scale and caption.
         place: ViewPlace,
     },
     /// A view with one half cut, for symmetric parts (ISO 128-3, 5.5).

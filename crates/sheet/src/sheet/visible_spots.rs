@@ -64,8 +64,9 @@ pub(super) fn find_visible_spots(
     spots
 }
 
-/// Finds spots for parts that are narrower than a pixel and have none: the middle of their longest
-/// visible edge segment. `object` maps a part to its object in the drawing of the view.
+/// Finds spots for parts that have none because they are narrower than a pixel. Each spot is the
+/// middle of the part's longest visible edge segment. `object` maps a part to its object in the
+/// drawing of the view.
 pub(super) fn add_spots_on_edges(
     spots: &mut [Option<VisibleSpot>],
     drawing: &Drawing,
@@ -172,8 +173,8 @@ impl PartImage {
         }
     }
 
-    /// Returns, for each pixel, the number of steps between neighbors, including diagonals, to
-    /// reach another part, the paper or the border. Uses two passes, from above and from below.
+    /// Returns each pixel's distance to another part, the paper or the border, in steps between
+    /// neighbors, including diagonals. Uses two passes, from above and from below.
     fn distances_to_others(&self) -> Vec<u32> {
         let (width, height) = (self.width as isize, self.height as isize);
         let mut distances = vec![u32::MAX / 2; self.parts.len()];
@@ -205,7 +206,7 @@ mod tests {
     use model::{Mesh, Model, Node, Primitive, world_points};
     use std::sync::Arc;
 
-    /// Returns a model of triangles, each a separate part.
+    /// Returns a model in which each triangle is a separate part.
     fn triangles(corners: &[[[f32; 3]; 3]]) -> ModelInstance {
         let mut model = Model::default();
         for (index, positions) in corners.iter().enumerate() {

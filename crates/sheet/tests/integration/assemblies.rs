@@ -27,7 +27,7 @@ fn assembly_sheet(paper: (Paper, &'static str)) -> Sheet {
 /// The papers used in most tests.
 const PAPERS: [(Paper, &str); 2] = [(Paper::A3, "A3"), (Paper::A4, "A4")];
 
-/// Returns all faults of pages.
+/// Describes all faults on the pages.
 fn faults_of_pages(pages: &[SheetPage]) -> Vec<String> {
     let numbered = pages.iter().zip(1..);
     numbered
@@ -269,7 +269,7 @@ fn unusual_names_are_drawn_or_reported() {
         .collect();
     let mut instance = assembly(primitives, nodes);
     let model = Arc::make_mut(&mut instance.model);
-    // The part is below ten thousand nodes.
+    // The part is at the end of a chain of ten thousand nodes.
     for depth in 0..10_000 {
         let index = model.nodes.len();
         let parent = (depth > 0).then(|| index - 1);

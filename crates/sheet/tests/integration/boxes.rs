@@ -91,7 +91,7 @@ fn is_there_or_named(page: &SheetPage, prefix: &str, title: &str) -> bool {
     has_view(page, prefix) != page.warnings.contains(&named)
 }
 
-/// The directions that sections retain: no section, along the axes, and perpendicular to one axis.
+/// The directions toward the sides that sections retain, or `None` for no section.
 const SECTIONS: [Option<[f64; 3]>; 10] = [
     None,
     Some([-1.0, 0.0, 0.0]),
@@ -194,7 +194,7 @@ fn views_without_room_at_a_requested_scale_are_reported() {
         sheet.scale = DrawingScale::new(1, 1).ok();
         let retained = [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, 2.0, 0.0]];
         let planes = retained.map(|retained| plane(DVec3::ZERO, retained.into()));
-        // Views larger than the paper are an error that suggests a scale.
+        // Views larger than the paper cause an error that suggests a scale.
         let Ok(page) = sheet.draw(&[box_model(size)], &planes, 1) else { continue };
         for (prefix, title) in [
             ("isometric", "isometric view"),

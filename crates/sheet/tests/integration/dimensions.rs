@@ -106,7 +106,7 @@ fn lengths_read_back_from_every_format_match_the_formula() {
                 LengthDirection::Horizontal => DVec2::X,
                 LengthDirection::Vertical => DVec2::Y,
             };
-            // By the formula, an aligned length is the distance in space.
+            // According to the formula, an aligned length is the distance in space.
             let expected = match direction {
                 LengthDirection::Aligned => points[0].raw().distance(points[1].raw()),
                 LengthDirection::Horizontal => (b.x - a.x).abs(),

@@ -134,7 +134,7 @@ pub fn read_dxf(page: &SheetPage, layer: &str) -> ReadLayer {
         let point = |x: &str, y: &str| DVec2::new(number(x), page.size.y - number(y));
         match kind {
             "LINE" => read.lines.push(vec![point("10", "20"), point("11", "21")]),
-            "TEXT" => read.texts.push(value("1").expect("a text").replace("\\U+00D8", "Ø")),
+            "TEXT" => read.texts.push(value("1").expect("text").replace("\\U+00D8", "Ø")),
             _ => {}
         }
     }

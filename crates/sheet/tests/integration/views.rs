@@ -16,7 +16,7 @@ use viewport::{DrawingScale, Paper};
 /// Twice the grid step of a page, in millimeters, because two ends are rounded.
 const GRID: f64 = 0.002;
 
-/// Returns an A3 sheet in landscape with these requests.
+/// Returns an A3 sheet in landscape with the given requests.
 fn a3(views: Vec<ViewRequest>) -> Sheet {
     Sheet { views, ..sheet((Paper::A3.rotated(), "A3"), SheetAngle::First) }
 }
@@ -70,7 +70,7 @@ fn view_extent(page: &SheetPage, name: &str) -> Extent {
     layer_extent(page, |id| id.starts_with(&prefix)).expect("a view")
 }
 
-/// Returns an A3 sheet in landscape with these requests, at 1:1.
+/// Returns an A3 sheet in landscape with the given requests, at 1:1.
 fn at_one_to_one(views: Vec<ViewRequest>) -> Sheet {
     Sheet { scale: scale(1, 1), ..a3(views) }
 }
