@@ -1,4 +1,4 @@
-//! Clipped meshes: from positions to the frame, with clipping before the divide.
+//! Clipped meshes: transforms positions, clips before the divide and adds the result to a frame.
 //!
 //! ```text
 //!   positions ─source_to_clip─► outcodes ─► all inside ──────────────► ÷ w, snap ─► frame
@@ -164,8 +164,8 @@ fn sign(x: f64) -> i64 {
 
 impl Frame {
     /// Adds a mesh in any space: transforms it, clips it before the divide, culls it and snaps it.
-    /// Triangles that cross the near plane are cut there; their fragments have weights in the whole
-    /// triangles.
+    /// Triangles that cross the near plane are cut there; the weights of their fragments refer to
+    /// the whole triangle.
     ///
     /// ```
     /// use projection::{Convention, Fov, Perspective};

@@ -1,5 +1,5 @@
-//! The front fragment of each pixel, including translucent layers and alpha-tested holes, for
-//! picking and for counting overdraw.
+//! Front fragments, for picking, and overdraw counts. Both take translucent layers and alpha-tested
+//! holes into account.
 
 use crate::sample_plane::pixel_index;
 use crate::tile_grid::TILE;

@@ -237,8 +237,8 @@ impl SamplePlane {
 
     /// Calls `each(array index, x, y, depth)` for every covered sample that passes the depth test.
     ///
-    /// This method writes nothing. It is for masked triangles, whose alpha test comes between depth
-    /// test and depth write, and for translucent triangles. `compare` is the depth test.
+    /// This method writes nothing. It is for masked triangles, whose alpha test comes between the
+    /// depth test and the depth write, and for translucent triangles. `compare` is the depth test.
     ///
     /// `each` may write to the plane: the depth test of a row is done before its samples are
     /// visited, and no sample is visited twice.
@@ -303,7 +303,8 @@ impl SamplePlane {
 
     /// Depth-tests and writes one sample, without a branch.
     ///
-    /// The block's nearest bound is raised if necessary; its farthest bound stays, which is safe.
+    /// The block's nearest bound is raised if necessary; its farthest bound stays unchanged, which
+    /// is safe.
     #[inline(always)]
     pub(crate) fn depth_test_sample(&mut self, index: usize, depth: f32, triangle: u32) {
         let (old, old_triangle) = (self.depth[index], self.triangle[index]);
@@ -316,7 +317,8 @@ impl SamplePlane {
 
     /// Writes the depth and triangle of one sample without a test.
     ///
-    /// The block's nearest bound is raised if necessary; its farthest bound stays, which is safe.
+    /// The block's nearest bound is raised if necessary; its farthest bound stays unchanged, which
+    /// is safe.
     pub(crate) fn write_sample(&mut self, index: usize, depth: f32, triangle: u32) {
         self.depth[index] = depth;
         self.triangle[index] = triangle;
@@ -325,8 +327,8 @@ impl SamplePlane {
     }
 }
 
-/// Returns the nearer of two depths, neither of them NaN. This takes one comparison; `f32::max`
-/// takes more.
+/// Returns the nearer of two depths, neither of which may be NaN. This takes one comparison;
+/// `f32::max` takes more.
 fn nearer_depth(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }

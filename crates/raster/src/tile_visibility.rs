@@ -5,8 +5,9 @@
 //!                                                        └► translucent ─► layers, back to front
 //! ```
 //!
-//! The result is a visibility buffer: for each sample, the index of the nearest opaque triangle,
-//! and no color. Surfaces are shaded later, once per pixel, so hidden ones cost no shading.
+//! The result is a visibility buffer, which stores the index of the nearest opaque triangle for
+//! each sample, but no color. Surfaces are shaded later, once per pixel, so hidden ones cost no
+//! shading.
 
 use crate::fragment_lanes::LANES;
 use crate::micro_triangles::MicroTriangles;
@@ -329,8 +330,8 @@ impl TileVisibility {
 /// The pixels of a tile in which the alpha test of one triangle has run.
 ///
 /// Alpha is per pixel, not per sample, so it is tested once, for all eight pixels in a row of a
-/// block together. One bit per pixel and row records whether it was tested, and another whether it
-/// passed.
+/// block together. Each row has one bit per pixel that records whether it was tested, and another
+/// for whether it passed.
 struct MaskedPixels {
     tested: [u64; TILE as usize],
     passed: [u64; TILE as usize],
