@@ -31,7 +31,7 @@ pub enum Decomposed {
     /// A perspective projection from the origin. If its window is centered, it converts to
     /// [`crate::Perspective`].
     Frustum(Frustum),
-    /// The frustum of the WebGL lesson, with its apex beside the origin (LW-1).
+    /// The frustum of the WebGL lesson, whose apex is not at the origin (LW-1).
     ApexMoved(ApexMovedFrustum),
     /// A perspective projection from another position or orientation: a camera and a lens in one
     /// matrix.
@@ -123,7 +123,7 @@ pub enum DecomposeError {
     /// More than one dimension is lost.
     #[error("the matrix has rank {rank}; a projection has rank 3 or 4")]
     RankTooLow {
-        /// Its rank.
+        /// The rank of the matrix.
         rank: usize,
     },
     /// The x and y axes of the picture are not perpendicular, or the depth depends on the position
@@ -274,7 +274,7 @@ fn upright_axonometric([x, y, z]: [DVec3; 3]) -> Option<Axonometric> {
     (same(0, x) && same(1, y) && same(2, z)).then_some(axonometric)
 }
 
-/// Decomposes a parallel projection: w = 1 everywhere.
+/// Decomposes a parallel projection, for which w = 1 everywhere.
 fn decompose_parallel(matrix: DMat4, convention: Convention) -> Result<Decomposed, DecomposeError> {
     let mut columns = matrix;
     columns.z_axis *= -convention.ahead();
@@ -336,7 +336,7 @@ fn decompose_rotated_box(
     Ok(Decomposed::PlacedOrthographic { placement, volume })
 }
 
-/// Decomposes a central projection: w varies.
+/// Decomposes a central projection, for which w varies.
 fn decompose_central(
     matrix: DMat4,
     convention: Convention,
@@ -394,8 +394,8 @@ fn inclined_near_plane(depth: DVec4, convention: Convention) -> Plane<View> {
     Plane::from_raw(plane * (inwards / plane.truncate().length()))
 }
 
-/// Returns the named projection of an unrotated camera: its eye is at the origin, or beside it with
-/// a centered window.
+/// Returns the named projection of an unrotated camera: its eye is at the origin, or it is
+/// elsewhere and the window is centered.
 fn recognize_frustum(found: Placement, frustum: Frustum) -> Option<Decomposed> {
     let (eye, w, near) = (found.eye, frustum.window(), frustum.near());
     let size = DVec4::new(w.width(), w.height(), near, 0.0);

@@ -32,7 +32,7 @@ impl Perspective {
     ///
     /// # Errors
     /// Returns an error if a number other than `far` is not finite, the angle is not between 0 and
-    /// π, the aspect is not above 0, or 0 < near < far does not hold.
+    /// π, the aspect is not positive, or 0 < near < far does not hold.
     pub fn new(fov: Fov, aspect: f64, near: f64, far: f64) -> Result<Self, ProjectionError> {
         let lens = Self { half: fov.half_slopes(aspect)?, near, far };
         check_planes(near, far)?;
