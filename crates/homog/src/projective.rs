@@ -1,4 +1,4 @@
-//! Projective maps, from points to homogeneous points.
+//! Projective maps, which map points to homogeneous points.
 
 use crate::elimination::eliminate_full_pivoting;
 use crate::{Affine, HPoint, Plane, Point, Space, Vector};

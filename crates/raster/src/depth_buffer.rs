@@ -33,8 +33,7 @@ use homog::PixelRect;
 pub struct DepthBuffer {
     region: PixelRect,
     samples: Samples,
-    /// The depths of the first sample in all pixels, row by row, followed by the other samples
-    /// likewise.
+    /// The depths of the first sample in all pixels, row by row, then of each other sample in turn.
     depths: Vec<f32>,
 }
 

@@ -303,8 +303,7 @@ impl SamplePlane {
 
     /// Depth-tests and writes one sample, without a branch.
     ///
-    /// The block's nearest bound is raised if necessary; its farthest bound stays unchanged, which
-    /// is safe.
+    /// The block's nearest bound is raised if necessary; its farthest bound can safely stay.
     #[inline(always)]
     pub(crate) fn depth_test_sample(&mut self, index: usize, depth: f32, triangle: u32) {
         let (old, old_triangle) = (self.depth[index], self.triangle[index]);
@@ -317,8 +316,7 @@ impl SamplePlane {
 
     /// Writes the depth and triangle of one sample without a test.
     ///
-    /// The block's nearest bound is raised if necessary; its farthest bound stays unchanged, which
-    /// is safe.
+    /// The block's nearest bound is raised if necessary; its farthest bound can safely stay.
     pub(crate) fn write_sample(&mut self, index: usize, depth: f32, triangle: u32) {
         self.depth[index] = depth;
         self.triangle[index] = triangle;

@@ -6,8 +6,7 @@
 //! ```
 //!
 //! The result is a visibility buffer, which stores the index of the nearest opaque triangle for
-//! each sample, but no color. Surfaces are shaded later, once per pixel, so hidden ones cost no
-//! shading.
+//! each sample, but no color. Shading comes later, once per pixel, so hidden surfaces cost nothing.
 
 use crate::fragment_lanes::LANES;
 use crate::micro_triangles::MicroTriangles;
@@ -330,8 +329,7 @@ impl TileVisibility {
 /// The pixels of a tile in which the alpha test of one triangle has run.
 ///
 /// Alpha is per pixel, not per sample, so it is tested once, for all eight pixels in a row of a
-/// block together. Each row has one bit per pixel that records whether it was tested, and another
-/// for whether it passed.
+/// block together. Each pixel has one bit for whether it was tested and one for whether it passed.
 struct MaskedPixels {
     tested: [u64; TILE as usize],
     passed: [u64; TILE as usize],
