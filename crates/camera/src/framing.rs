@@ -90,8 +90,8 @@ pub enum FramingConstraint {
     Width,
     /// The points touch the lower and upper sides of the padded frame, and fit within its width.
     Height,
-    /// The points touch no side: their image would have no size, or the eye would coincide with the
-    /// nearest point.
+    /// The points do not touch any side: otherwise, their image would have no size, or the eye
+    /// would coincide with the nearest point.
     Loose,
 }
 
@@ -101,10 +101,10 @@ pub enum FramingConstraint {
 pub struct Framing {
     /// The camera.
     pub camera: Camera,
-    /// The distance of the nearest point along the gaze, greater than 0. Not padded.
+    /// The distance of the nearest point along the gaze, greater than 0, without padding.
     pub near: f64,
-    /// The distance of the farthest point along the gaze. Not padded: equal to `near` if the points
-    /// lie in one plane.
+    /// The distance of the farthest point along the gaze, without padding. It equals `near` if the
+    /// points lie in one plane.
     pub far: f64,
     /// The constraint that decided the distance.
     pub constraint: FramingConstraint,
@@ -113,9 +113,9 @@ pub struct Framing {
 /// Places a camera with the given orientation where the image of `points` just fills the frame.
 ///
 /// In the direction named by [`FramingConstraint`], the image touches both sides of the padded
-/// frame; in the other it is centered. `padding` is the fraction of the frame's width and height
-/// left free on every side: 0.05 is 5%. To frame bounds, pass [`homog::Bounds::corners`]; the
-/// points themselves give a closer fit.
+/// frame; in the other direction it is centered. `padding` is the fraction of the frame's width and
+/// height left free on every side: 0.05 is 5%. To frame bounds, pass [`homog::Bounds::corners`];
+/// the points themselves give a closer fit.
 ///
 /// A single point is framed as a cube with side 1 around it, or with a millionth of its distance
 /// from the origin if that is more. The same applies to points closer together than 10⁻¹² of that

@@ -43,7 +43,7 @@
 //! | yaw, pitch and roll | [`Orientation`] |
 //! | a node of a scene | [`Camera::from_frame`] |
 //! | R and t, a pose or a quaternion from OpenCV, OpenGL, COLMAP, PyTorch3D | [`Extrinsics`] |
-//! | two eyes | [`StereoRig`], and [`apex_moved_view`] for a common mistake |
+//! | a stereo pair | [`StereoRig`], and [`apex_moved_view`] for a common mistake |
 //! | an eye in front of a physical screen | [`ScreenCorners`] |
 //!
 //! # Conventions
