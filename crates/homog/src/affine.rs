@@ -120,7 +120,7 @@ impl<A: Space, B: Space> Affine<A, B> {
         Point::tagged(self.raw.transform_point3(point.raw))
     }
 
-    /// Writes the images of `points` to `images` in one pass, with the same bits as
+    /// Writes the images of `points` to `images` in one pass, bit-identical to
     /// [`transform_point`](Self::transform_point). Extra elements of the longer slice are ignored.
     pub fn transform_points_into(self, points: &[Point<A>], images: &mut [Point<B>]) {
         for (point, image) in points.iter().zip(images) {
