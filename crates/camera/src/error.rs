@@ -82,7 +82,7 @@ pub enum CameraError {
         /// The largest deviation of a dot product of two rows from 1 or 0.
         deviation: f64,
     },
-    /// A matrix that should be a rotation mirrors instead.
+    /// A matrix that should be a rotation is a reflection instead.
     #[error(
         "the matrix is a reflection (its determinant is negative): \
          negate one of its rows or columns"
@@ -116,7 +116,7 @@ pub enum CameraError {
     /// The sides of the screen are not perpendicular.
     #[error(
         "the sides of the screen are not at right angles: \
-         the cosine of their angle is {cosine}"
+         the cosine of the angle between them is {cosine}"
     )]
     SkewedScreen {
         /// The cosine of the angle between them.
@@ -163,8 +163,8 @@ pub enum FramingError {
         /// The upper side of the window.
         top: f64,
     },
-    /// The opening angle is not between 0 and π.
-    #[error("the opening angle is {radians} rad: it must be greater than 0 and less than pi")]
+    /// The field of view is not between 0 and π.
+    #[error("the field of view is {radians} rad: it must be greater than 0 and less than pi")]
     Angle {
         /// The rejected angle.
         radians: f64,

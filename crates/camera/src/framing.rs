@@ -16,7 +16,7 @@
 //! ex ≤ r (ez − z), that is, if ex + r ez ≥ x + r z. This gives one number per side and point, and
 //! only the largest, R, matters. With the smallest, L, for the left side, ex + r ez ≥ R and ex + l
 //! ez ≤ L. Hence ez ≥ (R − L)/(r − l), the smallest distance at which the width fits. The height
-//! gives a second distance. The larger one decides, and the picture is centered in the other
+//! gives a second distance. The larger distance is used, and the picture is centered in the other
 //! direction. No bounding sphere, iteration or safety margin is involved, and no point is cropped.
 
 use crate::point_coordinates::PointCoordinates;
@@ -32,7 +32,7 @@ const MIN_CLEARANCE: f64 = 1.0 / 64.0;
 
 /// The frame as the slopes of its four sides: the window at distance 1 in front of the eye.
 ///
-/// A symmetric frame with a vertical opening angle θ has `top` = −`bottom` = tan(θ/2) and `right` =
+/// A symmetric frame with a vertical field of view θ has `top` = −`bottom` = tan(θ/2) and `right` =
 /// −`left` = `top` × width/height. Off-axis frames, as for shifted lenses and stereo pairs, also
 /// work.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -48,7 +48,7 @@ pub struct Slopes {
 }
 
 impl Slopes {
-    /// Creates a symmetric frame from a vertical opening angle in radians, in (0, π), and an aspect
+    /// Creates a symmetric frame from a vertical field of view in radians, in (0, π), and an aspect
     /// ratio, width/height (FOV-1).
     ///
     /// # Errors
@@ -83,7 +83,7 @@ impl Slopes {
     }
 }
 
-/// The constraint that decided the distance of the eye or the size of the window.
+/// The constraint that determined the distance of the eye or the size of the window.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum FramingConstraint {
     /// The points touch the left and right sides of the padded frame, and fit within its height.
@@ -106,7 +106,7 @@ pub struct Framing {
     /// The distance of the farthest point along the gaze, without padding. It equals `near` if the
     /// points lie in one plane.
     pub far: f64,
-    /// The constraint that decided the distance.
+    /// The constraint that determined the distance.
     pub constraint: FramingConstraint,
 }
 

@@ -53,7 +53,7 @@
 //!   the same window on the plane at distance 1. Pass them to any projection.
 //! - No constructor returns a camera that contains NaN. Errors are a [`CameraError`] or a
 //!   [`FramingError`] with the offending values and a remedy. For example, if the view-up is
-//!   parallel to the gaze, the error suggests one that works.
+//!   parallel to the gaze, the error suggests a view-up that works.
 //!
 //! `cargo run -p alberti-camera --example photographer` demonstrates the crate.
 //!

@@ -39,7 +39,7 @@ pub struct ParallelFraming {
     /// The distance of the farthest point along the gaze, without padding. It equals `near` if the
     /// points lie in one plane.
     pub far: f64,
-    /// The dimension of the picture that decided the size.
+    /// The dimension of the picture that determined the size.
     pub constraint: FramingConstraint,
 }
 
@@ -153,7 +153,7 @@ impl ImageBounds {
         self.min * 0.5 + self.max * 0.5
     }
 
-    /// Returns half the width and height of the padded window, and the constraint that decided
+    /// Returns half the width and height of the padded window, and the constraint that determined
     /// them.
     fn padded_window<I: Iterator<Item = Point<World>> + Clone>(
         &self,

@@ -18,8 +18,8 @@ use homog::{Clip, HPoint};
 /// # Guarantees
 /// - 0 ≤ `t0` ≤ `t1` ≤ 1; both ends are finite, have w > 0 and are inside the volume's box or on
 ///   its boundary.
-/// - An end that is inside keeps its exact bits. The segment from q to p gives the same two points,
-///   bit for bit.
+/// - An end that is inside is unchanged. The segment from q to p gives the same two points, bit for
+///   bit.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct ClippedSegment {

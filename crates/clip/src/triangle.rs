@@ -44,8 +44,8 @@ impl ClipVertex {
 /// # Guarantees
 /// - It has no vertices or at least three.
 /// - Every vertex is finite, inside the volume's box or on its boundary, and has w > 0.
-/// - Vertices of the triangle that are inside keep their exact bits, and an edge shared by two
-///   triangles is cut at bit-identical points, in either direction.
+/// - Vertices of the triangle that are inside are unchanged, and an edge shared by two triangles is
+///   cut at bit-identical points, in either direction.
 #[derive(Clone, Copy, Debug)]
 pub struct ClippedPolygon {
     ring: PolygonVertices,

@@ -6,7 +6,7 @@
 //!      p = q = r = 0: parallel                      else: central
 //!      rows at right angles?                        eye: where x, y and w vanish
 //!        unrotated    → orthographic                  at the origin, unrotated → frustum
-//!        rotated      → axonometric, placed           beside it, centered     → apex moved (LW-1)
+//!        rotated      → axonometric, placed           elsewhere, centered     → apex moved (LW-1)
 //!      z in x and y   → oblique                       anywhere, rotated      → placed
 //!      no inverse     → classical: the center is the null vector of the matrix
 //! ```

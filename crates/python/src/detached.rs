@@ -2,7 +2,7 @@
 //! panic becomes an exception.
 //!
 //! ```text
-//!  calling thread   waits, and looks for signals 20 times a second ─► CancelToken
+//!  calling thread   waits and checks for signals 20 times a second ─► CancelToken
 //!  worker           renders ────────────────────────────────────────────┘
 //! ```
 //! Python delivers signals only to its main thread, and only while that thread holds the lock, so a

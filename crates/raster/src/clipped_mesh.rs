@@ -5,10 +5,10 @@
 //!                                        └► some outside ─► clip_triangle ─┘
 //! ```
 //!
-//! [`Frame::add_mesh`] takes vertices on the screen, where a vertex behind the eye has no position.
-//! Triangles with such a vertex are omitted, for example a floor under the viewer's feet. Clipping
-//! cuts such triangles at the near plane while they are still in homogeneous coordinates (CL-3). At
-//! the sides of the picture, a guard band far outside it replaces the planes (CL-4).
+//! [`Frame::add_mesh`] accepts vertices on the screen, where a vertex behind the eye has no
+//! position. Triangles with such a vertex are omitted, for example a floor under the viewer's feet.
+//! Clipping cuts such triangles at the near plane while they are still in homogeneous coordinates
+//! (CL-3). At the sides of the picture, a guard band far outside it replaces the planes (CL-4).
 
 use crate::{CullMode, Frame, GUARD_BAND, Opacity, ScreenVertex, VertexProjection, signed_area};
 use clip::{ClippedSegment, Outcode, Volume, clip_segment, clip_triangle};

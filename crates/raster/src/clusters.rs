@@ -10,7 +10,7 @@
 //! Much of a large mesh is outside the picture or faces away. A cluster is a run of consecutive
 //! triangles with their bounding box and a cone around their normals, so one test decides for all
 //! of them (Shirman and Abi-Ezzi, *The Cone of Normals Technique*, 1993). Triangles keep their
-//! order and their ids, so culling never changes a bit of the picture.
+//! order and their ids, so culling never changes the picture.
 
 use core::ops::Range;
 use glam::DVec3;

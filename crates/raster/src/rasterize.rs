@@ -66,7 +66,7 @@ pub(crate) fn rasterize_triangle<S: Simd>(
         return;
     }
     for block in blocks_in_bounds(&lanes.functions) {
-        // Depth along the columns does not depend on the sample: compute it once for all planes.
+        // The column term of depth does not depend on the sample: compute it once for all planes.
         let columns = lanes.block_columns(simd, block);
         for (sample, plane) in planes.iter_mut().enumerate() {
             let start = start(sample);

@@ -56,7 +56,7 @@ impl Frame {
         self.buffers.recycle_buffers(DrawBuffers { bins, workers });
     }
 
-    /// Fills the tiles of one band from left to right and calls `each` with those that have
+    /// Fills the tiles of one band from left to right and calls `each` with the tiles that have
     /// triangles.
     fn for_each_tile_in_band<S: Surface, P>(
         &self,

@@ -122,7 +122,7 @@ impl Viewport {
     /// Returns the map M_vp (VP-1 to VP-3, DP-1).
     ///
     /// ```text
-    /// [ w/2   0   0  x + w/2 + c ]      c = −½ for integer centers, 0 for half-integer ones;
+    /// [ w/2   0   0  x + w/2 + c ]      c = −½ for integer centers, 0 for half-integer centers;
     /// [  0  ±h/2  0  y + h/2 + c ]      + if y keeps its direction, − if it flips;
     /// [  0    0   s       o      ]      s and o are from the depth range
     /// [  0    0   0       1      ]
