@@ -1,4 +1,4 @@
-//! Any classical projection, ready to render.
+//! Classical projections as matrices for rendering, with depth preserved.
 //!
 //! The classical projections drop z: their matrices are singular and cannot decide visibility. With
 //! depth preserved and a view volume around the object, each becomes an ordinary matrix from view

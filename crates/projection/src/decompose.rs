@@ -13,7 +13,7 @@
 //!
 //! A matrix and its multiples are the same map, so a common factor is removed first and reported. A
 //! matrix does not identify its convention: the OpenGL matrix of (N, F) is the zero-to-one matrix
-//! of (2FN/(F+N), F). Therefore the caller must specify one; [`readings`] tries all named
+//! of (2FN/(F+N), F). Therefore the caller must specify it; [`readings`] tries all named
 //! conventions.
 
 use crate::placement::{self, Placement};
@@ -47,8 +47,7 @@ pub enum Decomposed {
         placement: Affine<View, View>,
         /// The window at distance 1 in front of the eye.
         slopes: Window,
-        /// The near plane, after the camera; its normal has length 1 and points to the visible
-        /// side.
+        /// The near plane in camera space; its normal has length 1 and points to the visible side.
         near_plane: Plane<View>,
     },
     /// An axis-aligned box.
@@ -70,7 +69,7 @@ pub enum Decomposed {
     },
     /// The depth-preserving map of an n-point perspective, without a view volume.
     NPoint(NPoint),
-    /// A classical projection that drops a dimension: singular.
+    /// A singular classical projection, which drops a dimension.
     Flat {
         /// The center of projection, which is the null vector of the matrix. Its w is 0 if the
         /// projectors are parallel.
@@ -274,7 +273,7 @@ fn upright_axonometric([x, y, z]: [DVec3; 3]) -> Option<Axonometric> {
     (same(0, x) && same(1, y) && same(2, z)).then_some(axonometric)
 }
 
-/// Decomposes a parallel projection, for which w = 1 everywhere.
+/// Decomposes a parallel projection, in which w = 1 everywhere.
 fn decompose_parallel(matrix: DMat4, convention: Convention) -> Result<Decomposed, DecomposeError> {
     let mut columns = matrix;
     columns.z_axis *= -convention.ahead();
@@ -336,7 +335,7 @@ fn decompose_rotated_box(
     Ok(Decomposed::PlacedOrthographic { placement, volume })
 }
 
-/// Decomposes a central projection, for which w varies.
+/// Decomposes a central projection, in which w varies.
 fn decompose_central(
     matrix: DMat4,
     convention: Convention,

@@ -3,7 +3,7 @@
 //!
 //! ```text
 //!        y │   ● image of (0,0,1)        α  angle between projector and plane
-//!          │ ⟋ L1                        L1 = cot α, the image's length of a unit of depth
+//!          │ ⟋ L1                        L1 = cot α, the drawn length of a unit of depth
 //!          ⟋ φ                           φ  direction in which depth is drawn
 //!   ───────┼────── x
 //! ```

@@ -49,7 +49,7 @@ impl Frame {
     /// alpha test.
     ///
     /// In a frame whose primitives are all translucent this is the overdraw: every fragment counts,
-    /// even hidden ones.
+    /// even if it is hidden.
     pub fn count_overdraw<S: Surface>(&self, surface: &S, threads: usize, target: &mut [u32]) {
         self.for_each_pixel(surface, threads, target, |pixel, target| {
             let [x, y] = pixel.image_position;

@@ -1,4 +1,4 @@
-//! The tile loop: fills every tile of a frame with its triangles and passes it on, in parallel.
+//! The tile loop: rasterizes every tile of a frame and passes it to a callback, in parallel.
 //!
 //! Work is divided by rows of tiles. A row of tiles is a band of whole target rows, so bands are
 //! disjoint slices that threads can write without locks. Tiles are independent: a tile depends only

@@ -191,7 +191,7 @@ impl TileVisibility {
         }
     }
 
-    /// Returns the next few triangles of a list that may be visible.
+    /// Returns the next few possibly visible triangles of a list.
     ///
     /// This is occlusion culling by the tile's depth bound: triangles behind everything in the tile
     /// are skipped before any setup. Translucent triangles are also skipped, and `has_translucent`
@@ -382,8 +382,8 @@ fn translucent_layer(
     rect.is_visible(x, y).then_some(layer)
 }
 
-/// Merges the layers of one triangle, from index `first` on, that are samples of the same pixel. A
-/// merged layer has the depth of its first sample.
+/// Starting at index `first`, merges the layers of one triangle that are samples of the same pixel.
+/// A merged layer has the depth of its first sample.
 fn merge_layer_samples(layers: &mut Vec<TranslucentLayer>, first: usize) {
     // Make the samples of each pixel adjacent, starting with the first sample.
     layers[first..].sort_unstable_by_key(|layer| (layer.pixel, layer.mask));
