@@ -6,9 +6,9 @@ use glam::DVec4;
 
 /// A homogeneous point (x, y, z, w) of space `S` (HO-1).
 ///
-/// With w ≠ 0 it represents the position (x/w, y/w, z/w); with w = 0, the direction (x, y, z), a
-/// point at infinity. Any nonzero multiple represents the same point; (0, 0, 0, 0) does not
-/// represent a point.
+/// With w ≠ 0 it represents the position (x/w, y/w, z/w); with w = 0, the direction (x, y, z),
+/// which is a point at infinity. Any nonzero multiple represents the same point; (0, 0, 0, 0) does
+/// not represent a point.
 ///
 /// ```
 /// use homog::{Clip, HPoint, Ndc, Point};
