@@ -1,5 +1,5 @@
-//! A photographer walks around a house, keeps the whole house in the picture, and finally takes a
-//! stereo pair.
+//! Follows a photographer who walks around a house, keeps all of it in the picture, and finally
+//! takes a stereo pair.
 //!
 //! Run it with `cargo run -p alberti-camera --example photographer`.
 #![allow(clippy::print_stdout, reason = "the example prints its results")]

@@ -61,8 +61,8 @@ impl Basis {
         Ok(Self::from_right(Vector::from_raw(right), backwards))
     }
 
-    /// Like [`from_gaze`](Self::from_gaze), but replaces an `up` that is zero or parallel to the
-    /// gaze by [`fallback_up`](Self::fallback_up).
+    /// Like [`from_gaze`](Self::from_gaze), but uses [`fallback_up`](Self::fallback_up) if `up` is
+    /// zero or parallel to the gaze.
     ///
     /// # Errors
     /// Returns an error if the gaze is zero or a vector is not finite.
@@ -78,9 +78,9 @@ impl Basis {
         })
     }
 
-    /// Returns a substitute for a view-up that does not work: −z when looking mostly down (as on a
-    /// map with north at the top), +z when looking mostly up, and +y otherwise. It is always at
-    /// least 45° from the gaze.
+    /// Returns a substitute for an unusable view-up: −z when looking mostly down (as on a map with
+    /// north at the top), +z when looking mostly up, and +y otherwise. It is always at least 45°
+    /// from the gaze.
     #[must_use]
     pub fn fallback_up(gaze: Vector<World>) -> Vector<World> {
         let [x, y, z] = gaze.raw().abs().to_array();
@@ -96,7 +96,8 @@ impl Basis {
     fn from_right(right: Vector<World>, backwards: Vector<World>) -> Self {
         let w = backwards;
         let right = right / right.length();
-        // The two were rounded independently; this removes the error in the last digit along w.
+        // The two vectors were rounded independently; this removes the error in the last digit
+        // along w.
         let right = right - w * right.dot(w);
         let u = right / right.length();
         let v = w.cross(u);

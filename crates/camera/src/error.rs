@@ -9,9 +9,9 @@ pub enum CameraError {
     /// A coordinate is infinite or NaN.
     #[error("the {name} {value} is not finite")]
     NotFinite {
-        /// The name of the input, such as "eye", "target", "gaze" or "view-up".
+        /// The name of the input: "eye", "target", "gaze", "view-up" and so on.
         name: &'static str,
-        /// Its three coordinates.
+        /// The three coordinates of the input.
         value: Vector<World>,
     },
     /// The gaze is the zero vector, which has no direction.
@@ -20,7 +20,7 @@ pub enum CameraError {
     /// Eye and target are the same point, so there is no direction between them.
     #[error("the eye and the target are both at {eye}: move one of them")]
     TargetIsEye {
-        /// Their common position.
+        /// The position of both.
         eye: Point<World>,
     },
     /// The view-up is the zero vector.
@@ -52,7 +52,7 @@ pub enum CameraError {
     NumberNotFinite {
         /// The name of the input.
         name: &'static str,
-        /// Its value.
+        /// The rejected value.
         value: f64,
     },
     /// A number is not greater than zero.
@@ -60,7 +60,7 @@ pub enum CameraError {
     NotPositive {
         /// The name of the input.
         name: &'static str,
-        /// Its value.
+        /// The rejected value.
         value: f64,
     },
     /// A number is too large to compute with.
@@ -68,7 +68,7 @@ pub enum CameraError {
     TooLarge {
         /// The name of the input.
         name: &'static str,
-        /// Its value.
+        /// The rejected value.
         value: f64,
         /// The largest value allowed.
         limit: f64,
@@ -79,10 +79,10 @@ pub enum CameraError {
          at most 1e-4 is allowed"
     )]
     NotRotation {
-        /// The largest difference of a dot product of two rows from 1 or 0.
+        /// The largest deviation of a dot product of two rows from 1 or 0.
         deviation: f64,
     },
-    /// A matrix that should be a rotation mirrors instead.
+    /// A matrix that should be a rotation is a reflection instead.
     #[error(
         "the matrix is a reflection (its determinant is negative): \
          negate one of its rows or columns"
@@ -96,13 +96,13 @@ pub enum CameraError {
         "the window [{left}, {right}] x [{bottom}, {top}] is empty: opposite sides must differ"
     )]
     EmptyWindow {
-        /// Its left side.
+        /// The left side of the window.
         left: f64,
-        /// Its right side.
+        /// The right side of the window.
         right: f64,
-        /// Its lower side.
+        /// The lower side of the window.
         bottom: f64,
-        /// Its upper side.
+        /// The upper side of the window.
         top: f64,
     },
     /// Two corners of the screen are the same point.
@@ -110,13 +110,13 @@ pub enum CameraError {
         "two corners of the screen are both at {corner}: the screen needs a width and a height"
     )]
     FlatScreen {
-        /// Their common position.
+        /// The position of both.
         corner: Point<World>,
     },
     /// The sides of the screen are not perpendicular.
     #[error(
         "the sides of the screen are not at right angles: \
-         the cosine of their angle is {cosine}"
+         the cosine of the angle between them is {cosine}"
     )]
     SkewedScreen {
         /// The cosine of the angle between them.
@@ -128,7 +128,7 @@ pub enum CameraError {
          check the order of the corners"
     )]
     EyeBehindScreen {
-        /// Its distance from the screen's plane, which is not positive.
+        /// The distance of the eye from the screen's plane, which is not positive.
         distance: f64,
     },
 }
@@ -143,7 +143,7 @@ pub enum FramingError {
     /// A point has an infinite or NaN coordinate.
     #[error("point {index} of the points to frame is not finite: {point}")]
     PointNotFinite {
-        /// Its position in the sequence, from 0.
+        /// The index of the point in the sequence, counted from 0.
         index: usize,
         /// The point.
         point: Point<World>,
@@ -154,17 +154,17 @@ pub enum FramingError {
          left must be less than right and bottom less than top"
     )]
     Window {
-        /// Its left side.
+        /// The left side of the window.
         left: f64,
-        /// Its right side.
+        /// The right side of the window.
         right: f64,
-        /// Its lower side.
+        /// The lower side of the window.
         bottom: f64,
-        /// Its upper side.
+        /// The upper side of the window.
         top: f64,
     },
-    /// The opening angle is not between 0 and π.
-    #[error("the opening angle is {radians} rad: it must be greater than 0 and less than pi")]
+    /// The field of view is not between 0 and π.
+    #[error("the field of view is {radians} rad: it must be greater than 0 and less than pi")]
     Angle {
         /// The rejected angle.
         radians: f64,
@@ -175,7 +175,7 @@ pub enum FramingError {
         /// The rejected ratio.
         aspect: f64,
     },
-    /// The padding is negative or leaves no room in the frame.
+    /// The padding is negative or leaves no space in the frame.
     #[error("the padding is {padding}: it must be at least 0 and less than 0.5 of the frame")]
     Padding {
         /// The rejected padding.

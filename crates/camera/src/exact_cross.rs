@@ -1,4 +1,4 @@
-//! A cross product that stays accurate even if the vectors are nearly parallel.
+//! A cross product that is accurate even for nearly parallel vectors.
 //!
 //! Each coordinate of t × g is a difference a b − c d. For directions 10⁻⁶ rad apart the two
 //! products agree to six digits, and rounding them first would leave only ten digits in the

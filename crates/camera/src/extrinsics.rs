@@ -114,7 +114,7 @@ impl Extrinsics {
     ) -> Result<Self, CameraError> {
         check_finite("vector part of the quaternion", [x, y, z])?;
         check_finite("real part of the quaternion", [w, 0.0, 0.0])?;
-        // Scaled first, so that squares neither overflow nor underflow.
+        // Scale first, to keep the squares from overflowing or underflowing.
         let largest = [w, x, y, z].into_iter().fold(0.0, |most: f64, part| most.max(part.abs()));
         if largest == 0.0 {
             return Err(CameraError::ZeroQuaternion);
@@ -252,7 +252,7 @@ fn check_rotation(rotation: [[f64; 3]; 3]) -> Result<(), CameraError> {
     Ok(())
 }
 
-/// Returns the matrix with rows and columns exchanged.
+/// Returns the transpose of the matrix.
 fn transpose(rows: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     [0, 1, 2].map(|column| [0, 1, 2].map(|row: usize| rows[row][column]))
 }

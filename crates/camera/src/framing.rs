@@ -16,7 +16,7 @@
 //! ex ≤ r (ez − z), that is, if ex + r ez ≥ x + r z. This gives one number per side and point, and
 //! only the largest, R, matters. With the smallest, L, for the left side, ex + r ez ≥ R and ex + l
 //! ez ≤ L. Hence ez ≥ (R − L)/(r − l), the smallest distance at which the width fits. The height
-//! gives a second distance. The larger one decides, and the picture is centered in the other
+//! gives a second distance. The larger distance is used, and the picture is centered in the other
 //! direction. No bounding sphere, iteration or safety margin is involved, and no point is cropped.
 
 use crate::point_coordinates::PointCoordinates;
@@ -32,7 +32,7 @@ const MIN_CLEARANCE: f64 = 1.0 / 64.0;
 
 /// The frame as the slopes of its four sides: the window at distance 1 in front of the eye.
 ///
-/// A symmetric frame with a vertical opening angle θ has `top` = −`bottom` = tan(θ/2) and `right` =
+/// A symmetric frame with a vertical field of view θ has `top` = −`bottom` = tan(θ/2) and `right` =
 /// −`left` = `top` × width/height. Off-axis frames, as for shifted lenses and stereo pairs, also
 /// work.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -48,7 +48,7 @@ pub struct Slopes {
 }
 
 impl Slopes {
-    /// Creates a symmetric frame from a vertical opening angle in radians, in (0, π), and an aspect
+    /// Creates a symmetric frame from a vertical field of view in radians, in (0, π), and an aspect
     /// ratio, width/height (FOV-1).
     ///
     /// # Errors
@@ -83,15 +83,15 @@ impl Slopes {
     }
 }
 
-/// The constraint that decided the distance of the eye or the size of the window.
+/// The constraint that determined the distance of the eye or the size of the window.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum FramingConstraint {
     /// The points touch the left and right sides of the padded frame, and fit within its height.
     Width,
     /// The points touch the lower and upper sides of the padded frame, and fit within its width.
     Height,
-    /// The points touch no side: their image would have no size, or the eye would coincide with the
-    /// nearest point.
+    /// The points do not touch any side: otherwise, their image would have no size, or the eye
+    /// would coincide with the nearest point.
     Loose,
 }
 
@@ -101,21 +101,21 @@ pub enum FramingConstraint {
 pub struct Framing {
     /// The camera.
     pub camera: Camera,
-    /// The distance of the nearest point along the gaze, greater than 0. Not padded.
+    /// The distance of the nearest point along the gaze, greater than 0, without padding.
     pub near: f64,
-    /// The distance of the farthest point along the gaze. Not padded: equal to `near` if the points
-    /// lie in one plane.
+    /// The distance of the farthest point along the gaze, without padding. It equals `near` if the
+    /// points lie in one plane.
     pub far: f64,
-    /// The constraint that decided the distance.
+    /// The constraint that determined the distance.
     pub constraint: FramingConstraint,
 }
 
 /// Places a camera with the given orientation where the image of `points` just fills the frame.
 ///
 /// In the direction named by [`FramingConstraint`], the image touches both sides of the padded
-/// frame; in the other it is centered. `padding` is the fraction of the frame's width and height
-/// left free on every side: 0.05 is 5%. To frame bounds, pass [`homog::Bounds::corners`]; the
-/// points themselves give a closer fit.
+/// frame; in the other direction it is centered. `padding` is the fraction of the frame's width and
+/// height left free on every side: 0.05 is 5%. To frame bounds, pass [`homog::Bounds::corners`];
+/// the points themselves give a closer fit.
 ///
 /// A single point is framed as a cube with side 1 around it, or with a millionth of its distance
 /// from the origin if that is more. The same applies to points closer together than 10⁻¹² of that

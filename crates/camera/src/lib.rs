@@ -43,7 +43,7 @@
 //! | yaw, pitch and roll | [`Orientation`] |
 //! | a node of a scene | [`Camera::from_frame`] |
 //! | R and t, a pose or a quaternion from OpenCV, OpenGL, COLMAP, PyTorch3D | [`Extrinsics`] |
-//! | two eyes | [`StereoRig`], and [`apex_moved_view`] for a common mistake |
+//! | a stereo pair | [`StereoRig`], and [`apex_moved_view`] for a common mistake |
 //! | an eye in front of a physical screen | [`ScreenCorners`] |
 //!
 //! # Conventions
@@ -53,7 +53,7 @@
 //!   the same window on the plane at distance 1. Pass them to any projection.
 //! - No constructor returns a camera that contains NaN. Errors are a [`CameraError`] or a
 //!   [`FramingError`] with the offending values and a remedy. For example, if the view-up is
-//!   parallel to the gaze, the error suggests one that works.
+//!   parallel to the gaze, the error suggests a view-up that works.
 //!
 //! `cargo run -p alberti-camera --example photographer` demonstrates the crate.
 //!

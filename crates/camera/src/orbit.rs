@@ -59,8 +59,8 @@ impl Orbit {
         Camera::new(self.target + basis.w() * self.distance, basis)
     }
 
-    /// Returns `frames` positions, evenly spaced around the vertical axis and starting here. The
-    /// last is one step before the first.
+    /// Returns `frames` positions, evenly spaced around the vertical axis and starting with this
+    /// position. The last is one step before the first.
     pub fn turntable(self, frames: u32) -> impl ExactSizeIterator<Item = Self> + Clone {
         let step = TAU / f64::from(frames.max(1));
         (0..frames).map(move |i| {
@@ -69,8 +69,8 @@ impl Orbit {
         })
     }
 
-    /// Returns the orbit position of `camera` around `target`. `None` if the camera does not look
-    /// at the target, is rolled, or is too far away for a finite distance.
+    /// Returns the orbit position of `camera` around `target`, or `None` if the camera does not
+    /// look at the target, is rolled, or is too far away for a finite distance.
     ///
     /// This is the inverse of [`camera`](Self::camera), with the azimuth in (−π, π] and the
     /// elevation in [−π/2, π/2].

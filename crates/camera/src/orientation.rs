@@ -27,12 +27,12 @@ use homog::{Vector, World};
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Orientation {
-    /// About +y; positive looks to the left.
+    /// The rotation about +y; a positive angle looks to the left.
     pub yaw: f64,
-    /// About the right axis; positive looks up.
+    /// The rotation about the right axis; a positive angle looks up.
     pub pitch: f64,
-    /// About the axis out of the picture; positive tips the camera counterclockwise, as seen from
-    /// behind it.
+    /// The rotation about the axis out of the picture; a positive angle tips the camera
+    /// counterclockwise, as seen from behind it.
     pub roll: f64,
 }
 

@@ -34,12 +34,12 @@ pub struct ParallelFraming {
     pub bottom: f64,
     /// The upper side.
     pub top: f64,
-    /// The distance of the nearest point along the gaze, greater than 0. Not padded.
+    /// The distance of the nearest point along the gaze, greater than 0, without padding.
     pub near: f64,
-    /// The distance of the farthest point along the gaze. Not padded: equal to `near` if the points
-    /// lie in one plane.
+    /// The distance of the farthest point along the gaze, without padding. It equals `near` if the
+    /// points lie in one plane.
     pub far: f64,
-    /// The dimension of the picture that decided the size.
+    /// The dimension of the picture that determined the size.
     pub constraint: FramingConstraint,
 }
 
@@ -153,7 +153,7 @@ impl ImageBounds {
         self.min * 0.5 + self.max * 0.5
     }
 
-    /// Returns half the width and height of the padded window, and the constraint that decided
+    /// Returns half the width and height of the padded window, and the constraint that determined
     /// them.
     fn padded_window<I: Iterator<Item = Point<World>> + Clone>(
         &self,

@@ -11,7 +11,7 @@ use homog::{Bounds, Point, Vector, View, World};
 
 /// The largest coordinate of a point for which sums and products with unit vectors stay finite.
 const MAX_COORDINATE: f64 = 1e300;
-/// Points closer together than this fraction of their distance from the origin count as one.
+/// Points closer together than this fraction of their distance from the origin count as one point.
 const SINGLE_POINT_TOLERANCE: f64 = 1e-12;
 /// An upper bound for the relative rounding error of the eye's coordinates.
 const EYE_PRECISION: f64 = 1e-14;

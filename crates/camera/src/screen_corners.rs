@@ -19,7 +19,7 @@
 use crate::{Basis, Camera, CameraError, CameraView, ViewWindow};
 use homog::{Point, Vector, World};
 
-/// The largest cosine of the angle between the sides of a screen that counts as a right angle.
+/// The largest cosine of the angle between two sides for which they count as perpendicular.
 const MAX_SKEW_COSINE: f64 = 1e-6;
 
 /// Three corners of a rectangular screen in the world, as seen by its viewer.

@@ -38,7 +38,7 @@ pub struct StereoRig {
 pub struct CameraView {
     /// The camera.
     pub camera: Camera,
-    /// Its window.
+    /// The window of the camera.
     pub window: ViewWindow,
 }
 
@@ -89,7 +89,7 @@ impl StereoRig {
     /// Returns the pair from [`off_axis_pair`](Self::off_axis_pair), with the apex of each frustum
     /// moved opposite the center of its window (LW-1).
     ///
-    /// For comparison only: the eyes are closer together than requested, and their pictures
+    /// This is for comparison only: the eyes are closer together than requested, and their pictures
     /// coincide at a different distance.
     ///
     /// # Errors

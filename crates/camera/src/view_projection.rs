@@ -41,16 +41,15 @@ impl ViewProjection {
     /// Returns whether the picture is mirrored, as by a window with left and right (or bottom and
     /// top) exchanged.
     ///
-    /// The sign comes from the determinant of the matrix, which is the z row times the point
-    /// without an image: depth grows toward the viewer, who therefore has a positive z in clip
-    /// space.
+    /// This is the sign of the matrix's determinant, which equals the z row times the point without
+    /// an image. It is unambiguous because depth grows toward the viewer.
     #[must_use]
     pub fn is_mirrored(&self) -> bool {
         self.world_to_clip().raw().row(2).dot(self.blind_point()) > 0.0
     }
 
     /// Returns the point without an image, as the four-dimensional cross product of the x, y and w
-    /// rows. The determinant of three points and this one equals the determinant of (x, y, w) of
+    /// rows. The determinant of three points and this point equals the determinant of (x, y, w) of
     /// their images. The product points away from the viewer unless the picture is mirrored.
     fn blind_point(&self) -> DVec4 {
         let m = self.world_to_clip().raw();

@@ -1,4 +1,4 @@
-//! The view transform: from world space to pixels in one value, including the viewer (PL-1).
+//! The view transform: the maps from world space to pixels, and the viewer, in one value (PL-1).
 //!
 //! ```text
 //!  World ──world_to_clip──► Clip ──perspective divide──► Ndc ──ndc_to_screen──► Screen
@@ -40,7 +40,7 @@ pub struct ViewTransform {
 }
 
 impl ViewTransform {
-    /// Creates the transform of a camera and projection on a viewport.
+    /// Creates the transform of a camera and projection, followed by a viewport transform.
     #[must_use]
     pub fn new(view_projection: &ViewProjection, ndc_to_screen: Affine<Ndc, Screen>) -> Self {
         let viewer = view_projection.viewer();

@@ -1,4 +1,5 @@
-//! Why clipping comes before the divide: a rail that runs from in front of the camera to behind it.
+//! Shows why clipping comes before the divide: a rail runs from in front of the camera to behind
+//! it.
 //!
 //! Run it with `cargo run -p alberti-clip --example behind_the_eye`. It prints both ends of the
 //! rail in clip space and draws two pictures: one divides immediately, the other clips first.

@@ -20,8 +20,8 @@ impl<S: Space> Outline<S> {
     /// where the normal of the plane points away from the viewer.
     ///
     /// Areas within an odd number of loops are filled, and the direction of a loop does not matter
-    /// (even-odd rule). Loops that cross each other, which never happens for a solid, are covered
-    /// only in part. The time grows with the square of the number of points.
+    /// (even-odd rule). Loops that cross each other, which never happens for a solid, are only
+    /// partly covered. The time grows with the square of the number of points.
     ///
     /// ```
     /// use clip::Outline;
@@ -144,8 +144,8 @@ impl PlanarPoints {
     }
 
     /// Returns the index in the outline of a corner visible from a point inside. A ray from the
-    /// point to the right meets a first edge; the corner is the right end of that edge or a corner
-    /// that blocks the view of that end.
+    /// point to the right meets some edge first. The corner is the right end of that edge, or a
+    /// corner that hides that end.
     fn find_bridge(&self, outline: &[usize], point: usize) -> Option<usize> {
         let [x, y] = self.points[point];
         let mut nearest: Option<(f64, usize)> = None;

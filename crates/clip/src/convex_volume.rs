@@ -100,7 +100,7 @@ impl<S: Space> ConvexVolume<S> {
     /// ```
     ///
     /// # Errors
-    /// Returns [`VolumeError::NoPlane`] if the map is not finite or loses a side.
+    /// Returns [`VolumeError::NoPlane`] if the map is not finite or one of the planes degenerates.
     pub fn from_projection(
         source_to_clip: Projective<S, Clip>,
         range: impl Into<ClipRange>,
@@ -159,7 +159,7 @@ impl<S: Space> ConvexVolume<S> {
     /// points.
     ///
     /// The result is empty if nothing is left or a corner is not finite. Corners that are inside
-    /// keep their exact bits, and an edge shared by two polygons is cut at the same bits in both.
+    /// are unchanged, and an edge shared by two polygons is cut at bit-identical points.
     #[must_use]
     pub fn clip_polygon<P, A>(&self, polygon: &[(P, A)]) -> Vec<(P, A)>
     where

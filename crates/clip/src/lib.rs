@@ -34,8 +34,8 @@
 //!
 //! A [`Volume`] is a table of planes: the canonical volume of any convention, with or without a far
 //! plane, with a guard band, or with user planes. Fractions and weights carry attributes along; no
-//! perspective correction is needed at this stage. Neighbors are cut at the same bits along a
-//! shared edge. Nothing here panics, and no result is infinite or NaN.
+//! perspective correction is needed at this stage. Neighbors are cut at bit-identical points along
+//! a shared edge. Nothing here panics, and no result is infinite or NaN.
 //!
 //! # Example
 //! A floor tile under the camera has one corner in front of it and the others beside and behind it.

@@ -11,13 +11,13 @@ pub struct Outline<S: Space> {
     /// plane, outer loops are counterclockwise and holes clockwise, provided that the triangles of
     /// the surface are counterclockwise seen from outside.
     pub loops: Vec<Vec<Point<S>>>,
-    /// Chains that do not close because the surface has a boundary. There are none for closed
-    /// surfaces.
+    /// Chains that do not close because the surface has a boundary. Closed surfaces have none.
     pub open: Vec<Vec<Point<S>>>,
 }
 
 impl<S: Space> Outline<S> {
-    /// Joins edges whose ends are exactly equal, like those from [`crate::CutTriangle::edge`].
+    /// Joins edges whose ends are exactly equal, such as the edges from
+    /// [`crate::CutTriangle::edge`].
     ///
     /// Edges are joined end to start where possible. Where the winding of the surface is
     /// inconsistent, they are reversed.

@@ -19,8 +19,8 @@ pub enum PlaneOutcome {
 pub struct PlaneOutcomes {
     /// The planes that removed a part.
     pub clipped: Outcode,
-    /// The planes that rejected the shape: every plane that has the whole shape outside or, if
-    /// there is no such plane, those after which nothing remained.
+    /// The planes that rejected the shape: every plane that the whole shape is outside of or, if
+    /// there is no such plane, the planes after which nothing remained.
     pub rejected: Outcode,
 }
 

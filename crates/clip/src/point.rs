@@ -1,4 +1,4 @@
-//! Points (CL-1).
+//! Point clipping (CL-1).
 
 use crate::Volume;
 use homog::{Clip, HPoint};

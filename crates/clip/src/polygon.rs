@@ -1,4 +1,4 @@
-//! Convex polygons of any size (CL-3).
+//! Clipping of convex polygons with any number of corners (CL-3).
 
 use crate::sutherland_hodgman::{RingStep, clip_ring, safe_scale, unscaled};
 use crate::{Outcode, PlaneOutcomes, Volume};
@@ -20,7 +20,8 @@ pub struct ClippedConvex {
 }
 
 impl ClippedConvex {
-    /// Returns the vertices, not divided, in source order, or an empty slice if nothing is left.
+    /// Returns the vertices before the divide, in source order, or an empty slice if nothing is
+    /// left.
     #[must_use]
     pub fn points(&self) -> &[HPoint<Clip>] {
         &self.points
@@ -53,8 +54,8 @@ impl ClippedConvex {
 ///
 /// Every vertex of the result comes with its source weights, for interpolating any attribute. If a
 /// polygon has fewer than three vertices, or a vertex that is not finite, the result is empty.
-/// Split concave polygons into convex polygons first: otherwise, separate parts would come out
-/// joined by a seam along the boundary.
+/// Split concave polygons into convex polygons first: otherwise, a seam along the boundary would
+/// join separate parts.
 ///
 /// ```
 /// use clip::{Volume, clip_convex};

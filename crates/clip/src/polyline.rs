@@ -8,7 +8,7 @@ use homog::{Clip, HPoint};
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct PolylinePoint {
-    /// The position, not divided.
+    /// The position before the divide.
     pub point: HPoint<Clip>,
     /// The index of the source segment that contains it, which runs from point `segment` to point
     /// `segment + 1`.

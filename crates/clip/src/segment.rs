@@ -1,4 +1,4 @@
-//! Segments (CL-2; Liang and Barsky, 1984, in homogeneous space).
+//! Segment clipping (CL-2; Liang and Barsky, 1984, in homogeneous space).
 //!
 //! ```text
 //!            ┌─────────┐
@@ -18,8 +18,8 @@ use homog::{Clip, HPoint};
 /// # Guarantees
 /// - 0 ≤ `t0` ≤ `t1` ≤ 1; both ends are finite, have w > 0 and are inside the volume's box or on
 ///   its boundary.
-/// - An end that is inside keeps its exact bits. The segment from q to p gives the same two points,
-///   bit for bit.
+/// - An end that is inside is unchanged. The segment from q to p gives the same two points, bit for
+///   bit.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct ClippedSegment {
@@ -32,9 +32,9 @@ pub struct ClippedSegment {
     pub t0: f64,
     /// The fraction at `end`.
     pub t1: f64,
-    /// The plane through which the segment enters; `None` if it starts inside.
+    /// The plane through which the segment enters, or `None` if it starts inside.
     pub enter: Option<PlaneIndex>,
-    /// The plane through which it leaves; `None` if it ends inside.
+    /// The plane through which the segment leaves, or `None` if it ends inside.
     pub exit: Option<PlaneIndex>,
 }
 
@@ -76,7 +76,7 @@ impl ClippedSegment {
 /// ```
 #[must_use]
 pub fn clip_segment(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Option<ClippedSegment> {
-    // Only one of the two directions is ever computed, so both get the same bits.
+    // Only one of the two directions is ever computed, so both give bit-identical results.
     if compare_points(p.raw(), q.raw()) == Ordering::Greater {
         return Some(VisibleSpan::new(q, p, volume).ok()?.end_points(q, p, volume)?.reversed());
     }

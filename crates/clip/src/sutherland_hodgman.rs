@@ -9,8 +9,8 @@
 //! ```
 //!
 //! A crossing is always computed from the end nearer to the plane, where the blend is most
-//! accurate. Two polygons that share an edge walk it in opposite directions, so this gives both the
-//! same bits.
+//! accurate. Two polygons that share an edge walk it in opposite directions, so this gives
+//! bit-identical results.
 
 use glam::DVec4;
 

@@ -1,4 +1,4 @@
-//! Triangles (CL-3): the clipped part is a convex polygon, available as a fan of triangles.
+//! Triangle clipping (CL-3): the result is a convex polygon, available as a fan of triangles.
 //!
 //! ```text
 //!            ╱╲                        a plane that cuts off a corner leaves two:
@@ -20,7 +20,7 @@ const MAX_VERTICES: usize = 3 + MAX_PLANES;
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct ClipVertex {
-    /// The position, not divided. Its w is greater than 0.
+    /// The position before the divide. Its w is greater than 0.
     pub point: HPoint<Clip>,
     /// The weights of the source vertices; they sum to 1. Use them to interpolate any attribute; no
     /// further correction is needed, because the blend happens before the divide (CL-2).
@@ -44,8 +44,8 @@ impl ClipVertex {
 /// # Guarantees
 /// - It has no vertices or at least three.
 /// - Every vertex is finite, inside the volume's box or on its boundary, and has w > 0.
-/// - Vertices of the triangle that are inside keep their exact bits, and an edge shared by two
-///   triangles is cut at the same bits in both, in either direction.
+/// - Vertices of the triangle that are inside are unchanged, and an edge shared by two triangles is
+///   cut at bit-identical points, in either direction.
 #[derive(Clone, Copy, Debug)]
 pub struct ClippedPolygon {
     ring: PolygonVertices,
@@ -237,8 +237,8 @@ impl VertexBuffer {
         &mut self.vertices[..self.count]
     }
 
-    /// Appends a vertex if there is space. Rounding may make a ring slightly concave. Only then
-    /// could it outgrow its storage, and it then drops a vertex that is on a line.
+    /// Appends a vertex if there is space. Rounding may make a ring slightly concave. Only such a
+    /// ring could outgrow its storage; it then drops a vertex that is on a line.
     fn push(&mut self, vertex: ClipVertex) {
         if let Some(place) = self.vertices.get_mut(self.count) {
             *place = vertex;

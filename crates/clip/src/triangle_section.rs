@@ -9,9 +9,9 @@
 //! ```
 //!
 //! Cutting the triangles of a closed surface leaves it open. Every triangle that the plane crosses
-//! contributes one directed edge to the outline of the opening. Neighbors cut their shared edge at
-//! the same bits, so the edges join end to start without a tolerance, and the outline of a closed
-//! surface always closes.
+//! contributes one directed edge to the outline of the opening. Neighbors are cut at bit-identical
+//! points along a shared edge, so the edges join end to start without a tolerance, and the outline
+//! of a closed surface always closes.
 //!
 //! A corner on the plane counts as inside. A face in the plane is therefore kept whole, and a solid
 //! that only touches the plane from inside gets no cap.
@@ -125,8 +125,8 @@ fn cut_edge<S: Space>(corners: [Point<S>; 3], distances: [f64; 3]) -> Option<[Po
     edge.filter(|[from, to]| from != to && from.is_finite() && to.is_finite())
 }
 
-/// Returns the crossing of an edge with the plane, with the same bits as the clipped vertex. An
-/// inner end on the plane is the crossing itself.
+/// Returns the crossing of an edge with the plane, bit-identical to the clipped vertex. An inner
+/// end on the plane is the crossing itself.
 fn edge_crossing<S: Space>(inner: (Point<S>, f64), outer: (Point<S>, f64)) -> Point<S> {
     if inner.1 == 0.0 {
         return inner.0; // The vector to the outer end may overflow.

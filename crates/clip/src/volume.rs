@@ -38,9 +38,9 @@ pub enum VolumeError {
         max = Volume::MAX_GUARD_BAND
     )]
     GuardBand {
-        /// The parameter, `kx` or `ky`.
+        /// The name of the parameter, `kx` or `ky`.
         name: &'static str,
-        /// Its value.
+        /// The rejected value.
         value: f64,
     },
 }
@@ -106,8 +106,8 @@ impl Volume {
     }
 
     /// Returns this volume without its near plane, for geometry that may begin anywhere in front of
-    /// the eye. The side planes keep w from going below 0, and their cuts have w > 0 except at the
-    /// eye itself.
+    /// the eye. The side planes keep w from becoming negative, and their cuts have w > 0 except at
+    /// the eye itself.
     #[must_use]
     pub fn without_near(mut self) -> Self {
         self.active_planes = self.active_planes.without_plane(PlaneIndex::NEAR);

@@ -1,4 +1,4 @@
-//! Affine maps, from points to points without a divide.
+//! Affine maps, which map points to points without a divide.
 
 use crate::{Normal, Plane, Point, Projective, Space, Vector};
 use core::marker::PhantomData;
@@ -24,7 +24,7 @@ pub struct Affine<A: Space, B: Space> {
 }
 
 impl<A: Space, B: Space> Affine<A, B> {
-    /// The map that only changes the space and leaves the coordinates unchanged.
+    /// The map that changes only the space and leaves the coordinates unchanged.
     pub const IDENTITY: Self = Self::tagged(DMat4::IDENTITY);
 
     pub(crate) const fn tagged(raw: DMat4) -> Self {
@@ -120,7 +120,7 @@ impl<A: Space, B: Space> Affine<A, B> {
         Point::tagged(self.raw.transform_point3(point.raw))
     }
 
-    /// Writes the images of `points` to `images` in one pass, with the same bits as
+    /// Writes the images of `points` to `images` in one pass, bit-identical to
     /// [`transform_point`](Self::transform_point). Extra elements of the longer slice are ignored.
     pub fn transform_points_into(self, points: &[Point<A>], images: &mut [Point<B>]) {
         for (point, image) in points.iter().zip(images) {
@@ -134,9 +134,9 @@ impl<A: Space, B: Space> Affine<A, B> {
         Vector::tagged(self.raw.transform_vector3(vector.raw))
     }
 
-    /// Returns the image of a normal, computed with the cofactors of the linear part. They are its
-    /// inverse transpose times its determinant, so this also works for flattening maps, and the
-    /// normal of a mirrored surface stays on its side.
+    /// Returns the image of a normal, computed with the cofactors of the linear part. The cofactor
+    /// matrix is the inverse transpose times the determinant, so it also exists for flattening maps
+    /// and keeps the normal of a mirrored surface on the same side.
     #[must_use]
     pub fn transform_normal(self, normal: Normal<A>) -> Normal<B> {
         let [x, y, z] = self.linear_columns();

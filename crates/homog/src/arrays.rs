@@ -51,7 +51,7 @@ impl<A: Space, B: Space> Projective<A, B> {
         Self::tagged(DMat4::from_cols_array(&entries))
     }
 
-    /// Returns the sixteen numbers, column by column; also the row-major array for row vectors.
+    /// Returns the sixteen numbers, column by column (row by row for row vectors).
     #[must_use]
     pub fn to_column_major(self) -> [f64; 16] {
         self.raw.to_cols_array()
@@ -103,7 +103,7 @@ impl<A: Space, B: Space> Affine<A, B> {
         Self::from_matrix(DMat4::from_cols_array(&entries))
     }
 
-    /// Returns the sixteen numbers, column by column; also the row-major array for row vectors.
+    /// Returns the sixteen numbers, column by column (row by row for row vectors).
     #[must_use]
     pub fn to_column_major(self) -> [f64; 16] {
         self.raw.to_cols_array()

@@ -86,7 +86,7 @@ impl<S: Space> Bounds<S> {
         self.size().length()
     }
 
-    /// Returns whether `point` is inside the box or on it.
+    /// Returns whether `point` is inside the box or on its surface.
     #[must_use]
     pub fn contains(self, point: Point<S>) -> bool {
         self.min.raw.cmple(point.raw).all() && self.max.raw.cmpge(point.raw).all()

@@ -7,9 +7,9 @@
 //!   [ p q r h ]                 points map to infinity
 //! ```
 //!
-//! Each kind contains the one above it. A common factor does not matter: the bottom row
-//! (0, 0, 0, 5) is equivalent to (0, 0, 0, 1). One source calls a perspective "non-linear"
-//! (misprint M27): it is linear on homogeneous points, and projective but not affine on positions.
+//! Each kind includes the kinds above it. A common factor does not matter: the bottom row (0, 0, 0,
+//! 5) is equivalent to (0, 0, 0, 1). One source calls a perspective "non-linear" (misprint M27): it
+//! is linear on homogeneous points, and projective but not affine on positions.
 
 use crate::{Affine, Homography, Projective, Space};
 use core::fmt;

@@ -31,7 +31,7 @@ pub enum ClipRangeError {
     Depth {
         /// The name of the depth: `near_depth` or `far_depth`.
         name: &'static str,
-        /// Its value.
+        /// The rejected value.
         value: f64,
     },
     /// The depths of the near and far planes are less than 10⁻⁶ apart.

@@ -5,7 +5,7 @@
 //! at 10⁻¹² and a far plane at 10⁶): only a pivot at the level of rounding noise makes a matrix
 //! singular.
 
-/// A pivot of a balanced matrix up to this size is rounding noise.
+/// Pivots of a balanced matrix up to this size count as rounding noise.
 const ROUNDING_NOISE: f64 = 4.0 * f64::EPSILON;
 
 /// The result of elimination.
@@ -126,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn noise_is_singular_but_small_units_are_not() {
+    fn rounding_noise_is_singular_but_small_units_are_not() {
         let thirds = [[0.1, 0.2], [0.3, 0.6]];
         let flat = eliminate_full_pivoting(thirds);
         assert_eq!((flat.rank, flat.inverse), (1, None), "0.1 · 0.6 − 0.2 · 0.3 is 1e-17, not 0");

@@ -15,7 +15,7 @@
 
 use crate::{HPoint, Space};
 
-/// The w values of the ends do not allow f(t).
+/// The error for a segment whose w values leave f(t) undefined.
 #[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
 #[error(
     "a segment with w from {start} to {end} has no connected image: both values must be finite, \
@@ -75,8 +75,8 @@ impl Foreshortening {
     /// Returns f(t): the position in the image, as a fraction, of the point at fraction `t` of the
     /// segment.
     ///
-    /// Always `Some` for t in [0, 1]. Beyond the ends, it is `None` from the point where the image
-    /// reaches infinity.
+    /// The result is always `Some` for t in [0, 1]. Beyond the ends, it is `None` from the point
+    /// where the image reaches infinity.
     #[must_use]
     pub fn image_parameter(self, t: f64) -> Option<f64> {
         perspective_fraction(t, self.end * t, interpolate(self.start, self.end, t))
@@ -85,7 +85,8 @@ impl Foreshortening {
     /// Returns the inverse of f: the fraction of the segment that appears at fraction `s` of its
     /// image.
     ///
-    /// Always `Some` for s in [0, 1]. Beyond the ends, it is `None` from the vanishing point on.
+    /// The result is always `Some` for s in [0, 1]. Beyond the ends, it is `None` from the
+    /// vanishing point on.
     #[must_use]
     pub fn source_parameter(self, s: f64) -> Option<f64> {
         perspective_fraction(s, self.start * s, interpolate(self.end, self.start, s))
@@ -116,8 +117,7 @@ fn interpolate(start: f64, end: f64, t: f64) -> f64 {
     start * (1.0 - t) + end * t
 }
 
-/// Returns the quotient. If `of` is at most 1, the quotient is clamped to 1, which rounding could
-/// exceed.
+/// Returns the quotient, clamped to 1 if `of` is at most 1, because rounding could exceed 1.
 fn perspective_fraction(of: f64, numerator: f64, denominator: f64) -> Option<f64> {
     let fraction = finite_quotient(numerator, denominator)?;
     Some(if of <= 1.0 { fraction.min(1.0) } else { fraction })
@@ -132,7 +132,7 @@ fn finite_quotient(numerator: f64, denominator: f64) -> Option<f64> {
 /// Returns the weights of a triangle's corners in space, from the weights in its image and w at the
 /// corners (IN-2): λᵢ/wᵢ over their sum. They interpolate any attribute perspective-correctly.
 ///
-/// `None` if the sum is 0 or not finite, for example if a w is 0.
+/// Returns `None` if the sum is 0 or not finite, for example if a w is 0.
 #[must_use]
 pub fn perspective_weights(image_weights: [f64; 3], w: [f64; 3]) -> Option<[f64; 3]> {
     let parts: [f64; 3] = core::array::from_fn(|i| image_weights[i] / w[i]);

@@ -48,7 +48,7 @@ impl Homography {
     /// Returns the map that takes the corners (0,0), (1,0), (1,1), (0,1) of the unit square to the
     /// four given points, in this order.
     ///
-    /// `None` if three of them are collinear or a coordinate is not finite.
+    /// Returns `None` if three of them are collinear or a coordinate is not finite.
     #[must_use]
     pub fn from_unit_square(corners: [[f64; 2]; 4]) -> Option<Self> {
         // Three corners are the images of three base points, each up to a factor; the fourth
@@ -104,7 +104,7 @@ impl Homography {
     /// Returns whether the two maps are the same, that is, whether one matrix is a multiple of the
     /// other (HO-2).
     ///
-    /// `None` if one of them is zero or not finite.
+    /// Returns `None` if one of them is zero or not finite.
     #[must_use]
     pub fn equivalent(self, other: Self, relative: f64) -> Option<bool> {
         are_proportional(&self.raw.to_cols_array(), &other.raw.to_cols_array(), relative)

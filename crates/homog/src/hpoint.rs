@@ -6,8 +6,9 @@ use glam::DVec4;
 
 /// A homogeneous point (x, y, z, w) of space `S` (HO-1).
 ///
-/// With w ≠ 0 it represents the position (x/w, y/w, z/w); with w = 0, the direction (x, y, z), a
-/// point at infinity. Any nonzero multiple represents the same point; (0, 0, 0, 0) represents none.
+/// With w ≠ 0 it represents the position (x/w, y/w, z/w); with w = 0, the direction (x, y, z),
+/// which is a point at infinity. Any nonzero multiple represents the same point; (0, 0, 0, 0) does
+/// not represent a point.
 ///
 /// ```
 /// use homog::{Clip, HPoint, Ndc, Point};
@@ -60,9 +61,8 @@ impl<S: Space> HPoint<S> {
     /// Performs the perspective divide and returns the position that this point represents,
     /// (x/w, y/w, z/w).
     ///
-    /// `None` if there is no finite position: w = 0, a coordinate that is not finite, or a quotient
-    /// too large to represent. A point behind the eye (w < 0) divides like any other, so clip
-    /// first.
+    /// Returns `None` if w is 0, a coordinate is not finite, or a quotient is too large to
+    /// represent. A point behind the eye (w < 0) divides like any other, so clip first.
     #[must_use]
     pub fn divide(self) -> Option<Point<S::Divided>> {
         let place = self.raw.truncate() / self.raw.w;

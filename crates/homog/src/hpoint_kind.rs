@@ -6,9 +6,9 @@ use core::fmt;
 /// The kind of a homogeneous point: finite, at infinity or invalid.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum HPointKind<S: Space> {
-    /// w ≠ 0: a point of space, after the divide.
+    /// w ≠ 0: a position in space, the result of the divide.
     Finite(Point<S::Divided>),
-    /// w = 0: a direction, a point at infinity. Its opposite is the same point at infinity.
+    /// w = 0: a point at infinity, that is, a direction. The opposite direction is the same point.
     AtInfinity(Vector<S>),
     /// Not a point: all four coordinates are 0, one is not finite, or the position is too far away
     /// to represent.
@@ -59,7 +59,7 @@ impl<S: Space> HPoint<S> {
     }
 
     /// Returns the kind of this point, with w counted as 0 if it is at most `relative` times the
-    /// largest coordinate. Rounding leaves 10⁻¹⁷ where a rotated camera should give 0.
+    /// largest coordinate. With a rotated camera, rounding may give 10⁻¹⁷ instead of 0.
     #[must_use]
     pub fn kind_within(self, relative: f64) -> HPointKind<S> {
         let largest = self.raw.abs().max_element();
@@ -76,7 +76,7 @@ impl<S: Space> HPoint<S> {
     /// multiple of the other (HO-2): |aᵢ bⱼ − aⱼ bᵢ| ≤ `relative` · ‖a‖ ‖b‖ for all i, j. For
     /// computed points, 10⁻¹² is a good value for `relative`.
     ///
-    /// `None` if either is zero or not finite.
+    /// Returns `None` if either is zero or not finite.
     ///
     /// ```
     /// use homog::{HPoint, World};
@@ -147,7 +147,7 @@ impl<A: Space, B: Space> Projective<A, B> {
     /// Returns whether the two maps are the same, that is, whether one matrix is a multiple of the
     /// other (HO-2).
     ///
-    /// `None` if either is zero or not finite.
+    /// Returns `None` if either is zero or not finite.
     #[must_use]
     pub fn equivalent(self, other: Self, relative: f64) -> Option<bool> {
         let entries = |map: Self| map.raw.to_cols_array();

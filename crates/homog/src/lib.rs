@@ -67,7 +67,7 @@
 //!
 //! # Features
 //!
-//! | feature | conversions from and to |
+//! | feature | conversions to and from |
 //! | --- | --- |
 //! | none | arrays of `f64`, and of `f32` for vertex streams; bytemuck accepts both directly |
 //! | `glam` | the glam version that this crate uses |

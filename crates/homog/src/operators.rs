@@ -1,8 +1,8 @@
 //! Operators: products of maps and points as written in textbooks, and sums of vectors.
 //!
 //! `map * point` is `map.transform_point(point)`. `second * first` is the map that applies `first`,
-//! then `second`, as in a matrix product. [`Affine::then`] chains maps in the opposite order, in
-//! which a point passes through them.
+//! then `second`, as in a matrix product. [`Affine::then`] chains maps in the opposite order: the
+//! order in which a point passes through them.
 
 use crate::{Affine, HPoint, Normal, Point, Projective, Space, Vector};
 use core::iter::Sum;

@@ -1,4 +1,4 @@
-//! Projective maps, from points to homogeneous points.
+//! Projective maps, which map points to homogeneous points.
 
 use crate::elimination::eliminate_full_pivoting;
 use crate::{Affine, HPoint, Plane, Point, Space, Vector};
@@ -28,7 +28,7 @@ impl<A: Space, B: Space> Projective<A, B> {
         self.transform_hpoint(point.into())
     }
 
-    /// Writes the images of `points` to `images` in one pass, with the same bits as
+    /// Writes the images of `points` to `images` in one pass, bit-identical to
     /// [`transform_point`](Self::transform_point). Extra elements of the longer slice are ignored.
     pub fn transform_points_into(self, points: &[Point<A>], images: &mut [HPoint<B>]) {
         let DMat4 { x_axis, y_axis, z_axis, w_axis } = self.raw;

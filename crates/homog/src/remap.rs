@@ -24,7 +24,7 @@ pub enum RemapError {
     NotFinite {
         /// The name of the number.
         name: &'static str,
-        /// Its value.
+        /// The rejected value.
         value: f64,
     },
     /// A size is zero or negative.
@@ -32,7 +32,7 @@ pub enum RemapError {
     NotPositive {
         /// The name of the size.
         name: &'static str,
-        /// Its value.
+        /// The rejected value.
         value: f64,
     },
     /// The source interval is empty.
@@ -108,7 +108,7 @@ pub(crate) fn check_finite(name: &'static str, value: f64) -> Result<(), RemapEr
 }
 
 impl Homography {
-    /// Returns the map that takes the rectangle with opposite corners `from` to the one with
+    /// Returns the map that takes the rectangle with opposite corners `from` to the rectangle with
     /// opposite corners `to` (WI-2).
     ///
     /// # Errors
@@ -122,7 +122,7 @@ impl Homography {
 }
 
 impl<A: Space, B: Space> Affine<A, B> {
-    /// Returns the map that takes the box with opposite corners `from` to the one with opposite
+    /// Returns the map that takes the box with opposite corners `from` to the box with opposite
     /// corners `to` (WI-3). The target box may be flat or mirrored.
     ///
     /// # Errors

@@ -51,7 +51,7 @@ macro_rules! space {
 }
 
 space! {
-    /// The coordinates in which a model was made.
+    /// The coordinates in which a model was created.
     pub Model, "Model"
 }
 space! {

@@ -1,5 +1,5 @@
-//! Laws of projective maps, tested on random maps: lines and order are preserved, inverses undo,
-//! common factors do not matter, and planes and normals transform consistently.
+//! Laws of projective maps, tested on random maps: lines and order are preserved, inverses undo the
+//! map, common factors do not matter, and planes and normals transform consistently.
 
 use homog::{
     Affine, Clip, Foreshortening, HLine2, HPoint, HPoint2, HPointKind, Homography, Model, Normal,
@@ -17,7 +17,7 @@ fn triple() -> impl Strategy<Value = [f64; 3]> {
     [number(), number(), number()]
 }
 
-/// Maps so well-conditioned that eps times the condition number is far below the tolerances here.
+/// Generates maps whose condition number times eps is far below the tolerances here.
 fn map() -> impl Strategy<Value = Map> {
     prop::array::uniform16(-4.0..4.0_f64)
         .prop_map(Map::from_row_major)

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! The program walks the classification tree and draws the edges of a small house in a typical
-//! projection for each leaf. Questions to ask: in which pictures do parallel edges stay parallel,
-//! which edges keep their length, and how many vanishing points are there?
+//! projection for each leaf. Questions to consider: In which pictures do parallel edges stay
+//! parallel? Which edges keep their length? How many vanishing points are there?
 
 #![allow(clippy::print_stdout, reason = "the example prints its results")]
 

@@ -1,5 +1,5 @@
-//! The apex-moved frustum of the WebGL lesson: similar parameters to glFrustum, but a different
-//! map.
+//! The apex-moved frustum of the WebGL lesson. It has parameters like glFrustum's, but is a
+//! different map.
 //!
 //! ```text
 //!   Frustum                    ApexMovedFrustum
@@ -10,7 +10,7 @@
 //! ```
 //!
 //! The two agree only on the near plane, or if the window is centered (LW-1, M12). For stereo
-//! pairs, tiles and lens shift use [`Frustum`].
+//! pairs, tiles and lens shift, use [`Frustum`].
 
 use crate::error::check_finite;
 use crate::{Convention, Frustum, ProjectionError, Window};
@@ -45,8 +45,8 @@ pub struct ApexMovedFrustum {
 pub struct ApexMovedSteps {
     /// Eq2: moves the apex to the origin.
     pub move_apex: Affine<View, View>,
-    /// Eq7, with the 0 missing at the end of its last row (M14): maps the depth and sets w to the
-    /// distance.
+    /// Eq7, with the 0 that the lesson omits at the end of the last row (M14): maps the depth and
+    /// sets w to the distance.
     pub map_depth: Projective<View, View>,
     /// Eq3: projects x and y onto the near plane by multiplying them by near.
     pub project: Affine<View, View>,
@@ -73,7 +73,7 @@ impl ApexMovedFrustum {
         check_finite("far", far)?;
         let centered = Window::centered(window.width(), window.height())?;
         Frustum::from_window(window, near, far)?;
-        // The lesson scales the window separately, not together with near.
+        // In the lesson, scaling the window is a separate step from multiplying by near.
         centered.window_fit(1.0)?;
         Ok(Self { window, about_apex: Frustum::from_window(centered, near, far)? })
     }

@@ -1,7 +1,7 @@
 //! Builders under the names used by graphics APIs.
 //!
-//! All accept distances and return only the matrix. They reject an infinite `far` if the formula
-//! needs a finite one. Each is a one-line wrapper around [`Frustum`], [`Perspective`] or
+//! All functions accept distances and return only the matrix. They reject an infinite `far` if the
+//! formula needs a finite value. Each is a one-line wrapper around [`Frustum`], [`Perspective`] or
 //! [`Orthographic`] with its [`Convention`]. `fovy` is in radians (M19), and `aspect` is width /
 //! height. In the names, `lh` means that the camera looks along +z, `zo` that depth is from zero to
 //! one, `rev` that near is at 1, and `inf` that there is no far plane.
@@ -81,7 +81,7 @@ macro_rules! by_angle {
         ///
         /// # Errors
         /// Returns an error if a number is not finite, fovy is not between 0 and π, aspect is not
-        /// above 0, or 0 < near < far does not hold.
+        /// positive, or 0 < near < far does not hold.
         pub fn $name(fovy: f64, aspect: f64, near: f64, far: f64) -> Matrix {
             perspective_matrix(fovy, aspect, near, far, $convention)
         }
@@ -91,7 +91,7 @@ macro_rules! by_angle {
         ///
         /// # Errors
         /// Returns an error if a number is not finite, fovy is not between 0 and π, or aspect or
-        /// near is not above 0.
+        /// near is not positive.
         pub fn $name(fovy: f64, aspect: f64, near: f64) -> Matrix {
             infinite_perspective_matrix(fovy, aspect, near, f64::INFINITY, $convention)
         }

@@ -82,7 +82,7 @@ impl Axonometric {
     /// squares of the other two.
     ///
     /// # Errors
-    /// Returns an error if a ratio is not finite and above 0, or if no plane foreshortens the axes
+    /// Returns an error if a ratio is not finite and positive, or if no plane foreshortens the axes
     /// this way.
     pub fn by_foreshortening(x: f64, y: f64, z: f64) -> Result<Self, ProjectionError> {
         check_positive("x ratio", x)?;
@@ -91,8 +91,8 @@ impl Axonometric {
         let largest = x.max(y).max(z);
         let squares = [x, y, z].map(|ratio| (ratio / largest) * (ratio / largest));
         let sum = squares[0] + squares[1] + squares[2];
-        // The square of the ratio, scaled to the sum 2, is 1 − n² for that coordinate of the unit
-        // normal.
+        // Once the squared ratios are scaled to sum to 2, each of them is 1 − n², where n is the
+        // corresponding coordinate of the unit normal.
         let normal = squares.map(|square| 1.0 - 2.0 * square / sum);
         if normal.iter().any(|&square| square < -4.0 * f64::EPSILON) {
             let reason = "no square may exceed the sum of the other two";
@@ -111,8 +111,8 @@ impl Axonometric {
     }
 
     /// Returns the dimetric projection of engineering drawing (ISO 5456-3), with x and y at full
-    /// length and z at half length. In the drawing, the z axis is at 41.4° (called 42°) and the x
-    /// axis at 7.2° (called 7°) to the horizontal.
+    /// length and z at half length. In the drawing, the z axis is at 41.4° (nominally 42°) and the
+    /// x axis at 7.2° (nominally 7°) to the horizontal.
     #[must_use]
     pub fn dimetric_42_7() -> Self {
         // The normal is (1, 1, √7)/3.

@@ -205,8 +205,8 @@ fn signed_frustum(
 /// pixels (FOV-1, C33): t = |n| tan(θ/2), r = t nx/ny.
 ///
 /// # Errors
-/// Returns an error if theta is not between 0 and π, nx or ny is not above 0, n is not below 0, or
-/// a number is not finite.
+/// Returns an error if theta is not between 0 and π, nx or ny is not positive, n is not negative,
+/// or a number is not finite.
 pub fn window_from_fov(theta: f64, nx: f64, ny: f64, n: f64) -> Result<Window, ProjectionError> {
     let aspect = check_positive("nx", nx)? / check_positive("ny", ny)?;
     let distance = -n;
@@ -220,7 +220,7 @@ pub fn window_from_fov(theta: f64, nx: f64, ny: f64, n: f64) -> Result<Window, P
 /// = 2 atan(t/|n|) (FOV-1).
 ///
 /// # Errors
-/// Returns an error if t is not above 0, n is not below 0, or either is not finite.
+/// Returns an error if t is not positive, n is not negative, or either is not finite.
 pub fn fov_from_window(t: f64, n: f64) -> Result<f64, ProjectionError> {
     let distance = -n;
     Ok(2.0 * libm::atan2(check_positive("t", t)?, check_positive("−n", distance)?))

@@ -1,4 +1,4 @@
-//! Any classical projection, ready to render.
+//! Classical projections as matrices for rendering, with depth preserved.
 //!
 //! The classical projections drop z: their matrices are singular and cannot decide visibility. With
 //! depth preserved and a view volume around the object, each becomes an ordinary matrix from view
@@ -67,7 +67,7 @@ impl Classical {
     #[must_use]
     pub fn depth_preserving_inverse(self) -> Projective<View, View> {
         match self {
-            // The back view is its own inverse; a quarter turn is undone by the opposite one.
+            // The back view is its own inverse; a quarter turn is undone by the opposite turn.
             Self::Multiview(view) => {
                 Projective::from_raw(view.depth_preserving().raw().transpose())
             }
@@ -114,7 +114,7 @@ impl Classical {
         check_finite_map(inverse.then(turn))
     }
 
-    /// Returns the box of the picture after the divide.
+    /// Returns the image of the volume after the divide, which is also a box.
     fn picture_box(self, volume: Orthographic) -> Result<Orthographic, ProjectionError> {
         let Self::NPoint(perspective) = self else { return Ok(volume) };
         let image = |parameter, distance: f64| {

@@ -1,4 +1,4 @@
-//! Perspective as drafters construct it: choose vanishing points on the picture and derive the eye.
+//! Perspective as drafters construct it: from vanishing points chosen in the picture to the eye.
 //!
 //! ```text
 //!   three points:  the principal point is the orthocenter of their triangle,
@@ -46,7 +46,7 @@ impl ConstructedPerspective {
     /// front of it.
     ///
     /// # Errors
-    /// Returns an error if a number is not finite or the distance is not above 0.
+    /// Returns an error if a number is not finite or the distance is not positive.
     pub fn one_point(z: (f64, f64), distance: f64) -> Result<Self, ProjectionError> {
         let principal = check_picture_point("vanishing point of z", z)?;
         check_positive("distance", distance)?;
@@ -144,7 +144,7 @@ impl ConstructedPerspective {
         self.distance
     }
 
-    /// Returns the orientation of the world in front of the eye, which is at the world's origin.
+    /// Returns the map from the world to view space, a rotation. The eye is at the world's origin.
     #[must_use]
     pub fn world_to_view(self) -> Affine<World, View> {
         let [x, y, z] = self.axes;

@@ -9,9 +9,9 @@
 //!  METAL, WEBGPU       −z          up         0         1
 //! ```
 //!
-//! All have w > 0 in front of the eye. A projection is described once, without a convention, and
-//! can be written as a matrix in any of them. [`Convention::convert`] converts matrices from other
-//! sources.
+//! All conventions have w > 0 in front of the eye. A projection is described once, without a
+//! convention, and can be written as a matrix in any of them. [`Convention::convert`] converts
+//! matrices from other sources.
 
 use crate::ProjectionError;
 use glam::DMat4;
@@ -149,8 +149,8 @@ impl Convention {
     /// Converts a projection matrix from this convention to `to`.
     ///
     /// Flips of y and z are exact. The depth is remapped linearly, which is exact between the
-    /// conventions of this module. View space gets the handedness of `to`: it is the same scene
-    /// with its z axis flipped.
+    /// conventions of this module. View space gets the handedness of `to`; if it differs, the z
+    /// axis of the scene is flipped.
     ///
     /// ```
     /// use projection::{Convention, Fov, Perspective};
@@ -196,7 +196,7 @@ impl Convention {
     }
 }
 
-/// The part that the viewport and the clip volume need.
+/// Extracts the part that the viewport and the clip volume need.
 impl From<Convention> for ClipRange {
     fn from(convention: Convention) -> Self {
         convention.range

@@ -6,14 +6,14 @@
 //!      p = q = r = 0: parallel                      else: central
 //!      rows at right angles?                        eye: where x, y and w vanish
 //!        unrotated    → orthographic                  at the origin, unrotated → frustum
-//!        rotated      → axonometric, placed           beside it, centered     → apex moved (LW-1)
+//!        rotated      → axonometric, placed           elsewhere, centered     → apex moved (LW-1)
 //!      z in x and y   → oblique                       anywhere, rotated      → placed
 //!      no inverse     → classical: the center is the null vector of the matrix
 //! ```
 //!
 //! A matrix and its multiples are the same map, so a common factor is removed first and reported. A
 //! matrix does not identify its convention: the OpenGL matrix of (N, F) is the zero-to-one matrix
-//! of (2FN/(F+N), F). Therefore the caller must specify one; [`readings`] tries all named
+//! of (2FN/(F+N), F). Therefore the caller must specify it; [`readings`] tries all named
 //! conventions.
 
 use crate::placement::{self, Placement};
@@ -31,7 +31,7 @@ pub enum Decomposed {
     /// A perspective projection from the origin. If its window is centered, it converts to
     /// [`crate::Perspective`].
     Frustum(Frustum),
-    /// The frustum of the WebGL lesson, with its apex beside the origin (LW-1).
+    /// The frustum of the WebGL lesson, whose apex is not at the origin (LW-1).
     ApexMoved(ApexMovedFrustum),
     /// A perspective projection from another position or orientation: a camera and a lens in one
     /// matrix.
@@ -47,8 +47,7 @@ pub enum Decomposed {
         placement: Affine<View, View>,
         /// The window at distance 1 in front of the eye.
         slopes: Window,
-        /// The near plane, after the camera; its normal has length 1 and points to the visible
-        /// side.
+        /// The near plane in camera space; its normal has length 1 and points to the visible side.
         near_plane: Plane<View>,
     },
     /// An axis-aligned box.
@@ -70,7 +69,7 @@ pub enum Decomposed {
     },
     /// The depth-preserving map of an n-point perspective, without a view volume.
     NPoint(NPoint),
-    /// A classical projection that drops a dimension: singular.
+    /// A singular classical projection, which drops a dimension.
     Flat {
         /// The center of projection, which is the null vector of the matrix. Its w is 0 if the
         /// projectors are parallel.
@@ -123,7 +122,7 @@ pub enum DecomposeError {
     /// More than one dimension is lost.
     #[error("the matrix has rank {rank}; a projection has rank 3 or 4")]
     RankTooLow {
-        /// Its rank.
+        /// The rank of the matrix.
         rank: usize,
     },
     /// The x and y axes of the picture are not perpendicular, or the depth depends on the position
@@ -274,7 +273,7 @@ fn upright_axonometric([x, y, z]: [DVec3; 3]) -> Option<Axonometric> {
     (same(0, x) && same(1, y) && same(2, z)).then_some(axonometric)
 }
 
-/// Decomposes a parallel projection: w = 1 everywhere.
+/// Decomposes a parallel projection, in which w = 1 everywhere.
 fn decompose_parallel(matrix: DMat4, convention: Convention) -> Result<Decomposed, DecomposeError> {
     let mut columns = matrix;
     columns.z_axis *= -convention.ahead();
@@ -336,7 +335,7 @@ fn decompose_rotated_box(
     Ok(Decomposed::PlacedOrthographic { placement, volume })
 }
 
-/// Decomposes a central projection: w varies.
+/// Decomposes a central projection, in which w varies.
 fn decompose_central(
     matrix: DMat4,
     convention: Convention,
@@ -394,8 +393,8 @@ fn inclined_near_plane(depth: DVec4, convention: Convention) -> Plane<View> {
     Plane::from_raw(plane * (inwards / plane.truncate().length()))
 }
 
-/// Returns the named projection of an unrotated camera: its eye is at the origin, or beside it with
-/// a centered window.
+/// Returns the named projection of an unrotated camera: its eye is at the origin, or it is
+/// elsewhere and the window is centered.
 fn recognize_frustum(found: Placement, frustum: Frustum) -> Option<Decomposed> {
     let (eye, w, near) = (found.eye, frustum.window(), frustum.near());
     let size = DVec4::new(w.width(), w.height(), near, 0.0);

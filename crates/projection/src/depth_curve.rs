@@ -17,8 +17,8 @@ use crate::{Convention, Frustum, Orthographic, Perspective, ProjectionError};
 /// The storage format of depth values.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum DepthFormat {
-    /// Integers with this number of bits, 1 to 64, spread evenly from the near depth to the far
-    /// depth.
+    /// Integers with this number of bits (1 to 64), which divide the range from the near to the far
+    /// depth evenly.
     FixedPoint(u32),
     /// 32-bit floating-point numbers, in the depth range of the convention.
     Float32,
@@ -104,9 +104,9 @@ impl DepthCurve {
         }
     }
 
-    /// Returns the distance at which points have the given depth, to linearize a depth buffer.
+    /// Returns the distance at which points have the given depth, which linearizes a depth buffer.
     ///
-    /// `None` if no finite distance has this depth, such as the far depth of an infinite
+    /// Returns `None` if no finite distance has this depth, as for the far depth of an infinite
     /// projection.
     #[must_use]
     pub fn distance(self, depth: f64) -> Option<f64> {
@@ -196,7 +196,7 @@ impl DepthCurve {
         }
     }
 
-    /// Returns (distance, depth) for each distance, as in the table of the lesson (LW-3, C68).
+    /// Returns (distance, depth) for each distance, as in the lesson's table (LW-3, C68).
     pub fn table(
         self,
         distances: impl IntoIterator<Item = f64>,
@@ -236,7 +236,7 @@ impl Orthographic {
 /// B = −nf. With −1 at z = −N and +1 at z = −F it gives the OpenGL row (C56) with its sign flipped.
 ///
 /// # Errors
-/// Returns an error if a number is not finite, a z is 0, or both z are equal.
+/// Returns an error if a number is not finite, a z is 0, or the two z values are equal.
 pub fn third_row(first: (f64, f64), second: (f64, f64)) -> Result<(f64, f64), ProjectionError> {
     let ((z_1, at_1), (z_2, at_2)) = (first, second);
     for (parameter, value) in [("z_1", z_1), ("z_2", z_2)] {

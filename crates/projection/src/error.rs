@@ -22,7 +22,7 @@ pub enum ProjectionError {
         parameter: &'static str,
         /// The rejected value.
         value: f64,
-        /// A description of the allowed values, as in "it must be …".
+        /// The allowed values, worded to follow "it must be".
         allowed: &'static str,
     },
     /// Two opposite edges of the window coincide, so the picture has no width or no height.
@@ -98,7 +98,7 @@ pub(crate) fn check_finite(parameter: &'static str, value: f64) -> Result<f64, P
     if value.is_finite() { Ok(value) } else { Err(ProjectionError::NotFinite { parameter, value }) }
 }
 
-/// Returns the value if it is finite and above 0, and an error otherwise.
+/// Returns the value if it is finite and positive, and an error otherwise.
 pub(crate) fn check_positive(parameter: &'static str, value: f64) -> Result<f64, ProjectionError> {
     if check_finite(parameter, value)? > 0.0 {
         Ok(value)

@@ -22,14 +22,14 @@ pub enum Fov {
     },
 }
 
-/// The part of the film or sensor that the picture fills.
+/// The dimension of the film or sensor that the picture fills.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum SensorSize {
-    /// The height of the film is known.
+    /// The height of the film.
     Height(f64),
-    /// The width of the film is known.
+    /// The width of the film.
     Width(f64),
-    /// The diagonal of the film is known.
+    /// The diagonal of the film.
     Diagonal(f64),
 }
 
@@ -49,19 +49,19 @@ pub struct HalfSlopes {
 }
 
 impl Fov {
-    /// Returns the vertical field of view in degrees, the most common unit in files and dialogs.
+    /// Creates a vertical field of view from degrees, the most common unit in files and dialogs.
     #[must_use]
     pub fn vertical_degrees(degrees: f64) -> Self {
         Self::Vertical(degrees.to_radians())
     }
 
-    /// Returns the horizontal field of view in degrees.
+    /// Creates a horizontal field of view from degrees.
     #[must_use]
     pub fn horizontal_degrees(degrees: f64) -> Self {
         Self::Horizontal(degrees.to_radians())
     }
 
-    /// Returns the "35 mm equivalent" focal length in millimeters, based on the film's diagonal.
+    /// Creates a field of view from a "35 mm equivalent" focal length (by diagonal) in millimeters.
     #[must_use]
     pub const fn equivalent_35mm(focal: f64) -> Self {
         Self::FocalLength { focal, film: SensorSize::FULL_FRAME_MM }
@@ -126,7 +126,7 @@ fn half_slopes_by_diagonal(half: f64, aspect: f64) -> HalfSlopes {
 /// `distance`, in radians: atan(high/distance) − atan(low/distance) (FOV-1).
 ///
 /// # Errors
-/// Returns an error if a number is not finite or the distance is not above 0.
+/// Returns an error if a number is not finite or the distance is not positive.
 pub fn opening_angle_of(low: f64, high: f64, distance: f64) -> Result<f64, ProjectionError> {
     check_finite("low", low)?;
     check_finite("high", high)?;

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Source: R. Hartley, A. Zisserman, *Multiple View Geometry in Computer Vision*, 2nd ed., 2004,
-//! §6.1; names as in OpenCV's module `calib3d`.
+//! §6.1; names as in OpenCV's `calib3d` module.
 
 use crate::error::{check_finite, check_positive};
 use crate::frustum::check_planes;
@@ -20,7 +20,7 @@ use homog::{Clip, PixelCenters, Point, Projective, View};
 /// point in pixels.
 ///
 /// # Guarantees
-/// All numbers are finite, and fx, fy, width and height are above 0.
+/// All numbers are finite, and fx, fy, width and height are positive.
 ///
 /// ```
 /// use homog::{PixelCenters, Point};
@@ -46,7 +46,7 @@ impl Intrinsics {
     /// pictures of `size` (columns, rows). There is no skew, and pixel centers are at integers.
     ///
     /// # Errors
-    /// Returns an error if a number is not finite, or a focal length or a side is not above 0.
+    /// Returns an error if a number is not finite, or a focal length or a side is not positive.
     pub fn new(
         [fx, fy]: [f64; 2],
         [cx, cy]: [f64; 2],
@@ -80,8 +80,8 @@ impl Intrinsics {
         Self::new([fx / scale, fy / scale], [cx / scale, cy / scale], size)?.with_skew(skew / scale)
     }
 
-    /// Returns this lens with skew s, the entry `K[0][1]`, in pixels. The column of a point shifts
-    /// by s/fy per row downward.
+    /// Returns this lens with skew s, the entry `K[0][1]`, in pixels. Points shift to the right by
+    /// s/fy columns per row downward.
     ///
     /// # Errors
     /// Returns an error if the skew is not finite or too large to compute with.
@@ -204,10 +204,10 @@ impl Intrinsics {
         Point::new(x * depth, -y * depth, -depth)
     }
 
-    /// Returns the frustum with this window, if there is no skew.
+    /// Returns the frustum with the same window, which requires a skew of 0.
     ///
     /// # Errors
-    /// Returns an error if there is a skew or 0 < near < far does not hold.
+    /// Returns an error if the skew is not 0 or 0 < near < far does not hold.
     pub fn to_frustum(self, near: f64, far: f64) -> Result<Frustum, ProjectionError> {
         if self.skew != 0.0 {
             let (parameter, value) = ("skew", self.skew);

@@ -46,7 +46,7 @@
 //! | part of a picture | `view_offset` on the three above, with a [`ViewOffset`] |
 //! | lens shift, antialiasing | `shifted`, `jittered` on the three above, with a [`Jitter`] |
 //! | a mirror's or portal's near plane | [`oblique_near_plane`] |
-//! | front, top and side | [`PrincipalView`] |
+//! | front, top and side views | [`PrincipalView`] |
 //! | isometric, dimetric, trimetric | [`Axonometric`] |
 //! | cavalier, cabinet; military | [`Oblique`]; [`Planometric`] |
 //! | one-, two-, three-point perspective | [`NPoint`], [`ConstructedPerspective`] |

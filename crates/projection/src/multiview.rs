@@ -93,7 +93,7 @@ impl PrincipalView {
     /// with x to the right and y up.
     ///
     /// In third-angle projection, a view is on the side from which it is seen; in first-angle
-    /// projection, it is on the opposite side. The back view follows the right or left side.
+    /// projection, it is on the opposite side. In both, the back view is at the far right.
     #[must_use]
     pub const fn sheet_position(self, angle: SheetAngle) -> (i32, i32) {
         let (x, y) = match self {

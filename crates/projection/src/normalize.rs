@@ -111,10 +111,10 @@ impl Frustum {
         }
     }
 
-    /// Returns the shear and scale to the canonical frustum of the slides, which has the sides x, y
-    /// = ±D and the far plane at distance 1.
+    /// Returns the shear and scale to the canonical frustum of the slides, whose sides are x = ±D
+    /// and y = ±D and whose far plane is at distance 1.
     ///
-    /// `None` if there is no far plane or the window is too narrow for a finite scale.
+    /// Returns `None` if there is no far plane or the window is too narrow for a finite scale.
     #[must_use]
     pub fn view_to_canonical_frustum(self, convention: Convention) -> Option<Affine<View, View>> {
         let shrink = 1.0 / self.far();

@@ -3,7 +3,7 @@
 //!
 //! ```text
 //!        y │   ● image of (0,0,1)        α  angle between projector and plane
-//!          │ ⟋ L1                        L1 = cot α, the image's length of a unit of depth
+//!          │ ⟋ L1                        L1 = cot α, the drawn length of a unit of depth
 //!          ⟋ φ                           φ  direction in which depth is drawn
 //!   ───────┼────── x
 //! ```
@@ -58,7 +58,7 @@ impl Oblique {
     /// to the upper right at 45° corresponds to φ = 225°.
     ///
     /// # Errors
-    /// Returns an error if a number is not finite or the length is below 0.
+    /// Returns an error if a number is not finite or the length is negative.
     pub fn new(length: f64, phi: f64) -> Result<Self, ProjectionError> {
         if check_finite("length", length)? < 0.0 {
             let allowed = "0 or greater";
@@ -233,7 +233,7 @@ impl Planometric {
     /// scaled by `height`.
     ///
     /// # Errors
-    /// Returns an error if a number is not finite or the height is below 0.
+    /// Returns an error if a number is not finite or the height is negative.
     pub fn new(turn: f64, height: f64) -> Result<Self, ProjectionError> {
         check_finite("turn", turn)?;
         if check_finite("height", height)? < 0.0 {

@@ -8,7 +8,7 @@ use homog::{Clip, Projective, View};
 /// The symmetric perspective projection (GL-2, FOV-1; C61, C92).
 ///
 /// # Guarantees
-/// 0 < near < far, where far may be infinite; both opening angles are between 0 and π; the matrix
+/// 0 < near < far, where far may be infinite; both fields of view are between 0 and π; the matrix
 /// and its inverse are finite in every [`Convention`].
 ///
 /// ```
@@ -32,7 +32,7 @@ impl Perspective {
     ///
     /// # Errors
     /// Returns an error if a number other than `far` is not finite, the angle is not between 0 and
-    /// π, the aspect is not above 0, or 0 < near < far does not hold.
+    /// π, the aspect is not positive, or 0 < near < far does not hold.
     pub fn new(fov: Fov, aspect: f64, near: f64, far: f64) -> Result<Self, ProjectionError> {
         let lens = Self { half: fov.half_slopes(aspect)?, near, far };
         check_planes(near, far)?;
@@ -44,7 +44,7 @@ impl Perspective {
     }
 
     /// Returns half the size of the window at distance 1 in front of the eye: the tangents of half
-    /// the opening angles.
+    /// the fields of view.
     #[must_use]
     pub const fn half_slopes(self) -> HalfSlopes {
         self.half
@@ -63,19 +63,19 @@ impl Perspective {
         self.half.x / self.half.y
     }
 
-    /// Returns the vertical opening angle in radians.
+    /// Returns the vertical field of view in radians.
     #[must_use]
     pub fn fov_y(self) -> f64 {
         2.0 * libm::atan(self.half.y)
     }
 
-    /// Returns the horizontal opening angle in radians.
+    /// Returns the horizontal field of view in radians.
     #[must_use]
     pub fn fov_x(self) -> f64 {
         2.0 * libm::atan(self.half.x)
     }
 
-    /// Returns the opening angle between opposite corners in radians.
+    /// Returns the field of view between opposite corners in radians.
     #[must_use]
     pub fn fov_diagonal(self) -> f64 {
         2.0 * libm::atan(libm::hypot(self.half.x, self.half.y))

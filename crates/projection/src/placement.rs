@@ -1,8 +1,8 @@
 //! Decomposes a central matrix into eye, orientation and lens: the linear algebra for `decompose`.
 //!
 //! Take the rows x, y, w of a matrix whose w row has a linear part of length 1. That linear part is
-//! the line of sight. The part of x perpendicular to it points right, and the part of y points up.
-//! The eye is where all three rows vanish.
+//! the line of sight. The part of x perpendicular to it points right, and the perpendicular part of
+//! y points up. The eye is where all three rows vanish.
 
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use homog::{Affine, Vector, View};
@@ -74,7 +74,7 @@ fn eliminate_rows(rows: &mut [DVec4; 4]) -> usize {
     4
 }
 
-/// Returns the null vector of a matrix of rank 3, with its largest coordinate or its w scaled to 1.
+/// Returns the null vector of a rank-3 matrix with w = 1, or with w = 0 and maximum coordinate 1.
 pub(crate) fn null_vector(matrix: DMat4) -> Option<DVec4> {
     // The columns of the adjugate are multiples of it, and the largest column is the most accurate.
     let columns = [0, 1, 2, 3].map(|column| cofactors(matrix, column));
@@ -165,7 +165,7 @@ impl Placement {
 }
 
 /// Returns whether the camera's x axis should be opposite to the picture's. For an unrotated
-/// camera, this is so if the matrix is mirrored in x; for a rotated camera, if the picture is
+/// camera, this is the case if the matrix is mirrored in x; for a rotated camera, if the picture is
 /// mirrored and the camera would otherwise be upside down.
 fn is_rolled(x: DVec4, y: DVec4, sight: DVec3, along_up: f64) -> bool {
     let unturned = is_negligible(sight.with_z(0.0), DVec4::ONE)

@@ -106,8 +106,8 @@ impl<S: Space> Projector<S> {
         self.plane
     }
 
-    /// Returns the classical projection, which maps every point to the plane. It is singular and
-    /// does not move points of the plane with w = 1.
+    /// Returns the classical projection, which maps every point to the plane. It is singular, and
+    /// it does not move points of the plane.
     #[must_use]
     pub fn onto_plane(self) -> Projective<S, S> {
         let toward = self.center.raw() / self.reach;

@@ -101,7 +101,7 @@ fn classify_point<S: Space>(
 /// The number of axes with a finite vanishing point.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum PointPerspective {
-    /// None: a parallel projection, or a central one with all axes parallel to the plane.
+    /// None: a parallel projection.
     NoPoint,
     /// One: the plane is parallel to two axes.
     OnePoint,

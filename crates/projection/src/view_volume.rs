@@ -30,7 +30,7 @@ pub struct ViewVolume {
     convention: Convention,
 }
 
-/// The largest w of an eye at infinity, as a fraction of its other coordinates.
+/// The largest w, relative to the other coordinates, that counts as 0 for an eye at infinity.
 const ROUNDING: f64 = 1e-13;
 
 impl ViewVolume {
@@ -97,7 +97,7 @@ impl ViewVolume {
     /// Returns the position from which the volume is seen: a point, or with w = 0 the direction
     /// toward an eye at infinity.
     ///
-    /// `None` if the projection is singular or a coordinate is not finite.
+    /// Returns `None` if the projection is singular or a coordinate is not finite.
     #[must_use]
     pub fn eye(self) -> Option<HPoint<View>> {
         let clip_to_view = self.view_to_clip.inverse()?;

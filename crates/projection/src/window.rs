@@ -106,8 +106,8 @@ impl Window {
         (0.5 * self.left + 0.5 * self.right, 0.5 * self.bottom + 0.5 * self.top)
     }
 
-    /// Returns the window with all edges multiplied by `factor`, which has the same rays on a plane
-    /// `factor` times as far away.
+    /// Returns the window with all edges multiplied by `factor`. On a plane `factor` times as far
+    /// away, the same rays pass through it.
     #[must_use]
     pub(crate) fn scaled(self, factor: f64) -> Self {
         Self {

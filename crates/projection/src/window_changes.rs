@@ -85,7 +85,7 @@ impl Window {
     /// exactly.
     ///
     /// # Errors
-    /// Returns an error if a size is not above 0 or a number is not finite.
+    /// Returns an error if a size is not positive or a number is not finite.
     pub fn view_offset(self, offset: ViewOffset) -> Result<Self, ProjectionError> {
         let width = check_positive("full width", offset.full.0)?;
         let height = check_positive("full height", offset.full.1)?;
@@ -115,7 +115,7 @@ impl Window {
     /// Returns the window shifted so that pixel centers sample the given offset.
     ///
     /// # Errors
-    /// Returns an error if a size is not above 0 or a number is not finite.
+    /// Returns an error if a size is not positive or a number is not finite.
     pub fn jittered(self, jitter: Jitter) -> Result<Self, ProjectionError> {
         let width = check_positive("image width", jitter.image.0)?;
         let height = check_positive("image height", jitter.image.1)?;
@@ -129,7 +129,7 @@ macro_rules! window_methods {
             /// Returns the projection that shows only the given tile of this projection's picture.
             ///
             /// # Errors
-            /// Returns an error if a size is not above 0 or a number is not finite.
+            /// Returns an error if a size is not positive or a number is not finite.
             pub fn view_offset(self, offset: ViewOffset) -> Result<$result, ProjectionError> {
                 $with(self, &|window: Window| window.view_offset(offset))
             }
@@ -146,7 +146,7 @@ macro_rules! window_methods {
             /// Returns the projection whose pixel centers sample the given offset.
             ///
             /// # Errors
-            /// Returns an error if a size is not above 0 or a number is not finite.
+            /// Returns an error if a size is not positive or a number is not finite.
             pub fn jittered(self, jitter: Jitter) -> Result<$result, ProjectionError> {
                 $with(self, &|window: Window| window.jittered(jitter))
             }

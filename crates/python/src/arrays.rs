@@ -18,7 +18,7 @@ pub(crate) struct Numbers<T> {
 /// Reads real numbers from an argument, as f32 or f64.
 ///
 /// # Errors
-/// If it is not an array of numbers.
+/// Returns an error if it is not an array of numbers.
 pub(crate) fn real_array<T: Element + Copy>(
     name: &str,
     value: &Bound<'_, PyAny>,
@@ -30,7 +30,7 @@ pub(crate) fn real_array<T: Element + Copy>(
 /// Reads integers from an argument.
 ///
 /// # Errors
-/// If it is not an array of integers.
+/// Returns an error if it is not an array of integers.
 pub(crate) fn integer_array(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Numbers<i64>> {
     read_array(name, value, "iu", "int64")
 }
@@ -38,7 +38,7 @@ pub(crate) fn integer_array(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Nu
 /// Reads bytes from an argument with dtype uint8.
 ///
 /// # Errors
-/// If it has another dtype.
+/// Returns an error if the dtype is different.
 pub(crate) fn byte_array(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Numbers<u8>> {
     let dtype = as_array(name, value)?.getattr("dtype")?.str()?.to_string();
     if dtype != "uint8" {

@@ -15,7 +15,7 @@ use scene_file::file::{
 /// Reads the position, direction and lens of a camera.
 ///
 /// # Errors
-/// If an option has the wrong type, is not finite, or does not define a camera.
+/// Returns an error if an option has the wrong type, is not finite, or does not define a camera.
 pub(crate) fn read_camera(options: &Keywords<'_, '_>) -> PyResult<CameraFile> {
     let (view, projection) = (read_view(options)?, read_lens(options)?);
     Ok(CameraFile { view, projection, ..CameraFile::default() })
@@ -52,7 +52,7 @@ fn read_view(options: &Keywords<'_, '_>) -> PyResult<ViewFile> {
     Ok(ViewFile::Frame { from, padding_percent })
 }
 
-/// Reads the direction from which a model is framed: a name, or a vector.
+/// Reads the direction from which a model is framed: a name or a vector.
 fn read_direction(value: &Bound<'_, PyAny>) -> PyResult<FromFile> {
     let Ok(name) = value.extract::<String>() else {
         return Ok(FromFile::Direction(Triple(arrays::vector("direction", value)?)));
@@ -131,7 +131,7 @@ pub(crate) fn rotation_file([x, y, z]: [[f64; 3]; 3]) -> RotationFile {
     RotationFile::Rows((Triple(x), Triple(y), Triple(z)))
 }
 
-/// Reads the lens; `None` if the options do not specify one.
+/// Reads the lens, or returns `None` if the options do not specify a lens.
 fn read_lens(options: &Keywords<'_, '_>) -> PyResult<Option<ProjectionFile>> {
     let (near, far) = (options.positive("near")?, options.positive("far")?);
     if let Some(k) = options.value("K")? {

@@ -1,8 +1,8 @@
-//! Work without Python's lock: other Python threads continue, Ctrl+C cancels a picture, and a panic
-//! becomes an exception.
+//! Runs work without Python's lock: other Python threads continue, Ctrl+C cancels a picture, and a
+//! panic becomes an exception.
 //!
 //! ```text
-//!  calling thread   waits, and looks for signals 20 times a second ─► CancelToken
+//!  calling thread   waits and checks for signals 20 times a second ─► CancelToken
 //!  worker           renders ────────────────────────────────────────────┘
 //! ```
 //! Python delivers signals only to its main thread, and only while that thread holds the lock, so a
@@ -15,7 +15,7 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread::{self, Builder};
 use std::time::Duration;
 
-/// The maximum delay of Ctrl+C.
+/// The maximum delay before Ctrl+C takes effect.
 const SIGNAL_INTERVAL: Duration = Duration::from_millis(50);
 /// The stack size of a worker in bytes, the same as for the main thread of a program.
 const STACK_BYTES: usize = 8 << 20;
@@ -23,8 +23,8 @@ const STACK_BYTES: usize = 8 << 20;
 /// Runs `work` in another thread without the lock, and waits for it.
 ///
 /// # Errors
-/// The exception of a signal handler (`KeyboardInterrupt`), after `work` has ended; the error that
-/// `work` returns; or a panic.
+/// Returns the exception of a signal handler (`KeyboardInterrupt`) after `work` has ended, the
+/// error that `work` returns, or an error for a panic.
 pub(crate) fn run_detached<T, E>(
     py: Python<'_>,
     work: impl FnOnce(&CancelToken) -> Result<T, E> + Send,
@@ -39,7 +39,7 @@ where
             let (done, finished) = mpsc::channel::<()>();
             let token = &cancel;
             let worker = Builder::new().stack_size(STACK_BYTES).spawn_scoped(scope, move || {
-                // Dropped at the end, even after a panic, which wakes the receiver.
+                // Dropping this at the end, even after a panic, wakes the receiver.
                 let _done = done;
                 work(token)
             });

@@ -35,7 +35,7 @@ pub(crate) struct Failure {
     pub(crate) pointer: String,
     /// A description of the problem.
     pub(crate) message: String,
-    /// The remedy.
+    /// The suggested remedy.
     pub(crate) help: Option<String>,
 }
 

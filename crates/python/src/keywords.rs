@@ -12,7 +12,7 @@ use scene_file::options::NamedOption;
 pub(crate) struct Keywords<'a, 'py>(pub(crate) &'a Bound<'py, PyDict>);
 
 impl<'py> Keywords<'_, 'py> {
-    /// Returns an option; `None` if it is absent.
+    /// Returns an option, or `None` if it is absent.
     pub(crate) fn value(&self, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
         Ok(self.0.get_item(name)?.filter(|value| !value.is_none()))
     }
@@ -94,8 +94,7 @@ impl<'py> Keywords<'_, 'py> {
     }
 }
 
-/// Returns a name without the differences between Python, flags and scene files: case, hyphens,
-/// underscores.
+/// Normalizes a name: Python, flags and scene files differ in case, hyphens and underscores.
 pub(crate) fn plain_name(name: &str) -> String {
     let letters = name.chars().filter(|c| !matches!(c, '-' | '_' | ' '));
     letters.flat_map(char::to_lowercase).collect()

@@ -1,4 +1,4 @@
-//! The extension module of the Python package `alberti`: the part that depends on the crates.
+//! The extension module of the Python package `alberti`: the part that calls the Rust crates.
 //! Signatures, documentation and types are in the Python sources, which pass their keyword
 //! arguments as dictionaries. Every function here validates them and reports an invalid argument by
 //! name.
@@ -31,8 +31,8 @@ mod subject;
 
 use pyo3::prelude::*;
 
-/// Runs the program `alberti` with its arguments, starting with its name, and returns its exit
-/// code. `program` is the command that restarts it.
+/// Runs the program `alberti` with these arguments, the first of which is its name, and returns its
+/// exit code. `program` is the command that restarts it.
 #[pyfunction]
 fn run_program(
     py: Python<'_>,

@@ -10,10 +10,10 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scene_file::file::Color;
 
-/// Reads the material; `None` if the mesh has none.
+/// Reads the material, or returns `None` if the mesh does not define a material.
 ///
 /// # Errors
-/// If a factor is out of range or a color is invalid.
+/// Returns an error if a factor is out of range or a color is invalid.
 pub(crate) fn read_material(
     mesh: &Keywords<'_, '_>,
     [has_texture, has_colors]: [bool; 2],

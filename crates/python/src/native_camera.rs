@@ -25,7 +25,7 @@ pub(crate) struct NativeCamera {
     pub(crate) file: CameraFile,
     /// The width and height of its pictures, if known.
     pub(crate) size: Option<(u32, u32)>,
-    /// The position, framed around a picture's models; `None` before the first picture.
+    /// The position, framed around the models of a picture, or `None` before the first picture.
     placed: Option<ViewProjection>,
 }
 
@@ -91,8 +91,8 @@ impl NativeCamera {
     }
 }
 
-/// Whether a camera frames its model. Classical projections do not, because they fit their own
-/// windows.
+/// Returns whether a camera frames its model. Classical projections do not, because they fit their
+/// own windows.
 fn can_stand(file: &CameraFile) -> bool {
     let lens = file.projection.as_ref();
     lens.is_none_or(|lens| {

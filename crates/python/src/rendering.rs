@@ -1,4 +1,4 @@
-//! Rendering: pictures and passes as arrays, one or many, with reused renderers.
+//! Rendering of pictures and passes to arrays, one by one or in parallel, with reused renderers.
 //!
 //! ```text
 //!  options ─► SceneFile ─► Scene ─► Renderer ─► Picture, PassBuffers ─► arrays
@@ -176,8 +176,8 @@ fn read_passes(options: &Keywords<'_, '_>) -> PyResult<(bool, Vec<Pass>)> {
     Ok((has_color, passes))
 }
 
-/// Whether a simplified name refers to a pass, either by the library's name or as `ids`,
-/// `model_ids` …
+/// Returns whether a normalized name refers to a pass: by the library's name, or as `ids`,
+/// `model_ids` and so on.
 fn means_pass(wanted: &str, pass: Pass) -> bool {
     let own = plain_name(pass.name());
     wanted == own
@@ -340,7 +340,7 @@ fn render_jobs(
     Ok(rendered.into_iter().map(|(_, job)| job).collect())
 }
 
-/// Whether a failure is more informative than another because it was not caused by cancellation.
+/// Returns whether a failure is more informative than another: not caused by a cancellation.
 fn is_cause(one: &(usize, Failure), other: &(usize, Failure)) -> bool {
     let is_stopped = |failure: &Failure| failure.message.contains("canceled");
     (is_stopped(&one.1), one.0) < (is_stopped(&other.1), other.0)

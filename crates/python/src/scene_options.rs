@@ -11,7 +11,7 @@ use scene_file::file::{BackgroundFile, Color, StyleFile};
 /// Applies the options of a call to the description of a subject's scene.
 ///
 /// # Errors
-/// If an option is invalid.
+/// Returns an error if an option is invalid.
 pub(crate) fn apply_options(subject: &Subject, options: &Keywords<'_, '_>) -> PyResult<SceneFile> {
     let mut file = subject.file.clone();
     if let Some(camera) = options.value("camera")? {

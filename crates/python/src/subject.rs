@@ -45,7 +45,7 @@ impl Subject {
     /// Creates a subject from a scene and loads its models.
     ///
     /// # Errors
-    /// All errors in the scene, including models that cannot be loaded.
+    /// Returns all errors in the scene, including models that cannot be loaded.
     pub(crate) fn from_scene(
         origin: Origin,
         file: SceneFile,
@@ -58,7 +58,7 @@ impl Subject {
     /// Resolves a description with the models to a scene.
     ///
     /// # Errors
-    /// If the description is invalid.
+    /// Returns an error if the description is invalid.
     pub(crate) fn resolve(&self, file: &SceneFile) -> Fallible<Scene> {
         let allowed = &self.options.import.allow_outside;
         let models = self.models.clone();

@@ -2,9 +2,9 @@
 
     python compare_speed.py [alberti] [pyrender] [vtk]
 
-The model is a sphere of 15,000 triangles with a texture of 1024 × 1024 texels. Measured are color,
-depth and ids at 640 × 480 on one thread after a warm-up, and 100 views at 256 × 256 on two threads.
-Every renderer runs in a separate process.
+The model is a sphere of 15,000 triangles with a texture of 1024 × 1024 texels. The script measures
+color, depth and ids at 640 × 480 on one thread after a warm-up, and 100 views at 256 × 256 on two
+threads. Every renderer runs in a separate process.
 """
 
 import os
@@ -45,8 +45,8 @@ def report(name, call, count=15):
         call()
         walls.append(1e3 * (time.perf_counter() - wall))
         processors.append(1e3 * (time.process_time() - processor))
-    wall, processor = sorted(walls)[count // 2], sorted(processors)[count // 2]
-    print(f"{name:50} {wall:9.2f} ms, {processor:9.2f} ms of the processor", flush=True)
+    wall, processor = sorted(walls)[count // 2], sorted(processors)[count // 2] print(f"{name:50}
+    {wall:9.2f} ms, {processor:9.2f} ms of CPU time", flush=True)
 
 
 def time_alberti():

@@ -12,7 +12,7 @@ PROJECT = Path(__file__).resolve().parents[3]
 
 
 def assets_folder():
-    """Return the folder of external test models: `ASSETS`, or next to the repository."""
+    """Return the folder of external test models: `ASSETS`, or one next to the repository."""
     given = os.environ.get("ASSETS")
     folder = Path(given) if given else PROJECT.parent / "shared" / "assets"
     return folder if folder.is_dir() else None

@@ -1,4 +1,4 @@
-"""Cameras: round trips, conventions, and pixels against formulas and OpenCV."""
+"""Test cameras: round trips, conventions, and pixels compared with formulas and OpenCV."""
 
 import alberti
 import numpy as np

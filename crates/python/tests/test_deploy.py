@@ -1,4 +1,4 @@
-"""Test `deploy`: the Kubernetes job against its published schema, the Ray example locally."""
+"""Test `deploy`: check the Kubernetes job against its published schema, and run the Ray example."""
 
 import os
 import shutil

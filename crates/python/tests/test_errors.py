@@ -1,4 +1,4 @@
-"""Invalid input raises an exception with the argument and its value, and never aborts."""
+"""Test that invalid input raises an exception with the argument and its value, and never aborts."""
 
 import pickle
 import signal
@@ -229,7 +229,7 @@ def test_other_threads_run_during_rendering(teapot):
 def test_ctrl_c_cancels_a_picture():
     code = """
 import alberti, os, signal, sys, threading, time
-# What is started in the background of a shell ignores interrupts.
+# Processes that a shell starts in the background ignore interrupts.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 model = alberti.load(sys.argv[1])
 main = os.getpid()

@@ -1,9 +1,9 @@
-//! Draws triangles directly into a `tiny_skia::Pixmap`, with tiny-skia strokes on top:
+//! Draws triangles directly into a `tiny_skia::Pixmap`, adds tiny-skia strokes on top, and writes
 //! `pixmap.png`.
 //!
 //! `Frame::draw` accepts any slice of pixels and a closure that encodes colors. Here it encodes
-//! tiny-skia pixels, whose codes are premultiplied by alpha. Where nothing is drawn, the pixmap
-//! stays transparent.
+//! tiny-skia pixels, whose channels are premultiplied by alpha after encoding. Where nothing is
+//! drawn, the pixmap stays transparent.
 
 use homog::Point;
 use raster::{CullMode, Frame, Opacity, Samples, ScreenVertex, surface_fn};
@@ -30,8 +30,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         [light, 0.8 * light, 0.3 * light, 1.0]
     });
     frame.draw(&facets, [0.0; 4], 2, pixmap.pixels_mut(), |[r, g, b, alpha]: [f32; 4]| {
-        // A square root encodes linear light, close enough to sRGB; then the codes are multiplied
-        // by alpha.
+        // A square root approximates the sRGB encoding. The encoded channels are then multiplied by
+        // alpha.
         let code = |light: f32| ((light * alpha).sqrt() * 255.0 + 0.5) as u8;
         let alpha = (alpha * 255.0 + 0.5) as u8;
         let [r, g, b] = [r, g, b].map(|light| code(light).min(alpha));

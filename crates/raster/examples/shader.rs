@@ -1,8 +1,8 @@
-//! A custom shader: a floor that extends to the horizon, with a procedural checkerboard:
+//! Draws a checkered floor that extends to the horizon with a custom shader, and writes
 //! `shader.png`.
 //!
-//! The corners carry positions on the floor. Blending them by the fragment's weights gives the
-//! position that a pixel shows, which is correct in perspective because the vertices carry their w.
+//! Each corner carries its position on the floor. Blending these positions by the fragment's
+//! weights gives the position at the pixel, perspective-correct because the vertices carry their w.
 //! The derivatives of the weights give the size of the pixel on the floor: where it covers a whole
 //! square or more, the checkerboard fades to its mean.
 

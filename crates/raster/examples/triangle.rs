@@ -1,4 +1,4 @@
-//! Draws a spinning triangle as a strip of twelve frames: `triangle.png`.
+//! Draws twelve frames of a spinning triangle side by side, and writes `triangle.png`.
 //!
 //! It shows everything a frame needs: vertices on the screen, indices, and a surface that returns
 //! colors.

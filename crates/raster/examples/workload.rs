@@ -1,8 +1,8 @@
 //! A fixed workload that runs only the rasterizer, for counting its instructions: `cargo xtask
 //! bench --instructions`.
 //!
-//! It draws twenty thousand triangles of a few pixels, as in typical models, and forty that cross
-//! the picture one behind another, with baseline instructions. The argument is the number of
+//! It draws twenty thousand triangles of a few pixels, as in typical models, and a stack of forty
+//! triangles across the whole picture, using baseline instructions. The argument is the number of
 //! samples per pixel. The printed number depends on every pixel, so no work can be optimized away.
 
 #![allow(clippy::print_stdout, reason = "the program prints its result")]
@@ -15,7 +15,7 @@ const IMAGE_SIZE: (u32, u32) = (640, 360);
 const SMALL_TRIANGLES: u32 = 20_000;
 const LARGE_TRIANGLES: u32 = 40;
 
-/// Pseudorandom numbers that are the same everywhere (Knuth's constants).
+/// A pseudorandom number generator with the same output on every platform (Knuth's constants).
 struct Random(u64);
 
 impl Random {
@@ -27,7 +27,7 @@ impl Random {
     }
 }
 
-/// A surface with a color derived from the triangle's id, blended between its corners.
+/// A surface whose color depends on the triangle's id and is blended between the corners.
 struct IdSurface;
 
 impl Surface for IdSurface {

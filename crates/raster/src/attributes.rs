@@ -55,7 +55,7 @@ impl Fragment<'_> {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct VertexAttribute<'a, A> {
-    /// The id with which the first triangle was added.
+    /// The id of the first triangle.
     pub first_id: u32,
     /// The triangles of the mesh.
     pub triangles: &'a [[u32; 3]],

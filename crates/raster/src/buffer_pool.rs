@@ -1,7 +1,7 @@
-//! The buffer pool of a frame: memory for drawing, kept between drawings.
+//! The buffer pool of a frame, which keeps the memory used for drawing until the next drawing.
 //!
 //! The bins and tiles of a picture take a few megabytes. With the pool, a frame that is drawn
-//! repeatedly, as in an animation, allocates nothing after the first time (a test checks this).
+//! repeatedly, as in an animation, allocates nothing after the first drawing (a test checks this).
 
 use crate::tile_bins::TileBins;
 use crate::tile_resolve::RowScratch;
@@ -12,7 +12,7 @@ use std::sync::{Mutex, PoisonError};
 #[derive(Debug, Default)]
 pub(crate) struct DrawBuffers {
     pub(crate) bins: TileBins,
-    /// One for each thread.
+    /// The buffers of each thread.
     pub(crate) workers: Vec<ThreadBuffers>,
 }
 

@@ -1,14 +1,14 @@
-//! Clipped meshes: from positions to the frame, with clipping before the divide.
+//! Clipped meshes: transforms positions, clips before the divide and adds the result to a frame.
 //!
 //! ```text
 //!   positions ─source_to_clip─► outcodes ─► all inside ──────────────► ÷ w, snap ─► frame
 //!                                        └► some outside ─► clip_triangle ─┘
 //! ```
 //!
-//! [`Frame::add_mesh`] takes vertices on the screen, where a vertex behind the eye has no position.
-//! Triangles with such a vertex are omitted, for example a floor under the viewer's feet. Clipping
-//! cuts such triangles at the near plane while they are still in homogeneous coordinates (CL-3). At
-//! the sides of the picture, a guard band far outside it replaces the planes (CL-4).
+//! [`Frame::add_mesh`] accepts vertices on the screen, where a vertex behind the eye has no
+//! position. Triangles with such a vertex are omitted, for example a floor under the viewer's feet.
+//! Clipping cuts such triangles at the near plane while they are still in homogeneous coordinates
+//! (CL-3). At the sides of the picture, a guard band far outside it replaces the planes (CL-4).
 
 use crate::{CullMode, Frame, GUARD_BAND, Opacity, ScreenVertex, VertexProjection, signed_area};
 use clip::{ClippedSegment, Outcode, Volume, clip_segment, clip_triangle};
@@ -164,8 +164,8 @@ fn sign(x: f64) -> i64 {
 
 impl Frame {
     /// Adds a mesh in any space: transforms it, clips it before the divide, culls it and snaps it.
-    /// Triangles that cross the near plane are cut there; their fragments have weights in the whole
-    /// triangles.
+    /// Triangles that cross the near plane are cut there; the weights of their fragments refer to
+    /// the whole triangle.
     ///
     /// ```
     /// use projection::{Convention, Fov, Perspective};

@@ -10,7 +10,7 @@
 //! Much of a large mesh is outside the picture or faces away. A cluster is a run of consecutive
 //! triangles with their bounding box and a cone around their normals, so one test decides for all
 //! of them (Shirman and Abi-Ezzi, *The Cone of Normals Technique*, 1993). Triangles keep their
-//! order and their ids, so culling never changes a bit of the picture.
+//! order and their ids, so culling never changes the picture.
 
 use core::ops::Range;
 use glam::DVec3;
@@ -19,13 +19,13 @@ use homog::{HPoint, Space};
 /// The maximum number of triangles in a cluster: few enough for tight bounds, and enough to make
 /// the test cheap per triangle.
 const CLUSTER_TRIANGLES: usize = 64;
-/// The margin of the cone test, relative to the vector to the viewer: single precision and vertex
-/// snapping may flip a face that is seen edge-on.
+/// The margin of the cone test, relative to the distance to the viewer. It is needed because single
+/// precision and vertex snapping may flip a face that is seen edge-on.
 const CONE_MARGIN: f64 = 1e-3;
 
 /// The clusters of a mesh, in the order of its triangles, in the space of its positions.
 ///
-/// They are valid as long as the positions do not change.
+/// They remain valid until the positions change.
 #[derive(Clone, Debug, Default)]
 pub struct Clusters {
     list: Vec<Cluster>,
@@ -135,9 +135,9 @@ impl Cluster {
     /// faces are counterclockwise.
     ///
     /// For a viewer `e` and a vertex `p`, a triangle with normal `n` faces away if n · (e − e_w p)
-    /// < 0. The box bounds every `p`, and the cone every `n`. The maximum product is the product of
-    /// the vector from the center of the box and the nearest normal of the cone, plus at most the
-    /// radius of the box.
+    /// < 0. The box bounds every `p`, and the cone every `n`. The dot product is at most the dot
+    /// product of the vector from the center of the box and the nearest normal of the cone, plus
+    /// the radius of the box.
     #[must_use]
     pub fn is_back_facing<S: Space>(&self, viewer: HPoint<S>) -> bool {
         let axis = DVec3::from_array(self.cone_axis.map(f64::from));
@@ -246,14 +246,13 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
 /// The part of a mesh to draw: runs of its triangles and the vertices that they need.
 #[derive(Clone, Debug, Default)]
 pub struct MeshSelection {
-    /// Runs of triangles in order, none adjacent to the next.
+    /// Runs of triangles in order, with gaps between them.
     triangle_runs: Vec<Range<usize>>,
-    /// Whether the vertices of each block of [`VERTEX_BLOCK`] are needed.
+    /// For each block of [`VERTEX_BLOCK`] vertices, whether they are needed.
     vertex_blocks: Vec<bool>,
 }
 
-/// The number of vertices in a block, the unit in which vertices are selected: eight vectors of
-/// eight lanes.
+/// The number of vertices in a block, the unit of vertex selection: eight vectors of eight lanes.
 const VERTEX_BLOCK: usize = 64;
 
 impl MeshSelection {

@@ -33,7 +33,7 @@ use homog::PixelRect;
 pub struct DepthBuffer {
     region: PixelRect,
     samples: Samples,
-    /// The depths of the first sample in all pixels, row by row, then of each further sample.
+    /// The depths of the first sample in all pixels, row by row, then of each other sample in turn.
     depths: Vec<f32>,
 }
 
@@ -84,7 +84,7 @@ impl DepthBuffer {
         self.depths.len()
     }
 
-    /// Returns whether the pixels and samples of a frame match this buffer.
+    /// Returns whether a frame has the same region and samples as this buffer.
     pub(crate) fn fits(&self, region: PixelRect, samples: Samples) -> bool {
         (self.region, self.samples) == (region, samples)
     }
@@ -120,7 +120,7 @@ impl Frame {
     pub fn depth_buffer<S: Surface>(&self, surface: &S, threads: usize) -> DepthBuffer {
         let (area, count) = (self.region.area(), self.samples.count());
         let empty = self.compare.to_internal(f32::NEG_INFINITY);
-        // Written to bands pixel by pixel first, then rearranged sample by sample.
+        // Depths are written to bands pixel by pixel, then rearranged sample by sample.
         let mut depths = match &self.initial_depth {
             Some(initial) => interleave(&initial.depths, count),
             None => vec![empty; area * count],
@@ -170,7 +170,7 @@ impl Frame {
     }
 }
 
-/// Stores the samples of each pixel side by side.
+/// Reorders depths from sample by sample to pixel by pixel.
 fn interleave(depths: &[f32], count: usize) -> Vec<f32> {
     let area = depths.len() / count.max(1);
     (0..area)

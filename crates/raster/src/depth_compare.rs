@@ -45,8 +45,8 @@ impl DepthCompare {
         if self.negates() { -depth } else { depth }
     }
 
-    /// Returns whether hidden surfaces can be resolved on the fast path, where strictly greater
-    /// wins.
+    /// Returns whether hidden surfaces can be resolved on the fast path, where a strictly greater
+    /// depth wins.
     pub(crate) const fn is_strict(self) -> bool {
         matches!(self, Self::Greater | Self::Less)
     }

@@ -46,8 +46,8 @@ impl EdgePixels {
     }
 
     /// Adds a block of eight pixels: the colors of their first samples' triangles, weighted by the
-    /// number of samples that show the same triangle or one that `continues` its surface. Other
-    /// triangles become contributions.
+    /// number of samples that show the same triangle or a triangle that `continues` its surface.
+    /// Other triangles become contributions.
     ///
     /// `planes` holds the triangles of all samples; pixels outside `lanes` are ignored.
     #[inline(always)]

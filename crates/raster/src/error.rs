@@ -8,8 +8,8 @@ use crate::MAX_SIDE;
 pub enum RasterError {
     /// The picture has no pixels or extends beyond [`MAX_SIDE`].
     #[error(
-        "cannot draw a picture of {width} x {height} pixels from pixel ({x}, {y}); each side \
-         must be at least 1 and must end within {MAX_SIDE}"
+        "cannot draw a picture of {width} x {height} pixels at pixel ({x}, {y}): its \
+         sides must be at least 1, and it must end within {MAX_SIDE} x {MAX_SIDE} pixels"
     )]
     Size {
         /// The leftmost column.

@@ -1,4 +1,4 @@
-//! Eight fragments at once, one per vector lane: the same results as [`Fragment`], bit for bit,
+//! Eight fragments at once, one per vector lane. The results are bit-identical to [`Fragment`] and
 //! several times as fast.
 //!
 //! Everything here is a plain loop over eight lanes, inlined into a function compiled for the

@@ -27,7 +27,8 @@ use std::sync::Arc;
 /// The maximum width and height of a picture in pixels.
 pub const MAX_SIDE: u32 = 16384;
 
-/// Meshes with fewer triangles are assembled by one thread, because starting another takes as long.
+/// Meshes with fewer triangles are assembled by one thread, because starting a second takes longer
+/// than it saves.
 const PARALLEL_TRIANGLES: usize = 8 * CHUNK_TRIANGLES;
 
 /// The primitives of one picture and the settings for drawing them.
@@ -109,7 +110,7 @@ impl Frame {
     }
 
     /// Returns this frame with another SIMD level. Use it for benchmarks, and to test that the
-    /// level does not change a bit.
+    /// level does not affect the picture.
     #[must_use]
     pub fn with_simd_level(self, simd_level: SimdLevel) -> Self {
         Self { simd_level, ..self }
@@ -139,7 +140,7 @@ impl Frame {
 
     /// Returns this frame with initial depths, for a second pass.
     ///
-    /// Fragments that fail the depth test against them are absent from both pictures and id
+    /// Fragments that fail the depth test against them appear neither in pictures nor in id
     /// buffers.
     ///
     /// # Errors
@@ -313,7 +314,7 @@ impl Frame {
 
     /// Assembles one whole triangle and appends it, unless it is degenerate or covers no sample.
     fn push_unclipped(&mut self, vertices: [ScreenVertex; 3], id: u32, opacity: Opacity) {
-        // Outside the region, or between samples.
+        // The triangle is outside the region or between samples.
         let Some(tiles) = self.sample_bounds().touched_tiles(vertices) else { return };
         let area = signed_area(vertices);
         let vertices = oriented_depths(self.compare.negates(), vertices);
@@ -349,7 +350,7 @@ impl Frame {
         self.triangles.push(ScreenTriangle { vertices, id, source, opacity }, tiles);
     }
 
-    /// Returns the test for whether a triangle can cover a sample of this frame.
+    /// Returns the test that determines whether a triangle can cover a sample of this frame.
     fn sample_bounds(&self) -> SampleBounds {
         SampleBounds { grid: TileGrid::new(self.region), samples: self.samples }
     }
@@ -450,8 +451,7 @@ fn assemble_triangle(
     Some(ScreenTriangle { vertices: normalize_inv_w(vertices), id, source, opacity })
 }
 
-/// The test for whether a triangle's bounds contain a sample of the frame and which tiles they
-/// touch.
+/// Tests whether a triangle's bounds contain a sample of the frame, and which tiles they touch.
 ///
 /// It is conservative: a bounding rectangle may contain a sample that the triangle does not cover.
 #[derive(Clone, Copy)]

@@ -1,5 +1,5 @@
-//! The front fragment of each pixel, including translucent layers and alpha-tested holes, for
-//! picking and for counting overdraw.
+//! Front fragments, for picking, and overdraw counts. Both take translucent layers and alpha-tested
+//! holes into account.
 
 use crate::sample_plane::pixel_index;
 use crate::tile_grid::TILE;
@@ -49,7 +49,7 @@ impl Frame {
     /// alpha test.
     ///
     /// In a frame whose primitives are all translucent this is the overdraw: every fragment counts,
-    /// even hidden ones.
+    /// even if it is hidden.
     pub fn count_overdraw<S: Surface>(&self, surface: &S, threads: usize, target: &mut [u32]) {
         self.for_each_pixel(surface, threads, target, |pixel, target| {
             let [x, y] = pixel.image_position;

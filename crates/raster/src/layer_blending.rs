@@ -6,7 +6,7 @@
 //!   sample 1: A ← C       sample 3: B ← C ← D        then the mean of the samples
 //! ```
 //!
-//! Layers are sorted by depth in each pixel, so the order is exact for any submission order
+//! Layers are sorted by depth in each pixel, so the result is correct for any submission order
 //! (order-independent transparency with per-pixel lists).
 
 use crate::fragment_lanes::LANES;

@@ -14,7 +14,7 @@
 //! | tile binning | `tile_bins.rs` |
 //! | triangle setup: depth plane | `triangle_setup.rs`, `triangle_batch.rs` |
 //! | edge functions, top-left rule | `edge_function.rs` |
-//! | coverage of triangles of a few pixels | `micro_triangles.rs` |
+//! | coverage of triangles a few pixels wide | `micro_triangles.rs` |
 //! | coverage, depth test, hierarchical z | `rasterize.rs`, `rasterize/triangle_lanes.rs`, `sample_plane.rs` |
 //! | hidden-surface removal per tile, alpha test, layers | `tile_visibility.rs` |
 //! | deferred shading | `tile_resolve.rs`, `fragment.rs`, `fragment_lanes.rs` |

@@ -1,4 +1,4 @@
-//! Micro-triangles: the coverage of triangles of a few pixels, computed eight at a time.
+//! Micro-triangles: the coverage of triangles a few pixels wide, computed eight at a time.
 //!
 //! ```text
 //!   y0 ┌─┬─┬─┬─┐   A triangle within 4 × 4 pixels. At each of the 16 positions, for each sample,
@@ -47,9 +47,9 @@ pub(crate) struct MicroTriangles {
     row_depths: Vec<[f32; BATCH_SIZE]>,
     /// For each column and triangle, dx · x.
     column_depths: [[f32; BATCH_SIZE]; SIDE],
-    /// For each row and triangle, the row's contribution to the index of a sample in its plane;
-    /// below, the same for each column.
+    /// For each row and triangle, the row's term of a sample's index in its plane.
     row_indices: [[i32; BATCH_SIZE]; SIDE],
+    /// For each column and triangle, the column's term of that index.
     column_indices: [[i32; BATCH_SIZE]; SIDE],
 }
 
@@ -204,7 +204,7 @@ mod tests {
         })
     }
 
-    /// Returns the visible depths and triangles of planes.
+    /// Returns the depth and visible triangle at each sample of the planes.
     fn visible_samples(planes: &[SamplePlane]) -> Vec<(f32, u32)> {
         let pixels = || (0..56).flat_map(|y| (0..64).map(move |x| pixel_index(x, y)));
         let samples = |plane: &SamplePlane| {

@@ -37,7 +37,7 @@ pub trait Monitor: Debug + Send + Sync {
 }
 
 impl Monitor for AtomicBool {
-    /// Loads the flag with relaxed ordering: it orders nothing else, and noticing it late costs
+    /// Loads the flag with relaxed ordering: it guards no other data, and noticing it late costs
     /// little.
     fn is_canceled(&self) -> bool {
         self.load(Ordering::Relaxed)

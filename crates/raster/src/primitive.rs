@@ -44,8 +44,8 @@ impl CullMode {
 
 /// The weights of a source primitive's vertices at each vertex of a triangle that is part of it.
 ///
-/// A clipped triangle becomes several triangles, and a line or a point becomes two. Surfaces are
-/// shaded with weights in the submitted primitive, and these weights convert to those.
+/// A clipped triangle becomes several triangles, and a line or a point becomes two. Shading needs
+/// weights in the submitted primitive; this table converts weights in the part to them.
 pub type SourceWeights = [[f32; 3]; 3];
 
 /// A screen triangle with its vertices clockwise (y down), and the primitive to which it belongs.
@@ -77,9 +77,9 @@ impl ScreenTriangle {
 /// vertices.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum WeightSource {
-    /// The triangle is the primitive.
+    /// The triangle is the whole primitive.
     Unclipped,
-    /// The triangle is the primitive with its second and third vertices swapped to be clockwise.
+    /// The triangle is the whole primitive, with two vertices swapped to make it clockwise.
     Flipped,
     /// The triangle is part of the primitive: an index into the frame's source weights.
     Clipped(u32),
@@ -104,8 +104,8 @@ pub(crate) fn normalize_inv_w(vertices: [ScreenVertex; 3]) -> [ScreenVertex; 3] 
 
 /// Scales 1/w so that the largest value is 1.
 ///
-/// No value becomes less than 2⁻⁸⁰, so a weight between two small values still has a divisor. Kept
-/// out of line, because ordinary scenes never need it.
+/// No value becomes less than 2⁻⁸⁰, so the divisor of the weights is never 0. Kept out of line,
+/// because ordinary scenes never need it.
 #[cold]
 fn scale_inv_w_to_one(vertices: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
     let [p, q, r] = vertices.map(|vertex| f64::from(vertex.inv_w()));

@@ -66,7 +66,7 @@ pub(crate) fn rasterize_triangle<S: Simd>(
         return;
     }
     for block in blocks_in_bounds(&lanes.functions) {
-        // Depth along the columns does not depend on the sample: compute it once for all planes.
+        // The column term of depth does not depend on the sample: compute it once for all planes.
         let columns = lanes.block_columns(simd, block);
         for (sample, plane) in planes.iter_mut().enumerate() {
             let start = start(sample);
@@ -237,8 +237,8 @@ impl SamplePlane {
 
     /// Calls `each(array index, x, y, depth)` for every covered sample that passes the depth test.
     ///
-    /// This method writes nothing. It is for masked triangles, whose alpha test comes between depth
-    /// test and depth write, and for translucent triangles. `compare` is the depth test.
+    /// This method writes nothing. It is for masked triangles, whose alpha test comes between the
+    /// depth test and the depth write, and for translucent triangles. `compare` is the depth test.
     ///
     /// `each` may write to the plane: the depth test of a row is done before its samples are
     /// visited, and no sample is visited twice.
@@ -303,7 +303,7 @@ impl SamplePlane {
 
     /// Depth-tests and writes one sample, without a branch.
     ///
-    /// The block's nearest bound is raised if necessary; its farthest bound stays, which is safe.
+    /// The block's nearest bound is raised if necessary; its farthest bound can safely stay.
     #[inline(always)]
     pub(crate) fn depth_test_sample(&mut self, index: usize, depth: f32, triangle: u32) {
         let (old, old_triangle) = (self.depth[index], self.triangle[index]);
@@ -316,7 +316,7 @@ impl SamplePlane {
 
     /// Writes the depth and triangle of one sample without a test.
     ///
-    /// The block's nearest bound is raised if necessary; its farthest bound stays, which is safe.
+    /// The block's nearest bound is raised if necessary; its farthest bound can safely stay.
     pub(crate) fn write_sample(&mut self, index: usize, depth: f32, triangle: u32) {
         self.depth[index] = depth;
         self.triangle[index] = triangle;
@@ -325,8 +325,8 @@ impl SamplePlane {
     }
 }
 
-/// Returns the nearer of two depths, neither of them NaN. This takes one comparison; `f32::max`
-/// takes more.
+/// Returns the nearer of two depths, neither of which may be NaN. This takes one comparison;
+/// `f32::max` takes more.
 fn nearer_depth(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }

@@ -18,11 +18,11 @@
 
 use crate::tile_grid::{TILE, TileRect};
 
-/// The pixels of a tile.
+/// The number of pixels in a tile.
 pub(crate) const TILE_PIXELS: usize = (TILE * TILE) as usize;
 /// The side of a block in pixels: the lanes of one vector.
 pub(crate) const BLOCK_SIDE: usize = 8;
-/// The number of blocks in a row of blocks of a tile.
+/// The number of blocks in each row of a tile.
 pub(crate) const BLOCKS_PER_ROW: usize = TILE as usize / BLOCK_SIDE;
 /// The triangle index of the background, which is larger than any other index.
 pub(crate) const NO_TRIANGLE: u32 = u32::MAX;

@@ -5,7 +5,7 @@ use crate::screen_vertex::SUBPIXELS;
 /// The number of coverage samples per pixel (multisample antialiasing).
 ///
 /// Coverage and depth are determined at every sample; each visible surface is still shaded once per
-/// pixel. The patterns are the standard ones from Direct3D 11.
+/// pixel. The patterns are the standard patterns of Direct3D 11.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Samples {
     /// One sample at the center of the pixel: no antialiasing.

@@ -29,8 +29,8 @@ pub const MAX_DEPTH: f32 = 1_048_576.0;
 
 /// A vertex after perspective divide, viewport transform and snapping. It can always be drawn.
 ///
-/// x is to the right and y down, in 1/256 pixel. Depth is 1 at the near plane and 0 at the far
-/// plane (reversed z); larger is nearer.
+/// x points right and y down, in 1/256 pixel. Depth is 1 at the near plane and 0 at the far plane
+/// (reversed z); larger is nearer.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ScreenVertex {
     pub(crate) x: i32,

@@ -90,7 +90,7 @@ impl SimdLevel {
     ///
     /// A kernel is one function with all its calls inlined, and LLVM's compile time grows faster
     /// than the size of a function. Divided into a dozen parts, shading compiles in half the time.
-    /// Call it only inside [`run_wide_kernel`](Self::run_wide_kernel).
+    /// Call this only inside [`run_wide_kernel`](Self::run_wide_kernel).
     ///
     /// # Panics
     /// Panics on x86 processors without AVX2, which do not run wide kernels.

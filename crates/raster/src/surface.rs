@@ -8,8 +8,8 @@ use crate::{Fragment, Fragments, Frame};
 
 /// The appearance of the primitives of a frame: alpha test and shading.
 pub trait Surface: Sync {
-    /// Returns whether a masked primitive is present in this fragment: the alpha test. It is called
-    /// only in frames with masked primitives. The default returns `true`.
+    /// Runs the alpha test: returns whether a masked primitive is present in this fragment. It is
+    /// called only in frames with masked primitives. The default returns `true`.
     #[inline(always)]
     fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
         let _ = fragment;
@@ -26,8 +26,7 @@ pub trait Surface: Sync {
         std::array::from_fn(|lane| self.passes_alpha_test(&fragments.fragment(lane, &weights)))
     }
 
-    /// Returns the color of a fragment: linear red, green and blue, premultiplied by alpha, and
-    /// alpha.
+    /// Returns the color of a fragment as linear RGBA, premultiplied by alpha.
     ///
     /// Opaque and masked primitives replace everything behind them, including alpha. Their alpha is
     /// 1 unless the color includes a background that is itself transparent, as for refracting
@@ -94,8 +93,8 @@ pub struct TranslucentColors {
     pub transmittance: [F32x8; 3],
 }
 
-/// Creates a surface from a function that returns the color of a fragment: linear red, green and
-/// blue, premultiplied by alpha, and alpha.
+/// Creates a surface from a function that returns the color of a fragment as linear RGBA,
+/// premultiplied by alpha.
 ///
 /// ```
 /// # use raster::{Frame, Samples, surface_fn};

@@ -11,8 +11,8 @@ use homog::PixelRect;
 /// The side of a tile in pixels.
 ///
 /// The depths and triangle indices of one sample plane then take 32 KiB and stay in the fastest
-/// caches while the tile is filled. A row of blocks in a tile has eight blocks of 8 pixels, one
-/// vector of eight lanes.
+/// caches while the tile is filled. Each row of a tile has eight blocks of eight pixels, to suit
+/// vectors of eight lanes.
 pub(crate) const TILE: u32 = 64;
 
 /// Returns the columns of tiles that a region touches: the first, and one past the last.

@@ -1,4 +1,4 @@
-//! The tile loop: fills every tile of a frame with its triangles and passes it on, in parallel.
+//! The tile loop: rasterizes every tile of a frame and passes it to a callback, in parallel.
 //!
 //! Work is divided by rows of tiles. A row of tiles is a band of whole target rows, so bands are
 //! disjoint slices that threads can write without locks. Tiles are independent: a tile depends only
@@ -56,7 +56,7 @@ impl Frame {
         self.buffers.recycle_buffers(DrawBuffers { bins, workers });
     }
 
-    /// Fills the tiles of one band from left to right and calls `each` with those that have
+    /// Fills the tiles of one band from left to right and calls `each` with the tiles that have
     /// triangles.
     fn for_each_tile_in_band<S: Surface, P>(
         &self,

@@ -28,7 +28,7 @@ use homog::PixelRect;
 
 /// A filled tile with everything needed to shade it.
 ///
-/// Nothing here changes the tile. Rows are written in order, from the top.
+/// Shading does not modify the tile. Rows are written in order, from the top.
 pub(crate) struct TileResolve<'a, S> {
     pub(crate) frame: &'a Frame,
     pub(crate) surface: &'a S,
@@ -218,7 +218,7 @@ impl<S: Surface> TileResolve<'_, S> {
                 *pixel = if triangle == NO_TRIANGLE { empty } else { *pixel };
             }
         }
-        // A whole block is one store; at the borders of the region fewer pixels are visible.
+        // A whole block takes one store; at the borders of the region fewer pixels are visible.
         if let Ok(targets) = <&mut [P; LANES]>::try_from(&mut *targets) {
             *targets = pixels;
         } else {

@@ -5,8 +5,8 @@
 //!                                                        └► translucent ─► layers, back to front
 //! ```
 //!
-//! The result is a visibility buffer: for each sample, the index of the nearest opaque triangle,
-//! and no color. Surfaces are shaded later, once per pixel, so hidden ones cost no shading.
+//! The result is a visibility buffer, which stores the index of the nearest opaque triangle for
+//! each sample, but no color. Shading comes later, once per pixel, so hidden surfaces cost nothing.
 
 use crate::fragment_lanes::LANES;
 use crate::micro_triangles::MicroTriangles;
@@ -191,7 +191,7 @@ impl TileVisibility {
         }
     }
 
-    /// Returns the next few triangles of a list that may be visible.
+    /// Returns the next few possibly visible triangles of a list.
     ///
     /// This is occlusion culling by the tile's depth bound: triangles behind everything in the tile
     /// are skipped before any setup. Translucent triangles are also skipped, and `has_translucent`
@@ -329,8 +329,7 @@ impl TileVisibility {
 /// The pixels of a tile in which the alpha test of one triangle has run.
 ///
 /// Alpha is per pixel, not per sample, so it is tested once, for all eight pixels in a row of a
-/// block together. One bit per pixel and row records whether it was tested, and another whether it
-/// passed.
+/// block together. Each pixel has one bit for whether it was tested and one for whether it passed.
 struct MaskedPixels {
     tested: [u64; TILE as usize],
     passed: [u64; TILE as usize],
@@ -383,8 +382,8 @@ fn translucent_layer(
     rect.is_visible(x, y).then_some(layer)
 }
 
-/// Merges the layers of one triangle, from index `first` on, that are samples of the same pixel. A
-/// merged layer has the depth of its first sample.
+/// Starting at index `first`, merges the layers of one triangle that are samples of the same pixel.
+/// A merged layer has the depth of its first sample.
 fn merge_layer_samples(layers: &mut Vec<TranslucentLayer>, first: usize) {
     // Make the samples of each pixel adjacent, starting with the first sample.
     layers[first..].sort_unstable_by_key(|layer| (layer.pixel, layer.mask));

@@ -271,7 +271,7 @@ fn edge_differences(c: &[Ints; 3], forward: bool) -> [Ints; 3] {
 /// Returns the change of depth per grid step to the right and down, computed as in
 /// `DepthPlane::new`.
 ///
-/// A degenerate triangle would cause a division by 0, but primitive assembly has dropped them all.
+/// A degenerate triangle would cause a division by 0, but primitive assembly drops such triangles.
 #[inline(always)]
 fn depth_gradients(x: &[Ints; 3], y: &[Ints; 3], z: &[Floats; 3]) -> [Doubles; 2] {
     let mut gradients = [[0.0; BATCH_SIZE]; 2];

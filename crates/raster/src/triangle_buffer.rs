@@ -105,7 +105,7 @@ impl TriangleBuffer {
         &mut self.chunks[first..self.chunks_in_use]
     }
 
-    /// Moves the empty chunks from index `first` on to the end, out of use.
+    /// Removes the empty chunks at or after index `first` from use by moving them to the end.
     pub(crate) fn remove_empty_chunks(&mut self, first: usize) {
         let mut filled = first;
         for index in first..self.chunks_in_use {

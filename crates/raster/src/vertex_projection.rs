@@ -5,7 +5,7 @@
 //!   position ─to_clip─► (x, y, z, w) ─÷ w─► NDC ─ndc_to_screen─► pixels ─round─► ScreenVertex
 //! ```
 //!
-//! Operations have the same order as for a single point ([`ScreenVertex::snap`]). A vertex
+//! Operations are in the same order as for a single point ([`ScreenVertex::snap`]). A vertex
 //! therefore has the same bits in an unclipped mesh and in a clipped triangle next to it, so no
 //! cracks appear between them. The loops over eight lanes compile to vector instructions.
 //!
@@ -50,8 +50,8 @@ pub struct VertexProjection<A: Space> {
 impl<A: Space> VertexProjection<A> {
     /// Projects positions to the screen and snaps them, bit for bit like [`ScreenVertex::snap`].
     ///
-    /// `vertices` is resized to the length of `positions`. If it has been that long before, nothing
-    /// is allocated.
+    /// `vertices` is resized to the length of `positions`; nothing is allocated if its capacity
+    /// suffices.
     ///
     /// Positions that are not finite or cannot be drawn without clipping become `None`.
     pub fn project_positions(

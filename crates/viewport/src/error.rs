@@ -9,23 +9,23 @@ pub enum ViewportError {
     /// A number is infinite or NaN.
     #[error("{name} = {value} is not a finite number")]
     NotFinite {
-        /// The parameter.
+        /// The name of the parameter.
         name: &'static str,
-        /// Its value.
+        /// The rejected value.
         value: f64,
     },
     /// A size, resolution or scale is zero or negative.
     #[error("{name} = {value} is not allowed: it must be greater than 0")]
     NotPositive {
-        /// The parameter.
+        /// The name of the parameter.
         name: &'static str,
-        /// Its value.
+        /// The rejected value.
         value: f64,
     },
     /// The two ends of an interval coincide, so it cannot be mapped.
     #[error("{name} is empty: both ends are {value}")]
     Empty {
-        /// The interval.
+        /// The name of the interval.
         name: &'static str,
         /// The value of both ends.
         value: f64,
@@ -33,9 +33,9 @@ pub enum ViewportError {
     /// A count is too small.
     #[error("{name} = {count} is not allowed: it must be at least {least}")]
     TooFew {
-        /// The parameter.
+        /// The name of the parameter.
         name: &'static str,
-        /// Its value.
+        /// The rejected value.
         count: usize,
         /// The minimum allowed value.
         least: usize,
@@ -44,7 +44,7 @@ pub enum ViewportError {
     /// or its inverse would not be finite.
     #[error("{name} is too large or too small to compute with")]
     OutOfRange {
-        /// The parameter, or the result computed from it.
+        /// The name of the parameter, or of the result computed from it.
         name: &'static str,
     },
 }

@@ -1,4 +1,4 @@
-//! Fit policies, which place a picture in a rectangle of another shape.
+//! Fit policies, which place a picture in a rectangle with a different aspect ratio.
 //!
 //! ```text
 //!   wide picture, tall place:
@@ -18,7 +18,7 @@
 use crate::error::{check_finite, check_positive};
 use crate::{Rectangle, ViewportError};
 
-/// A policy for fitting a picture into a rectangle of another shape.
+/// A policy for fitting a picture into a rectangle with a different aspect ratio.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 #[non_exhaustive]
 pub enum FitPolicy {

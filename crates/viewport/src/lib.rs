@@ -27,12 +27,12 @@
 //! | its inverse (WV-3) | [`Viewport::screen_to_ndc`] |
 //! | another pixel convention (VP-4) | `homog::PixelConvention::convert_to` |
 //! | map a window to a viewport in the plane, in two ways | [`WindowToViewport`] (WV-1, WV-2) |
-//! | fit a picture into a rectangle of another shape | [`FitPolicy`] |
+//! | fit a picture into a rectangle with a different aspect ratio | [`FitPolicy`] |
 //! | several viewports on a page | [`Rectangle::split_grid`], [`Rectangle::inset_rectangle`] |
 //! | millimeters, dots per inch, scale 1:n | [`Paper`], [`Resolution`], [`DrawingScale`] |
 //! | large images in tiles | [`tiles`], [`Viewport::for_tile`] |
 //! | picking (UN-1, UN-2) | [`Viewport::unprojector`], [`Unprojector::pick_ray`] |
-//! | enlarge part of the view to the whole | [`Viewport::pick_matrix`] |
+//! | enlarge part of the view to fill the picture | [`Viewport::pick_matrix`] |
 //! | the points of a height field | [`PointGrid`] (WV-4) |
 //!
 //! # Example

@@ -1,4 +1,4 @@
-//! Several viewports on one page: grids, margins, insets.
+//! The layout of several viewports on one page: grids, margins, insets.
 //!
 //! ```text
 //!   ┌─────────────────┐
@@ -56,7 +56,7 @@ impl Rectangle {
 
     /// Returns a rectangle with a fraction of the width and height, positioned by the fractions
     /// `at` of the remaining space. For example, `inset_rectangle(0.25, [1.0, 1.0])` has a quarter
-    /// of each side and is in the corner of maximum coordinates.
+    /// of the width and height and is in the corner of maximum coordinates.
     ///
     /// # Errors
     /// Returns an error if a number is not finite or if the fraction is not greater than 0.
@@ -109,8 +109,8 @@ impl AxisDivision {
         Ok(Self { count, gap, start, length })
     }
 
-    /// Returns the start and length of part `i`. The borders are computed, not the sizes, so
-    /// neighbors agree on them.
+    /// Returns the start and length of part `i`. Computing borders instead of sizes makes neighbors
+    /// agree on them.
     fn nth_part(self, i: u32) -> (f64, f64) {
         let border = |i: f64| self.start + (self.length + self.gap) * i / self.count;
         let (start, end) = (border(f64::from(i)), border(f64::from(i) + 1.0) - self.gap);

@@ -104,7 +104,7 @@ impl Paper {
         Rectangle::new_unchecked(0.0, 0.0, self.width, self.height)
     }
 
-    /// Returns the size of the sheet rounded to whole pixels, at least one in each direction;
+    /// Returns the size of the sheet rounded to whole pixels, at least one in each direction, or
     /// `None` if a count does not fit in a `u32`.
     #[must_use]
     pub fn pixel_size(self, resolution: Resolution) -> Option<[u32; 2]> {
@@ -170,7 +170,7 @@ impl DrawingScale {
     }
 
     /// Returns the largest standard scale at which an object of size `thing` fits into `room`, both
-    /// in the same unit; `None` if the object is too large for all of them or if a size is not
+    /// in the same unit, or `None` if the object is too large for all scales or if a size is not
     /// finite.
     #[must_use]
     pub fn largest_standard(thing: [f64; 2], room: [f64; 2]) -> Option<Self> {

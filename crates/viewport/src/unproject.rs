@@ -99,7 +99,7 @@ impl<S: Space> Unprojector<S> {
         self.screen_to_source
     }
 
-    /// Returns the point whose image is at this position and depth (UN-1); `None` if it is at
+    /// Returns the point whose image is at this position and depth (UN-1), or `None` if it is at
     /// infinity.
     #[must_use]
     pub fn unproject_point(&self, screen: Point<Screen>) -> Option<Point<S>> {
@@ -137,8 +137,8 @@ impl<S: Space> Unprojector<S> {
         far.is_finite().then_some(PickRay { ray: Ray { origin, direction }, near, far })
     }
 
-    /// Whether the projection is parallel up to rounding, which must not turn a parallel projection
-    /// into a perspective with a very distant center.
+    /// Returns whether the projection is parallel up to rounding, which must not turn a parallel
+    /// projection into a perspective with a very distant center.
     fn is_parallel(&self) -> bool {
         let raw = self.screen_to_source.raw();
         raw.z_axis.w.abs() <= 1e-14 * raw.z_axis.abs().max_element()

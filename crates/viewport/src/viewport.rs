@@ -9,8 +9,8 @@ use homog::{Affine, ClipRange, Ndc, PixelConvention, Point, Screen, Vector, YAxi
 ///
 /// The rectangle is in whole pixels from the corner of the image: in any convention, `x = 10, width
 /// = 5` selects pixels 10 to 14. The convention determines the coordinates: these five pixels cover
-/// [10, 15] with half-integer centers and [9½, 14½] with integer centers. If y points up, it is
-/// measured from the bottom row; if it points down, from the top row. In both cases, the top of the
+/// [10, 15] with half-integer centers and [9½, 14½] with integer centers. If y points up, y is
+/// measured from the bottom row; if y points down, from the top row. In both cases, the top of the
 /// canonical square (y = +1, or −1 in Vulkan's range) is at the top edge of the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Viewport {
@@ -122,7 +122,7 @@ impl Viewport {
     /// Returns the map M_vp (VP-1 to VP-3, DP-1).
     ///
     /// ```text
-    /// [ w/2   0   0  x + w/2 + c ]      c = −½ for integer centers, 0 for half-integer ones;
+    /// [ w/2   0   0  x + w/2 + c ]      c = −½ for integer centers, 0 for half-integer centers;
     /// [  0  ±h/2  0  y + h/2 + c ]      + if y keeps its direction, − if it flips;
     /// [  0    0   s       o      ]      s and o are from the depth range
     /// [  0    0   0       1      ]

@@ -1,5 +1,5 @@
-//! Tests that framing is tight: the image touches the padded frame, is not cropped, and is centered
-//! in the other direction.
+//! Tests that framing is tight: the image touches the padded frame in one direction, is centered in
+//! the other, and is not cropped.
 
 use camera::{
     Basis, FramingConstraint, FramingError, Slopes, frame_oblique, frame_parallel,
@@ -19,7 +19,7 @@ fn cloud() -> impl Strategy<Value = Vec<Point<World>>> {
 }
 
 fn orientation() -> impl Strategy<Value = Basis> {
-    (triple(1.0), triple(1.0)).prop_filter_map("a gaze and an up", |(gaze, up)| {
+    (triple(1.0), triple(1.0)).prop_filter_map("a valid gaze and view-up", |(gaze, up)| {
         Basis::from_gaze(gaze.into(), up.into()).ok()
     })
 }
@@ -41,7 +41,7 @@ fn reach(numbers: impl Iterator<Item = f64>, low: f64, high: f64) -> [f64; 2] {
 }
 
 /// Asserts that the image touches the frame at ±(1 − 2 padding) in the direction of `fit`, and that
-/// it fits and is centered in the other.
+/// it fits and is centered in the other direction.
 fn assert_tight(x: [f64; 2], y: [f64; 2], fit: FramingConstraint, padding: f64) {
     let rim = 1.0 - 2.0 * padding;
     let (tight, other) = if fit == FramingConstraint::Width { (x, y) } else { (y, x) };

@@ -14,7 +14,7 @@ fn triple() -> impl Strategy<Value = [f64; 3]> {
 }
 
 fn camera() -> impl Strategy<Value = Camera> {
-    (triple(), triple(), triple()).prop_filter_map("a gaze and an up", |(eye, gaze, up)| {
+    (triple(), triple(), triple()).prop_filter_map("a valid gaze and view-up", |(eye, gaze, up)| {
         Camera::look_to(eye.into(), gaze.into(), up.into()).ok()
     })
 }

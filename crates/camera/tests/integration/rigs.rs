@@ -1,4 +1,4 @@
-//! Orbits, orientations, stereo rigs and screens in the world, against their formulas.
+//! Compares orbits, orientations, stereo rigs and screens in the world with their formulas.
 
 use camera::{
     Basis, Camera, CameraError, CameraView, NamedView, Orbit, Orientation, ScreenCorners,
@@ -16,7 +16,7 @@ fn triple() -> impl Strategy<Value = [f64; 3]> {
 }
 
 fn camera() -> impl Strategy<Value = Camera> {
-    (triple(), triple(), triple()).prop_filter_map("a gaze and an up", |(eye, gaze, up)| {
+    (triple(), triple(), triple()).prop_filter_map("a valid gaze and view-up", |(eye, gaze, up)| {
         Camera::look_to(eye.into(), gaze.into(), up.into()).ok()
     })
 }

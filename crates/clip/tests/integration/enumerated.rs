@@ -1,6 +1,6 @@
-//! All small cases: triangles and segments with coordinates from five values. Two of the values are
-//! on the borders, two are outside and one is in the middle, so every way of touching, crossing and
-//! missing occurs.
+//! Exhaustive tests of small cases: triangles and segments with coordinates from five values. Two
+//! of the values are on the borders, two are outside and one is in the middle, so every way of
+//! touching, crossing and missing occurs.
 //!
 //! ```text
 //!    −2  −1   0   1   2

@@ -86,7 +86,7 @@ proptest! {
         }
     }
 
-    /// D8: an edge shared by two triangles is cut at the same bits in both, regardless of its
+    /// D8: an edge shared by two triangles is cut at bit-identical points, regardless of its
     /// direction and the rest of the triangles.
     #[test]
     fn shared_edges_are_watertight(

@@ -1,4 +1,4 @@
-//! Conversions from and to the types of the glam version that this crate uses.
+//! Conversions to and from the types of the glam version that this crate uses.
 //!
 //! `from_raw` and `raw` cost nothing: a point is a `DVec3`. For another version of glam, convert
 //! through arrays or `mint`.

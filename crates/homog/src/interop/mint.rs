@@ -1,4 +1,4 @@
-//! Conversions from and to the types of mint, the bridge to any version of glam, nalgebra, cgmath
+//! Conversions to and from the types of mint, the bridge to any version of glam, nalgebra, cgmath
 //! and other libraries.
 
 use crate::{Affine, HPoint, Point, Projective, Space, Vector};

@@ -1,4 +1,4 @@
-//! Conversions from and to the types of nalgebra.
+//! Conversions to and from the types of nalgebra.
 
 use crate::{Affine, HPoint, Point, Projective, Space, Vector};
 use glam::DMat4;

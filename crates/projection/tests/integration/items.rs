@@ -171,8 +171,8 @@ fn c89_parallel_and_perspective_end_in_the_same_volume() {
     }
 }
 
-/// A volume has three sides. The cube [0, 1]³ is the canonical cube scaled by one half and moved,
-/// also in x and y.
+/// The cube [0, 1]³ is the canonical cube scaled by one half and moved along all three axes, not
+/// only along z.
 #[test]
 fn misprint_m7_a_volume_of_zero_to_one_has_three_sides() {
     let frustum = Frustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0).expect("valid");

@@ -96,7 +96,7 @@ class Camera:
 
     @classmethod
     def from_model(cls, camera: str | int = 0, *, size: Size | None = None) -> Camera:
-        """Take a camera from the model file, by name or index."""
+        """Use a camera from the model file, by name or index."""
         options: dict[str, Any] = {"of_model": camera, "size": size}
         return cls(_native.make_camera(options))
 

@@ -88,7 +88,7 @@ class Drawing:
 
     @property
     def camera(self) -> Camera:
-        """The camera with its position and the size of the drawing."""
+        """The camera used, with its position and the size of the drawing."""
         return Camera(self._native.camera())
 
     @property

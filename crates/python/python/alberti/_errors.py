@@ -51,7 +51,7 @@ _MOST_WARNINGS = 8
 
 
 def warn_all(messages: Iterable[str], stacklevel: int = 3) -> None:
-    """Warn about the first few messages, and about how many more there are."""
+    """Warn with the first few messages, and then with the number of the others."""
     messages = list(messages)
     for message in messages[:_MOST_WARNINGS]:
         _warnings.warn(message, AlbertiWarning, stacklevel=stacklevel + 1)

@@ -23,7 +23,7 @@ class Frame:
 
     __slots__ = ("_arrays", "camera", "warnings")
 
-    #: The camera with its position and the size of the frame.
+    #: The camera used, with its position and the size of the frame.
     camera: Camera
     #: Warnings about missing parts; usually empty.
     warnings: tuple[str, ...]

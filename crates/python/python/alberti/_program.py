@@ -9,7 +9,7 @@ from . import _native
 
 
 def main() -> None:
-    """Run the program with the command-line arguments, and exit with its code."""
+    """Run the program with the command-line arguments, and exit with the code it returns."""
     # Ctrl+C ends the program immediately, as it does without Python.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     program = [sys.executable, "-m", "alberti"]

@@ -89,7 +89,7 @@ def render_many(jobs: Iterable[Mapping[str, Any]], *, threads: int | None = None
 
     Returns:
         The frames, in the order of the jobs. All are kept in memory, so render very large numbers
-        of views in parts.
+        of views in batches.
 
     Raises:
         AlbertiError: For the first job that fails; ``pointer`` contains its index.
@@ -138,8 +138,8 @@ def explain(
         conventions: ``alberti``, ``opengl``, ``vulkan``, ``direct3d``, ``metal`` or ``webgpu``.
 
     Returns:
-        ``subject``, ``verdict`` and ``steps``, each with ``id``, ``title``, ``formula`` and
-        ``items``, which have ``id``, ``name`` and ``value``: the renderer's exact numbers.
+        ``subject``, ``verdict`` and ``steps``. A step has ``id``, ``title``, ``formula`` and
+        ``items``; an item has ``id``, ``name`` and ``value``, with the renderer's exact numbers.
 
     >>> model = Model.from_arrays([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     >>> [step["id"] for step in explain(model, point=(0.5, 0.5, 0))["steps"]][:2]

@@ -54,7 +54,7 @@ def _mesh(geometry: Any, name: str) -> dict[str, Any]:
 
 
 def _add_normals(mesh: dict[str, Any], geometry: Any) -> None:
-    """Add normals from the cache, the only way to tell the file's normals from computed ones."""
+    """Add normals only if they are cached, because trimesh computes missing normals on access."""
     cache = getattr(getattr(geometry, "_cache", None), "cache", {})
     if "vertex_normals" in cache:
         mesh["normals"] = cache["vertex_normals"]

@@ -18,7 +18,7 @@ pub(super) struct Block {
 }
 
 impl Block {
-    /// Returns the block in this column and row of the tile's blocks.
+    /// Returns the block at this column and row of the tile's grid of blocks.
     #[inline(always)]
     pub(super) fn from_column_row(column: i32, row: i32) -> Self {
         Self { index: row as usize * BLOCKS_PER_ROW + column as usize, x: column * 8, y: row * 8 }
@@ -249,8 +249,8 @@ impl<S: Simd> TriangleLanes<S> {
     /// Returns whether the triangle's bounds contain the whole block, so that its farthest sample
     /// may have come nearer.
     ///
-    /// This is conservative: the triangle itself may miss a corner, and the bound is then computed
-    /// in vain.
+    /// This is conservative: if the triangle itself misses a corner, recomputing the bound is
+    /// wasted work.
     #[inline(always)]
     pub(super) fn bounds_contain(&self, block: Block) -> bool {
         let TriangleFunctions { x0, y0, x1, y1, .. } = self.functions;

@@ -11,9 +11,9 @@ fn vertex(x: i32, y: i32) -> ScreenVertex {
     ScreenVertex::new(x, y, 0.5, 1.0).expect("on the grid")
 }
 
-/// Returns whether the triangle covers a sample, straight from RA-1: the sample is inside, or on
-/// the border and still inside after a step to the right and an infinitely smaller step down (y
-/// down).
+/// Returns whether the triangle covers a sample, straight from RA-1: the sample is inside, or it is
+/// on the border, and a step to the right and an infinitely smaller step down (y down) take it
+/// inside.
 fn covers(triangle: [ScreenVertex; 3], x: i64, y: i64) -> bool {
     let side = |a: ScreenVertex, b: ScreenVertex| {
         let (dx, dy) = (i64::from(b.x()) - i64::from(a.x()), i64::from(b.y()) - i64::from(a.y()));
@@ -110,7 +110,7 @@ impl Hypot for f64 {
 
 #[test]
 fn slivers_across_a_16384_pixel_picture_have_no_gaps_or_overlaps() {
-    // Slivers that extend to the far corner of the largest picture, of which one row is checked.
+    // Slivers that extend to the far corner of the largest picture; one row of it is checked.
     let width = raster::MAX_SIDE;
     let mut frame = Frame::new(width, 1, Samples::One).expect("one row");
     let (left, right) = (0, width as i32 * 256);

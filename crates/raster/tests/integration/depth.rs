@@ -163,7 +163,7 @@ fn a_floor_under_the_eye_covers_the_lower_half() {
     let mut floor = frame(Samples::One);
     floor.add_clipped_mesh(&screen, lens(), mesh);
     let buffer = floor.visibility_buffer();
-    // The floor begins just below the horizon, 99 ahead; the bottom row sees it 1 ahead.
+    // The floor starts just below the horizon, 99 units ahead; the bottom row is 1 unit ahead.
     for (index, id) in (0..).zip(&buffer.ids) {
         let (x, row) = (index % SIDE, index / SIDE);
         let expected = row > SIDE / 2 && (row >= SIDE / 2 + 8 || x.abs_diff(SIDE / 2) < 20);

@@ -1,4 +1,4 @@
-//! Drawing: samples, layers, masks and threads.
+//! Tests of drawing: samples, layers, masks and threads.
 
 use homog::PixelRect;
 use raster::{
@@ -18,7 +18,7 @@ fn rectangle(frame: &mut Frame, [x0, y0, x1, y1]: [f64; 4], depth: f64, id: u32,
     frame.add_triangle([a, c, d], id, cover);
 }
 
-/// Colors by id, with a mask that keeps every other column.
+/// A surface colored by id, with a mask that keeps every other column.
 struct Colors(Vec<[f32; 4]>);
 
 impl Surface for Colors {
@@ -52,7 +52,7 @@ fn a_pixel_is_the_mean_of_its_samples() {
     }
 }
 
-/// Colors by id; the first two ids form one smooth surface.
+/// A surface colored by id; the first two ids form one smooth surface.
 struct Continuous(Colors);
 
 impl Surface for Continuous {
@@ -137,7 +137,7 @@ fn masked_surfaces_hide_only_where_they_pass_the_alpha_test() {
 }
 
 #[test]
-fn threads_and_simd_levels_do_not_change_a_bit() {
+fn threads_and_simd_levels_do_not_change_the_picture() {
     let mut frame = Frame::new(200, 333, Samples::Four).expect("a frame of several tiles");
     let colors = crowd(&mut frame);
     let once = draw(&frame, &colors, CLEAR, 1);

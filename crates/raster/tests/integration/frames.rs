@@ -26,7 +26,7 @@ impl Surface for Impatient {
 }
 
 #[test]
-fn canceled_drawing_starts_no_further_row_of_tiles() {
+fn canceled_drawing_does_not_start_another_row_of_tiles() {
     let surface = Impatient::default();
     let frame = Frame::new(64, 1024, Samples::One).expect("a frame");
     let mut frame = frame.with_monitor(Arc::<AtomicBool>::clone(&surface.stop));
@@ -58,7 +58,7 @@ impl Surface for Lattice {
     }
 }
 
-/// Returns a net of `side` × `side` quads of varying depth over the whole picture.
+/// Returns a grid of `side` × `side` quads of varying depth over the whole picture.
 fn net(side: u32) -> (Vec<Option<ScreenVertex>>, Vec<[u32; 3]>) {
     let place = |k: u32, length: u32| f64::from(k) / f64::from(side) * f64::from(length);
     let vertices = (0..=side).flat_map(|j| (0..=side).map(move |i| (i, j))).map(|(i, j)| {

@@ -7,7 +7,7 @@
 
 use raster::{Frame, Opacity, Samples, ScreenVertex, SimdLevel};
 
-/// The number of pictures; below, the number of triangles in each.
+/// The number of pictures and, below, the number of triangles in each picture.
 const PICTURES: usize = 25_000;
 const TRIANGLES: usize = 40;
 /// The side of a picture: one tile and part of the next.
@@ -15,7 +15,7 @@ const SIDE: u32 = 72;
 /// The pixels that are checked: a window across the border between two tiles.
 const WINDOW: std::ops::Range<u32> = 56..72;
 
-/// Pseudorandom numbers that are the same everywhere (Knuth's constants).
+/// A pseudorandom number generator with the same output on every platform (Knuth's constants).
 struct Dice(u64);
 
 impl Dice {

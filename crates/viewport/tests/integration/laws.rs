@@ -1,5 +1,5 @@
-//! Laws of viewports: points mapped to the screen map back, conventions convert into each other,
-//! and parts add up to the whole.
+//! Laws of viewports: points mapped to the screen map back, conventions can be converted to each
+//! other, and parts add up to the whole.
 
 use glam::{DMat4, DVec4};
 use homog::{

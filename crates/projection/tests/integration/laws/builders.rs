@@ -1,4 +1,4 @@
-//! For each builder and every convention: corners map to corners, inverses undo the map, and
+//! Tests of each builder in every convention: corners map to corners, inverses undo the map, and
 //! conventions can be converted.
 
 use super::samples::{self, convention, conventions, distance, frustum, orthographic, perspective};
@@ -134,7 +134,7 @@ proptest! {
     }
 }
 
-/// C61, C90: tests equal borders, wrong signs, and numbers that are not finite.
+/// C61, C90: tests coinciding edges, wrong signs, and numbers that are not finite.
 #[test]
 fn invalid_parameters_are_rejected_by_name() {
     let nan = f64::NAN;

@@ -1,5 +1,5 @@
-//! The classical projections: what each preserves, that each has two forms, and that parallel
-//! projection is the limit of central projection.
+//! Tests of the classical projections: what each preserves, that its two forms agree, and that
+//! parallel projection is the limit of central projection.
 
 use super::samples::{
     self, axonometric, convention, direction, distance, npoint, oblique, orthographic, point,
@@ -162,7 +162,7 @@ proptest! {
         prop_assert!((moved.onto_plane().transform_point(on_plane) - on_plane).length() < 1e-14);
     }
 
-    /// C72, C75, C78, C82: a plane and a center or direction are enough.
+    /// C72, C75, C78, C82: a plane and a center or a direction determine each projection.
     #[test]
     fn first_principles_give_the_textbook_matrices(d in 0.5..9.0, o in oblique()) {
         let picture = Plane::through(Point::ORIGIN, Normal::new(0.0, 0.0, 1.0));

@@ -104,7 +104,7 @@ proptest! {
     }
 
     #[test]
-    fn fixed_point_gains_nothing_by_reversal((near, far) in planes(), t in 0.0..1.0) {
+    fn fixed_point_gains_nothing_from_reversal((near, far) in planes(), t in 0.0..1.0) {
         let distance = near * (1.0 + 20.0 * t);
         let step = |c: Convention| {
             let curve = DepthCurve::perspective(near, far, c).expect("valid");

@@ -161,7 +161,7 @@ fn c48_the_middle_moves_away_from_the_eye() {
 
 #[test]
 fn c57_the_derivation_reaches_m_opengl_step_by_step() {
-    // First −N x/z onto the near plane, then [l, r] to [−1, 1].
+    // First project onto the near plane, −N x/z, then map [l, r] to [−1, 1].
     let (l, r, near, far) = (-1.0, 3.0, 2.0, 6.0);
     let frustum = Frustum::new(l, r, -1.0, 1.0, near, far).expect("valid");
     let point = Point::<View>::new(1.3, 0.4, -3.7);

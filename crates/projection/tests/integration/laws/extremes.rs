@@ -15,7 +15,7 @@ use proptest::prelude::*;
 const SPECIAL: [f64; 9] =
     [0.0, -0.0, 1.0, -1.0, f64::MAX, f64::MIN_POSITIVE, 5e-324, f64::INFINITY, f64::NAN];
 
-/// Numbers of every kind, with common values often enough that builders accept many of them.
+/// Generates numbers of every kind, with enough common values that builders accept many of them.
 fn any_number() -> impl Strategy<Value = f64> {
     prop_oneof![
         4 => -10.0..10.0,
@@ -28,7 +28,7 @@ fn any_number() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Like `any_number`, but positive.
+/// Generates numbers like `any_number`, but positive.
 fn any_size() -> impl Strategy<Value = f64> {
     any_number().prop_map(f64::abs)
 }
@@ -257,7 +257,7 @@ proptest! {
     }
 }
 
-/// Each number is finite, but their products are not.
+/// The numbers are finite, but their products are not.
 #[test]
 fn parameters_whose_products_overflow_are_rejected() {
     let c = Convention::OPENGL;

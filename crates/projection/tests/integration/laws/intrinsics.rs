@@ -6,7 +6,7 @@ use homog::{PixelCenters, Point, View};
 use projection::{Convention, Frustum, Intrinsics, ProjectionError};
 use proptest::prelude::*;
 
-/// Any lens, with near and far planes for it.
+/// Generates any lens with near and far planes.
 fn lens() -> impl Strategy<Value = (Intrinsics, [f64; 2])> {
     let numbers = (30.0..4000.0, 0.2..5.0, -0.3..1.3, -0.3..1.3, -40.0..40.0);
     let size = ([1u32..4000, 1u32..4000], any::<bool>());
@@ -21,7 +21,7 @@ fn lens() -> impl Strategy<Value = (Intrinsics, [f64; 2])> {
     )
 }
 
-/// A point in front of the eye.
+/// Generates points in front of the eye.
 fn point_ahead() -> impl Strategy<Value = Point<View>> {
     (-2.0..2.0, -2.0..2.0, 0.01..1e4)
         .prop_map(|(x, y, depth): (f64, f64, f64)| Point::new(x * depth, y * depth, -depth))

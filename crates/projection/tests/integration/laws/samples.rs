@@ -17,7 +17,7 @@ pub(crate) fn cases(cases: u32) -> ProptestConfig {
     ProptestConfig { cases, max_global_rejects, failure_persistence: None, ..asked }
 }
 
-/// All named conventions and their variants.
+/// Generates all named conventions and their variants.
 pub(crate) fn conventions() -> Vec<Convention> {
     let mut all = Vec::new();
     for depths in [Convention::CHAPTER, Convention::OPENGL, Convention::WEBGPU] {
@@ -36,7 +36,7 @@ pub(crate) fn convention() -> impl Strategy<Value = Convention> {
     prop::sample::select(conventions())
 }
 
-/// Two numbers at least slightly apart, in either order, because windows may be mirrored.
+/// Generates two numbers that are not too close, in any order because windows may be mirrored.
 pub(crate) fn edges() -> impl Strategy<Value = (f64, f64)> {
     (-5.0..5.0, 0.05..8.0, any::<bool>())
         .prop_map(|(a, size, mirrored)| if mirrored { (a + size, a) } else { (a, a + size) })
@@ -97,7 +97,7 @@ pub(crate) fn oblique() -> impl Strategy<Value = Oblique> {
     (0.05..2.0, -3.0..3.0).prop_map(|(length, phi)| Oblique::new(length, phi).expect("valid"))
 }
 
-/// A projection that is not upside down.
+/// Generates projections that are not upside down.
 pub(crate) fn axonometric() -> impl Strategy<Value = Axonometric> {
     (-3.0..3.0, -1.5..1.5)
         .prop_map(|(alpha, beta)| Axonometric::by_angles(alpha, beta).expect("finite"))

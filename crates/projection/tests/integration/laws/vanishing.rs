@@ -115,7 +115,7 @@ proptest! {
         py in -2.0_f64..2.0,
         distance in 0.5_f64..4.0,
     ) {
-        // Any attitude gives three points, and the construction finds the eye for them.
+        // Any orientation gives three points, and the construction finds the eye for them.
         let axes = [Vector::<View>::X, Vector::Y, Vector::Z].map(|axis| turn.transform_vector(axis));
         prop_assume!(axes.iter().all(|axis| axis.z().abs() > 0.05));
         let at = |axis: Vector<View>| {
