@@ -29,7 +29,7 @@ pub fn floor(name: &'static str) -> Result<Scene, String> {
     Ok(Scene {
         name,
         about: format!(
-            "a floor around the eye, {} triangles, textured, lambert",
+            "A floor around the eye, {} triangles, textured, diffuse shading",
             indices.len() / 3
         ),
         parts: vec![Part {

@@ -26,7 +26,8 @@ pub fn helmet(name: &'static str, folder: &Path) -> Result<Scene, String> {
             add(&mut scene, &model, primitive, &model.skin_primitive(instance, primitive));
         }
     }
-    scene.about = format!("{}, {} triangles, textured, lambert", model.name, scene.triangles());
+    scene.about =
+        format!("{}, {} triangles, textured, diffuse shading", model.name, scene.triangles());
     Ok(scene)
 }
 

@@ -22,7 +22,7 @@ pub fn sphere(name: &'static str, rows: u32, two_sided: bool) -> Result<Scene, S
     let lens = Perspective::new(Fov::vertical_degrees(36.0), aspect(), 1.0, 10.0);
     Ok(Scene {
         name,
-        about: format!("a bumpy sphere, {} {sides}triangles, lambert", indices.len() / 3),
+        about: format!("A bumpy sphere, {} {sides}triangles, diffuse shading", indices.len() / 3),
         parts: vec![Part {
             indices: 0..indices.len(),
             tint: [0.9, 0.7, 0.5],
