@@ -23,7 +23,7 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
-/// A rule for the elements of an accessor, set by a member that uses it.
+/// A rule for the elements of an accessor, set by a member that refers to the accessor.
 ///
 /// Rules are compared for equality so that each is tested once, however many primitives share an
 /// accessor. Non-finite values are left to the bounds check, which reports them.
@@ -72,7 +72,8 @@ const UNIT_VECTOR_TOLERANCE: f64 = 0.00674;
 const UNIT_QUATERNION_TOLERANCE: f64 = 0.00769;
 
 impl ElementRules {
-    /// Adds a rule for the elements of an accessor, unless it already exists or there are too many.
+    /// Adds a rule for the elements of an accessor, unless the accessor already has it or has the
+    /// maximum number of rules.
     ///
     /// `pointer` is the member that sets the rule; violations are reported there.
     pub(super) fn add(&mut self, accessor: usize, demand: ElementRule, pointer: &str) {
@@ -174,7 +175,7 @@ struct BoundsScan {
 }
 
 impl<'a> AccessorScan<'a> {
-    /// Prepares a pass over some elements with the rules of all users of the accessor.
+    /// Prepares a pass over the elements of an accessor with the rules of all its users.
     fn new(
         document: &'a CheckedDocument<'a>,
         elements: &'a AccessorElements<'a>,

@@ -1,7 +1,8 @@
-//! Validation of images: their source, actual and declared format, and use in textures.
+//! Validation of images: their source, their actual and declared formats, and their use in
+//! textures.
 //!
 //! ```text
-//!  uri ──────────┐             ┌─► mimeType, data URI: must agree with the bytes
+//!  uri ──────────┐             ┌─► mimeType, data URI: must match the bytes
 //!                ├─► bytes ────┼─► header: must be complete
 //!  bufferView ───┘             └─► textures: PNG and JPEG, others with an extension
 //! ```
@@ -74,7 +75,7 @@ fn sniff_media_type(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// The validation of one image.
+/// The context for validating one image.
 struct ImageChecker<'a> {
     document: &'a CheckedDocument<'a>,
     store: &'a BufferStore<'a>,

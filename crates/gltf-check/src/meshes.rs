@@ -63,7 +63,7 @@ pub(super) fn check_meshes(
     }
 }
 
-/// The validation of one primitive.
+/// The context for validating one primitive.
 struct PrimitiveChecker<'a, 'd> {
     document: &'a CheckedDocument<'a>,
     usage: &'a UsageMap<'a>,

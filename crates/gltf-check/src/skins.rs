@@ -136,7 +136,7 @@ pub(super) fn check_skinned_meshes(document: &CheckedDocument<'_>, store: &Buffe
 /// Contains the components of `JOINTS_n` and the dequantized components of `WEIGHTS_n`.
 type InfluenceSet = (Vec<[f32; 4]>, Vec<[f32; 4]>);
 
-/// The validation of one primitive's joints and weights.
+/// The context for validating one primitive's joints and weights.
 struct InfluenceChecker<'a> {
     document: &'a CheckedDocument<'a>,
     store: &'a BufferStore<'a>,

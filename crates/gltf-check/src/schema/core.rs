@@ -20,7 +20,7 @@ use super::{
 ///
 /// JSON does not limit integers; range checks and the loader's limits do.
 const MAX_INTEGER: u64 = u64::MAX;
-/// Names are optional, need not be unique, and identify nothing: references are indices.
+/// Names are optional and need not be unique; references use indices instead.
 const NAME: super::MemberSchema = optional("name", Text);
 
 /// Declares the schema of an object.
