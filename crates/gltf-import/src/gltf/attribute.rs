@@ -15,7 +15,7 @@ use std::ops::Range;
 /// Element and component types allowed for an attribute or for animation values, including
 /// KHR_mesh_quantization.
 ///
-/// Normalization is not restricted; conversion follows the accessor.
+/// Normalization is not restricted; conversion follows the accessor's `normalized` flag.
 pub(super) struct AllowedFormats {
     /// glTF's `type`.
     element_types: &'static [Type],
@@ -72,8 +72,8 @@ impl AllowedFormats {
     /// Checks that an accessor has one of the formats.
     ///
     /// # Errors
-    /// The message lists the allowed types by their JSON names and numbers, as they appear in
-    /// files.
+    /// Fails if it does not. The message lists the allowed types by their JSON names and numbers,
+    /// as they appear in files.
     pub(super) fn check_elements(
         &self,
         elements: &ResolvedAccessor<'_>,
@@ -113,7 +113,8 @@ fn type_name(shape: Type) -> &'static str {
 
 /// The range of vertices that a primitive's indices use.
 ///
-/// Arrays that are read have `used.len()` elements; index 0 is the vertex `used.start` in the file.
+/// Arrays read from the file have `used.len()` elements; index 0 is the vertex `used.start` in the
+/// file.
 pub(super) struct VertexRange {
     /// Number of vertices in the file.
     pub(super) vertices: usize,

@@ -22,8 +22,8 @@ use serde_json::{Map, Number, Value};
 
 /// The parsed JSON of a file.
 ///
-/// Parsing is complete before any buffer is read, so files that are not glTF cost no more than
-/// parsing.
+/// Parsing is complete before any buffer is read, so rejecting a file that is not glTF costs no
+/// more than parsing it.
 #[derive(Debug)]
 pub(super) struct GltfDocument {
     /// The file's content except for the node transforms. Its indices have not been checked.

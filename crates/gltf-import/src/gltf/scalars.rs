@@ -86,7 +86,7 @@ impl CollectedScalars {
         let (accessor, pointer) = named(attribute.clone());
         let values =
             attributes.read_attribute(accessor, &pointer, &CUSTOM_SCALAR, |source, elements| {
-                // Charges for the conversion to colors.
+                // Charge the budget for the conversion to colors.
                 source.charge_array(elements.accessor, elements.count, 16)?;
                 source.read_floats::<1>(&elements)
             })?;
