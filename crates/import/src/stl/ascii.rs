@@ -159,7 +159,7 @@ impl<'a> SolidReader<'a, '_> {
     fn read_corners(&mut self) -> Result<[[f32; 3]; 3], Diagnostic> {
         let mut token = self.require("normal")?;
         if token.is_keyword("normal") {
-            // A normal with too few numbers does not consume the loop.
+            // Stop at the keyword `outer`, because the normal may have too few numbers.
             for _ in 0..4 {
                 token = self.require("outer")?;
                 if token.is_keyword("outer") {

@@ -51,8 +51,8 @@ impl<'a> Namespaces<'a> {
         Self { prefixes: declared.take(64).collect() }
     }
 
-    /// Returns the name of a prefix's namespace for messages, and its level of support. An
-    /// undeclared prefix counts as read.
+    /// Returns the name of a prefix's namespace for messages, and its level of support. Elements
+    /// with an undeclared prefix are read.
     pub(super) fn support_of(&self, prefix: &[u8]) -> (&'static str, Support) {
         let Some(uri) = self.prefixes.iter().find(|(p, _)| *p == prefix).map(|(_, uri)| *uri)
         else {
@@ -72,7 +72,8 @@ impl<'a> Namespaces<'a> {
     /// Checks the extensions that a part requires.
     ///
     /// # Errors
-    /// Fails if an extension is unknown or encrypts the content. In lenient mode it is ignored.
+    /// Fails if an extension is unknown or encrypts the content. In lenient mode, such an extension
+    /// is ignored.
     pub(super) fn check_required(
         &self,
         root: &Element<'_>,

@@ -43,7 +43,7 @@ enum Tag<'a> {
 }
 
 impl<'a> XmlReader<'a> {
-    /// Creates a reader at the beginning of a UTF-8 text; `document` is its name in messages.
+    /// Creates a reader at the beginning of UTF-8 text; `document` is its name in messages.
     pub(super) const fn new(text: &'a [u8], document: &'a str) -> Self {
         let lines = RefCell::new(LineCounter::new(text));
         Self { text, at: 0, open: Vec::new(), closes_next: false, document, lines }
