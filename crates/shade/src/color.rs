@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  textures, #rrggbb ──► linear light ──► shading ──► SrgbEncoder, Srgb16Encoder ──► picture
-//!                  table                              table, 8 bits and 16
+//!                  table                              tables for 8 and 16 bits
 //! ```
 //!
 //! Both directions use tables that are computed once with `libm`, so the bits are the same on every

@@ -59,7 +59,7 @@ pub enum Light {
 
 /// The light from one source at some fragments.
 ///
-/// This is all that the BRDF knows about a light: not its kind or position, only a direction and an
+/// The BRDF does not depend on the light's kind or position, only on this direction and
 /// illuminance. Shadows reduce it, and so does sheen for the layers below.
 ///
 /// `lux` does not include the cosine of Lambert's law, because each layer has different normals.

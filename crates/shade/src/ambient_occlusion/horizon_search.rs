@@ -128,7 +128,7 @@ impl<const N: usize> Kernel for HorizonSearch<'_, N> {
             let slice = self.project_normals(&surfaces, index);
             let [ahead, behind] = kernel_part!(N, self.find_horizons(&surfaces, &slice));
             visible += slice.weight * slice.visible_arc([ahead, behind]);
-            // The same expression is used here, so that the visibility of an unoccluded surface is
+            // Evaluate the same expression here, so that the visibility of an unoccluded surface is
             // exactly 1.
             open += slice.weight * slice.visible_arc(slice.surface_horizons());
         }
@@ -206,7 +206,7 @@ impl<const N: usize> HorizonSearch<'_, N> {
         let mut occluded = [Lanes::ZERO; 2];
         let mut highest = [Lanes::splat(SURFACE_TOLERANCE * SURFACE_TOLERANCE); 2];
         for step in 0..STEP_COUNT {
-            // Steps are short nearby, where they have the most weight.
+            // Steps are shorter near the pixel, where occluders have the most weight.
             let t = (step as f32 + step_offsets) * (1.0 / STEP_COUNT as f32);
             let distance = 1.0 + t * t * (surfaces.radii - 1.0);
             for (side, sign) in [1.0, -1.0].into_iter().enumerate() {

@@ -128,8 +128,8 @@ impl ScreenSpace {
         self.unproject([columns + x, rows + y], depths)
     }
 
-    /// Returns the columns and rows of the pixels that show positions. For positions outside the
-    /// picture or behind the eye, returns a pixel in the margin.
+    /// Returns the columns and rows of the pixels in which positions appear. For positions outside
+    /// the picture or behind the eye, returns a pixel in the margin.
     #[inline(always)]
     pub(super) fn pixels_at<const N: usize>(&self, positions: Vec3Lanes<N>) -> [[i32; 2]; N] {
         let projected = self.project(positions);

@@ -4,7 +4,7 @@
 //!            direct light   environment     the order in which light passes down
 //!                 │              │
 //!  clearcoat   ───┼──────────────┼───       reflects part of all light, composited last
-//!  sheen       ───┼──────────────┼───       adds its lobe, scales the rest by its base scale
+//!  sheen       ───┼──────────────┼───       adds its lobe, attenuates the rest
 //!  base        ───▼──────────────▼───       GGX specular and Lambert diffuse
 //! ```
 //!

@@ -31,8 +31,8 @@ const SAMPLE_COUNT: u32 = 64;
 
 /// The prefiltered levels of an environment, from sharp to blurred.
 ///
-/// Each level is computed when a surface first needs it, because most models have few roughnesses,
-/// and the sharpest of the blurred levels takes longer than all the others.
+/// Each level is computed when a surface first needs it, because most models have few distinct
+/// roughness values, and the sharpest of the blurred levels takes longer than all the others.
 #[derive(Clone, Debug)]
 pub(super) struct PrefilteredLevels {
     /// The mip chain of the environment, with sides halved from level to level.
@@ -115,7 +115,7 @@ impl SamplePacket {
 /// their mip levels.
 ///
 /// The level is half the logarithm of the ratio of the sample's to the texel's solid angle, plus
-/// one. The one is a bias against noise, and loses no sharpness that would be visible at this
+/// one. The added one is a bias against noise; the lost sharpness would not be visible at this
 /// roughness.
 ///
 /// The sample set is computed once per level, in the frame of the normal. With n = v = r the lobe
