@@ -296,7 +296,7 @@ impl BoundsScan {
 impl RuleScan<'_> {
     /// Tests one element against the rule.
     ///
-    /// `numbers` are the stored components; `elements` dequantizes them if the rule concerns the
+    /// `numbers` are the stored components; `elements` dequantizes them if the rule applies to the
     /// dequantized value. Each violation is counted under its code.
     fn visit_element(&mut self, elements: &AccessorElements<'_>, at: u64, numbers: &[f64]) {
         let length = |numbers: &[f64]| {

@@ -157,8 +157,8 @@ impl ImageChecker<'_> {
 
     /// Validates the header of an image, and returns the media type detected from its first bytes.
     ///
-    /// Only the header is decoded. Decoders distinguish a truncated file from a corrupt one only in
-    /// the error text, which selects the code here. Without the `basisu` feature, KTX2 is
+    /// Only the header is decoded. Decoders distinguish a truncated file from a corrupt file only
+    /// in the error text, so that text determines the code. Without the `basisu` feature, KTX2 is
     /// recognized but not checked. Returns `None` for an unknown format, after reporting it.
     fn check_image_header(&self, bytes: &[u8]) -> Option<&'static str> {
         let diagnostics = self.document.diagnostics;

@@ -256,7 +256,7 @@ impl<'a> BufferStore<'a> {
     /// §3.6.2.3).
     ///
     /// They are always converted to 32 bits. The conversion is charged to the budget, because the
-    /// count is only declared.
+    /// declared count is not verified.
     pub(super) fn sparse_indices(&self, sparse: &Value) -> Option<Vec<u32>> {
         let json = sparse.get("indices")?;
         let component = ComponentType::from_gl_constant(integer_member(json, "componentType")?)?;

@@ -107,7 +107,7 @@ pub fn load_arrays(
         let (name, contents) = mesh.into_contents();
         let bytes = ply::array_bytes(&contents);
         budget.charge_bytes(&location, bytes, bytes)?;
-        // Only the materials of this model are read.
+        // Only the materials of this temporary model are read.
         let carrier = Model { materials, ..Model::default() };
         let built = ply::build_primitives(contents, &carrier, options, &mut warnings);
         let mut primitives: Vec<_> = built.into_iter().filter(|p| p.item_count() > 0).collect();

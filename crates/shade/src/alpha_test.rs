@@ -41,8 +41,8 @@ impl DrawList<'_> {
         passes
     }
 
-    /// Runs the alpha test for eight fragments of a primitive, with vector instructions of this
-    /// level.
+    /// Runs the alpha test for eight fragments of a primitive, with the vector instructions of this
+    /// SIMD level.
     ///
     /// The rasterizer calls it before depth is written, so that fragments that fail the test hide
     /// nothing.

@@ -120,7 +120,7 @@ impl<const N: usize> Lanes<N> {
         self
     }
 
-    /// Clamps each lane to two bounds. NaN stays NaN.
+    /// Clamps each lane between two bounds. NaN stays NaN.
     #[inline(always)]
     pub(crate) fn clamp(self, least: f32, most: f32) -> Self {
         self.map(|value| value.clamp(least, most))

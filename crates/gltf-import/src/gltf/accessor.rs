@@ -56,7 +56,7 @@ impl<'a> AccessorReader<'a> {
         };
         let pointer = format!("/accessors/{accessor}");
         let (component, shape) = accessor_format(json, &pointer)?;
-        // On 32-bit targets a count may not fit; it then exceeds every buffer.
+        // On 32-bit targets, a count may not fit; `usize::MAX` then exceeds every buffer.
         let count = usize::try_from(json.count.0).unwrap_or(usize::MAX);
         let block =
             ElementLayout { pointer: &pointer, count, size: element_size(component, shape) };

@@ -179,7 +179,7 @@ impl AttributeReader<'_, '_> {
 
     /// Reads a set of texture coordinates. Non-finite coordinates become 0.
     ///
-    /// Otherwise a single NaN would spread over the triangle and its mip level selection.
+    /// Without this, a single NaN would spread over the triangle and its mip level selection.
     /// Coordinates outside [0, 1] are valid, because the sampler wraps them.
     ///
     /// # Errors

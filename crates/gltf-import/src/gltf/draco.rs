@@ -283,8 +283,8 @@ mod decoder {
         attribute.buffer().data().get(start..)?.get(..size)
     }
 
-    /// Appends a value, converted to the component type of the accessor, which almost always
-    /// matches.
+    /// Appends a value, converted to the component type of the accessor; the types almost always
+    /// match.
     ///
     /// Numbers are converted by value with saturation and not rescaled, because the decoder has
     /// already dequantized them.

@@ -174,7 +174,7 @@ impl<'a> MaterialReader<'a, '_> {
             else {
                 continue;
             };
-            // The scale of the clearcoat normals is read with their texture.
+            // The scale of the clearcoat normal map is read with its texture.
             let json = self.extension_object(name).and_then(|extension| extension.get(member));
             let (Some(json), Some(numbers)) = (json, numbers(material)) else { continue };
             let given: Option<Vec<f32>> = match json {

@@ -35,7 +35,7 @@ pub(super) struct CollectedScalars {
     primitives: Vec<PrimitiveScalars>,
 }
 
-/// All scalar attribute names, without duplicates, in alphabetical order.
+/// Returns all scalar attribute names, without duplicates, in alphabetical order.
 pub(super) fn scalar_attributes(root: &Root) -> Vec<String> {
     let is_scalar = |accessor: &json::Index<json::Accessor>| {
         let accessor = root.accessors.get(accessor.value());

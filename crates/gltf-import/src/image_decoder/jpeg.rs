@@ -6,8 +6,8 @@
 //! Source: ITU-T T.81 (1992), §B.2.2.
 
 /// Rejects files in which a later component is sampled more finely than the first. The decoder
-/// sizes its buffers for the rows of the first component, and panics if another needs more. No
-/// camera or program is known to write such files.
+/// sizes its buffers for the rows of the first component, and panics if another component needs
+/// more. No camera or program is known to write such files.
 ///
 /// Everything that looks like a frame header is checked, anywhere in the file. Entropy-coded data
 /// cannot contain the marker, and it is not known which header the decoder will find in a broken

@@ -61,7 +61,8 @@ impl PhongMaterial {
         }
     }
 
-    /// Returns whether only `Tr 1` specifies the opacity.
+    /// Returns whether the opacity is specified only by `Tr 1`, which would make everything
+    /// invisible.
     pub(super) fn is_invisible_by_transparency(&self) -> bool {
         self.dissolve.is_none() && self.transparency.is_some_and(|transparency| transparency >= 1.0)
     }

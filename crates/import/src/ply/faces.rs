@@ -155,7 +155,7 @@ impl FaceRecord {
 
 /// Returns the error for an index of a missing vertex.
 pub(super) fn no_such_vertex(body: &Body<'_>, vertex: f64, vertices: u64) -> Diagnostic {
-    body.fault(&format!("there is no vertex {vertex}: the file has {vertices}, counted from 0"))
+    body.fault(&format!("there is no vertex {vertex}: the file has {vertices}, numbered from 0"))
 }
 
 impl Faces {

@@ -45,7 +45,7 @@ pub(crate) struct Triangulator {
     previous: Vec<u32>,
     /// For each corner, the next corner that has not been clipped.
     next: Vec<u32>,
-    /// Whether each corner remains and is reflex or collinear.
+    /// Whether each corner has not been clipped and is reflex or collinear.
     is_reflex: Vec<bool>,
     /// The axis of the plane along which the polygon is longer.
     long_axis: usize,

@@ -92,7 +92,7 @@ impl<'a> SolidReader<'a, '_> {
         Err(self.unexpected(keyword, "facet"))
     }
 
-    /// Reads the rest of a line, up to a facet if there is one, because some files have no line
+    /// Reads a name: the rest of the line, up to any facet on it, because some files have no line
     /// ends.
     fn read_name(&mut self) -> String {
         let mut rest = self.scanner.clone();

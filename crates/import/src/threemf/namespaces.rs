@@ -47,7 +47,7 @@ impl<'a> Namespaces<'a> {
             (b"", b"xmlns") => Some((&b""[..], uri)),
             _ => None,
         });
-        // A part has only a few; more would make each lookup slow.
+        // A part has only a few prefixes; more would make each lookup slow.
         Self { prefixes: declared.take(64).collect() }
     }
 

@@ -7,8 +7,8 @@
 //!
 //! ```text
 //!  property_row("extensions/KHR_materials_sheen/sheenColorFactor", 3, UNIT_RANGE, |m| …)
-//!                JSON pointer into the material                    │  │           access to numbers
-//!                                                          components  bounds
+//!                 JSON pointer into the material                   │  │           access to numbers
+//!                                                         components  bounds
 //! ```
 //!
 //! Values set by an animation are clamped to the bounds, and dependent fields are updated. To add a

@@ -227,7 +227,7 @@ mod tests {
         type Row<'a> = (&'a [u8], &'a [u8], &'a [[u8; 3]]);
         let table: [Row<'_>; 8] = [
             (&[0xF0], &[], &[[0, 1, 2]]),
-            // First the newest edge, a c; then the second newest of the edges after that.
+            // Edge 0 is the newest, a c; edge 1 is the second newest, c b.
             (&[0xF0, 0x00], &[], &[[0, 1, 2], [0, 2, 3]]),
             (&[0xF0, 0x10], &[], &[[0, 1, 2], [2, 1, 3]]),
             // A recent vertex: 1 is the vertex before the newest.
