@@ -7,7 +7,7 @@
 //!
 //! ```text
 //!  property_row("extensions/KHR_materials_sheen/sheenColorFactor", 3, UNIT_RANGE, |m| …)
-//!                 JSON pointer into the material                   │  │           access to numbers
+//!                 JSON pointer into the material                   │  │           access
 //!                                                         components  bounds
 //! ```
 //!
