@@ -112,8 +112,8 @@ impl<'a> AnimationChecker<'a, '_> {
         }
     }
 
-    /// Validates that keyframe times are float scalars with bounds, and at least two for a cubic
-    /// spline.
+    /// Validates that keyframe times are float scalars with bounds, and that a cubic spline has at
+    /// least two.
     ///
     /// `min` and `max` are required here, because players derive the duration of an animation from
     /// them without reading the data. A cubic spline with one keyframe has no segment to
@@ -230,7 +230,7 @@ impl<'a> AnimationChecker<'a, '_> {
         }
     }
 
-    /// Validates the values of a channel: their format, and their number.
+    /// Validates the format and the number of a channel's values.
     ///
     /// There is one value per keyframe, or one per keyframe and target for morph weights. A cubic
     /// spline has three times as many: in-tangents, values and out-tangents (glTF 2.0 §3.11).

@@ -254,7 +254,7 @@ impl BoundsScan {
         }
     }
 
-    /// Reports non-finite values, and declared bounds that differ from the actual ones.
+    /// Reports non-finite values, and declared bounds that differ from the actual bounds.
     ///
     /// Bounds must be exact (glTF 2.0 §3.6.2.5). If the declared bounds are too narrow, the
     /// number of elements outside them is also reported.

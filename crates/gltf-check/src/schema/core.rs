@@ -76,7 +76,7 @@ static ACCESSOR: ObjectSchema = object_schema(
         optional("normalized", Boolean),
         required("count", Integer(1, MAX_INTEGER)),
         required("type", EnumString(&["SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"])),
-        // Their number depends on the type; accessor validation checks it.
+        // The number of bounds depends on the element type; accessor validation checks it.
         optional("max", Numbers(0, ANY)),
         optional("min", Numbers(0, ANY)),
         optional("sparse", object_kind(&SPARSE)),
