@@ -72,8 +72,7 @@ const UNIT_VECTOR_TOLERANCE: f64 = 0.00674;
 const UNIT_QUATERNION_TOLERANCE: f64 = 0.00769;
 
 impl ElementRules {
-    /// Adds a rule for the elements of an accessor, unless the accessor already has it or has the
-    /// maximum number of rules.
+    /// Adds a rule for an accessor's elements, unless it already has this rule or too many rules.
     ///
     /// `pointer` is the member that sets the rule; violations are reported there.
     pub(super) fn add(&mut self, accessor: usize, demand: ElementRule, pointer: &str) {

@@ -1,5 +1,4 @@
-//! Validation of images: their source, their actual and declared formats, and their use in
-//! textures.
+//! Validation of images: sources, actual and declared formats, and use in textures.
 //!
 //! ```text
 //!  uri ──────────┐             ┌─► mimeType, data URI: must match the bytes

@@ -213,8 +213,7 @@ impl AccessorLayout {
             + self.element_type.rows * self.component_type.byte_size()
     }
 
-    /// Returns the number of bytes from one element to the next if the buffer view has no
-    /// `byteStride`.
+    /// Returns the distance between elements in bytes if the buffer view has no `byteStride`.
     ///
     /// For vectors this is the size of an element; for matrices it includes the padding of the last
     /// column.

@@ -115,8 +115,7 @@ pub fn decode_bounded(bytes: &[u8], max_texels: u64) -> Result<Image, String> {
     decode_rgba(bytes)
 }
 
-/// Decodes the whole image. Callers must check [`image_size`] first, because this allocates 4 bytes
-/// per texel.
+/// Decodes the whole image into 4 bytes per texel. Callers must check [`image_size`] first.
 pub(crate) fn decode_rgba(bytes: &[u8]) -> Result<Image, String> {
     catch_decoder_panic(|| match ImageFormat::from_magic(bytes)? {
         ImageFormat::Png => decode_png(bytes),

@@ -113,8 +113,7 @@ fn type_name(shape: Type) -> &'static str {
 
 /// The range of vertices that a primitive's indices use.
 ///
-/// Arrays read from the file have `used.len()` elements; index 0 is the vertex `used.start` in the
-/// file.
+/// Arrays have `used.len()` elements; index 0 is the vertex `used.start` in the file.
 pub(super) struct VertexRange {
     /// Number of vertices in the file.
     pub(super) vertices: usize,

@@ -214,8 +214,7 @@ fn arc_cosine(cosine: f32) -> f32 {
 
 /// The corners at each vertex. Corner 3 t + k is the k-th corner of triangle t.
 struct CornersByVertex {
-    /// For each vertex, the end of its corners in the list; while the list is built, the next free
-    /// position.
+    /// For each vertex, the end of its corners in the list; before they are filled in, the start.
     ends: Vec<u32>,
     /// The corners, sorted by vertex and then by triangle.
     corners: Vec<u32>,

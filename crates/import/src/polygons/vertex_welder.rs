@@ -96,8 +96,7 @@ impl VertexWelder {
                 return vertex;
             }
         }
-        // A file can be crafted so that all its hashes collide. An ordered map keeps that case
-        // fast.
+        // A file can be crafted so that all hashes collide. An ordered map keeps that case fast.
         if let Some(vertex) = self.crowded.get(&key) {
             return *vertex;
         }

@@ -211,8 +211,7 @@ fn unexpected_words_are_reported_with_a_location() {
         let said = refusal(text.as_bytes());
         assert!(from == "outer" || said.starts_with(message), "{said}");
         let lenient = ImportOptions { lenient: true, ..ImportOptions::default() };
-        let model =
-            load_bytes("part.stl", text.as_bytes(), &lenient).expect("the remaining facets");
+        let model = load_bytes("part.stl", text.as_bytes(), &lenient).expect("the rest");
         assert!(model.meshes[0].primitives[0].item_count() >= 1, "{to}");
     }
 }

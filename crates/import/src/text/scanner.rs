@@ -130,8 +130,7 @@ impl<'a> Token<'a> {
 
 /// Counts lines up to an offset, for the locations of messages.
 ///
-/// Counting continues from the last offset, so locating any number of messages in text order takes
-/// a single pass.
+/// Counting continues from the last offset, so locating offsets in text order takes a single pass.
 #[derive(Debug)]
 pub(crate) struct LineCounter<'a> {
     text: &'a [u8],

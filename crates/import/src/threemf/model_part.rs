@@ -11,8 +11,7 @@ use gltf_import::ImportWarnings;
 use homog::{Affine, Model as ModelSpace};
 use model::{Diagnostic, LengthUnit, Material};
 
-/// Memory for an object in addition to its mesh and components; it may exceed the length of the
-/// tags.
+/// Memory for an object without its mesh and components; it may exceed the length of the tags.
 const OBJECT_BYTES: u64 = 256;
 
 /// A reference to an object: an item to build, or a component of an object.

@@ -72,8 +72,7 @@ impl<'a> Namespaces<'a> {
     /// Checks the extensions that a part requires.
     ///
     /// # Errors
-    /// Fails if an extension is unknown or encrypts the content. In lenient mode, such an extension
-    /// is ignored.
+    /// Fails if an extension is unknown or encrypts the content; in lenient mode, it is ignored.
     pub(super) fn check_required(
         &self,
         root: &Element<'_>,

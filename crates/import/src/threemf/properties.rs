@@ -311,8 +311,7 @@ impl PartProperties {
             } else if layer.multiplies {
                 color = std::array::from_fn(|c| color[c] * own[c]);
             } else {
-                // Blend over the layers below; over a texture, a color factor only approximates
-                // this.
+                // Blend over the layers below. Over a texture, a factor can only approximate this.
                 let below = color;
                 color = std::array::from_fn(|c| below[c] + (own[c] - below[c]) * own[3]);
                 color[3] = own[3] + below[3] * (1.0 - own[3]);

@@ -169,8 +169,7 @@ impl<const N: usize> HorizonSearch<'_, N> {
         Surfaces { pixels, positions, depths, normals, views, radii }
     }
 
-    /// Projects the normals into a slice to compute the slice's weight and the tilt of the surface
-    /// in it.
+    /// Projects the normals into a slice to find the slice's weight and the surface's tilt in it.
     #[inline(always)]
     fn project_normals(&self, surfaces: &Surfaces<N>, index: usize) -> Slice<N> {
         let Surfaces { pixels, positions, depths, normals, views, radii } = surfaces;

@@ -49,8 +49,7 @@ pub(super) struct BaseBrdf<const N: usize> {
     energy_compensation: Rgb<N>,
     /// The fraction of a white environment that is reflected specularly.
     pub(super) specular_albedo: Rgb<N>,
-    /// The fraction of light from all directions that passes through the interface to the diffuse
-    /// part.
+    /// The fraction of light from all directions that the interface transmits to the diffuse part.
     pub(super) diffuse_transmittance: Lanes<N>,
 }
 

@@ -1,5 +1,4 @@
-//! The octahedral map, which stores colors by direction on a square (Engelhardt and Dachsbacher
-//! 2008).
+//! The octahedral map: colors by direction on a square (Engelhardt and Dachsbacher 2008).
 //!
 //! ```text
 //!   ┌────┬────┐     A direction is divided by the sum of its coordinates' magnitudes, which

@@ -261,10 +261,7 @@ mod tests {
         assert!(decode_triangles(&whole, 9, 2).is_ok());
         for end in 0..whole.len() {
             let cut = decode_triangles(&whole[..end], 9, 2).unwrap_err();
-            assert!(
-                matches!(cut, StreamError::Short | StreamError::Table),
-                "truncated at {end}: {cut}"
-            );
+            assert!(matches!(cut, StreamError::Short | StreamError::Table), "at {end}: {cut}");
         }
     }
 }

@@ -9,13 +9,12 @@
 //!
 //! A group stores its differences with 0, 1, 2, 4 or 8 bits each. A difference of all ones is an
 //! escape: its value follows in a byte after the group. Version 1 adds four-byte channels whose
-//! deltas are bytes, 16-bit words or 32-bit XORs, and controls that store bytes
-//! uncompressed or omit them.
+//! deltas are bytes, 16-bit words or 32-bit XORs, and controls that store bytes uncompressed or
+//! omit them.
 //!
 //! The format is specified in EXT_meshopt_compression (version 0 of the attribute codec) and
-//! KHR_meshopt_compression (version 1). Storing bytes by position rather than by element keeps
-//! similar values together: high bytes change rarely, so most of their groups take 0 bits per
-//! difference.
+//! KHR_meshopt_compression (version 1). Storing bytes by position, not by element, groups similar
+//! values: high bytes change rarely, so most of their groups take 0 bits per difference.
 
 use super::byte_stream::{ByteStream, StreamError};
 
@@ -311,7 +310,7 @@ mod tests {
             // truncated.
             let cut = decode_vertices(&stream[..end], 2, 12).unwrap_err();
             let is_expected = matches!(cut, StreamError::Short | StreamError::Channel(_));
-            assert!(is_expected, "truncated at {end}: {cut}");
+            assert!(is_expected, "at {end}: {cut}");
         }
         for mode in [0x03, 0x10, 0x11, 0x0F] {
             *stream.last_mut().unwrap() = mode;
