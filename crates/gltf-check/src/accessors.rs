@@ -28,9 +28,9 @@ pub(super) fn check_accessors(
     }
 }
 
-/// The validation of one accessor.
+/// The context for validating one accessor.
 ///
-/// It borrows the whole validation context for one iteration of the loop.
+/// It is borrowed for one iteration of the loop over all accessors.
 struct AccessorChecker<'a> {
     document: &'a CheckedDocument<'a>,
     store: &'a BufferStore<'a>,
@@ -56,9 +56,9 @@ impl AccessorChecker<'_> {
     /// Validates the normalization, alignment, stride and extent of the accessor, and its sparse
     /// part.
     ///
-    /// Only 8-bit and 16-bit integers can be normalized; matrices are aligned to four bytes; a
-    /// stride is at least the size of an element (glTF 2.0 §3.6.2.4). Graphics APIs need the
-    /// alignment to read a component in one access.
+    /// Only 8-bit and 16-bit integers can be normalized, matrices must be aligned to four bytes,
+    /// and a stride must be at least the size of an element (glTF 2.0 §3.6.2.4). Graphics APIs need
+    /// the alignment to read a component in one access.
     fn check_layout(&self, accessor: &Value, layout: AccessorLayout) {
         let diagnostics = self.document.diagnostics;
         let pointer = &self.pointer;
@@ -180,7 +180,7 @@ impl AccessorChecker<'_> {
 
     /// Validates that a range of bytes is aligned to its component size and inside its buffer view.
     ///
-    /// Both the offset in the view and the offset in the buffer must be aligned; each has a
+    /// Both the offset in the view and the offset in the buffer must be aligned; each error has a
     /// separate code (glTF 2.0 §3.6.2.4). The sums saturate, so that offsets near the largest
     /// integer cannot wrap around to a small, valid-looking value.
     fn check_byte_range(&self, view: usize, stretch: &ByteRange, pointer: &str) {
@@ -210,7 +210,7 @@ impl AccessorChecker<'_> {
     /// Validates that the sparse indices are strictly increasing and less than the accessor's
     /// count.
     ///
-    /// No other data is read here: without the indices the elements cannot be read.
+    /// No other data is read here, because the elements cannot be read without valid indices.
     fn check_sparse_indices(&self, sparse: &Value, layout: AccessorLayout, pointer: &str) {
         let Some(indices) = self.store.sparse_indices(sparse) else { return };
         let diagnostics = self.document.diagnostics;

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  channel ──sampler──► sampler ──input───► times, one for each keyframe
-//!     │                    └──────output──► values: 1 a key; CUBICSPLINE 3; weights × targets
+//!     │                    └──────output──► 1 value per keyframe (CUBICSPLINE: 3), × targets
 //!     └──target──► node and path, or a JSON pointer (KHR_animation_pointer)
 //! ```
 
@@ -64,7 +64,7 @@ pub(super) fn check_animations(
     }
 }
 
-/// The validation of one animation.
+/// The context for validating one animation.
 struct AnimationChecker<'a, 'd> {
     document: &'a CheckedDocument<'a>,
     usage: &'a UsageMap<'a>,
@@ -91,8 +91,8 @@ impl<'a> AnimationChecker<'a, '_> {
 
     /// Validates the accessors of a sampler: their uses, their strides, and the keyframe times.
     ///
-    /// Keyframes are stored contiguously: their buffer views must not have a `byteStride`, which
-    /// exists for interleaved vertex attributes.
+    /// Keyframes are stored contiguously: their buffer views must not have a `byteStride`, which is
+    /// meant for interleaved vertex attributes.
     fn check_sampler(&mut self, number: usize, sampler: &Value) {
         for (key, role) in [("input", AccessorUse::Input), ("output", AccessorUse::Output)] {
             let Some(at) = index_member(sampler, key) else { continue };
@@ -112,7 +112,8 @@ impl<'a> AnimationChecker<'a, '_> {
         }
     }
 
-    /// Validates keyframe times: float scalars with bounds, at least two for a cubic spline.
+    /// Validates that keyframe times are float scalars with bounds, and that a cubic spline has at
+    /// least two.
     ///
     /// `min` and `max` are required here, because players derive the duration of an animation from
     /// them without reading the data. A cubic spline with one keyframe has no segment to
@@ -139,8 +140,8 @@ impl<'a> AnimationChecker<'a, '_> {
         }
     }
 
-    /// Validates a channel: its sampler exists, and its target can be animated and is animated only
-    /// once.
+    /// Validates that a channel's sampler exists, and that its target can be animated and is not
+    /// already animated by another channel.
     ///
     /// `known` contains the targets of the preceding channels, as pairs of node and path.
     ///
@@ -192,11 +193,10 @@ impl<'a> AnimationChecker<'a, '_> {
         self.check_output(sampler, path, targets as u64, &format!("{member}/sampler"));
     }
 
-    /// Validates a target given as a JSON pointer (KHR_animation_pointer): the path is `pointer`,
-    /// and the node is absent.
+    /// Validates a target specified by a JSON pointer (KHR_animation_pointer): the path is
+    /// `pointer`, and the node is absent.
     ///
-    /// The extension reuses the members of the target, and fixes both so that old readers ignore
-    /// the channel.
+    /// The extension fixes both members so that readers without support for it ignore the channel.
     fn check_pointer_target(&self, target: &Value, path: &str, member: &str) {
         if path != "pointer" {
             let message = format_args!(
@@ -230,14 +230,13 @@ impl<'a> AnimationChecker<'a, '_> {
         }
     }
 
-    /// Validates the values of a channel: their format, and their number for the sampler's
-    /// keyframes.
+    /// Validates the format and the number of a channel's values.
     ///
-    /// There is one value per keyframe, or for morph weights one per keyframe and target. A cubic
+    /// There is one value per keyframe, or one per keyframe and target for morph weights. A cubic
     /// spline has three times as many: in-tangents, values and out-tangents (glTF 2.0 §3.11).
     ///
-    /// Quaternions also get a rule about their length, which is tested on the data. If the count is
-    /// wrong, the loader cannot assign values to keyframes and skips the channel.
+    /// Quaternions must also have unit length; this is tested when the data is read. If the count
+    /// is wrong, the loader cannot assign values to keyframes and skips the channel.
     fn check_output(&mut self, sampler: &Value, path: &str, targets: u64, member: &str) {
         let at = index_member(sampler, "output");
         let Some(layout) = self.accessor_json(at).and_then(AccessorLayout::from_accessor) else {

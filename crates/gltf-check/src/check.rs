@@ -64,7 +64,7 @@ fn has_gltf_rules(path: &Path, bytes: &[u8]) -> bool {
     FileFormat::recognize(path, bytes) == Ok(FileFormat::Gltf)
 }
 
-/// Adds the loader's diagnostics and the counts.
+/// Completes the report with the loader's diagnostics and the counts.
 fn build_report(
     path: &Path,
     result: Result<model::Model, Diagnostic>,

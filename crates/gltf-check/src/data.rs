@@ -23,7 +23,7 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
-/// A rule for the elements of an accessor, set by a member that uses it.
+/// A rule for the elements of an accessor, set by a member that refers to the accessor.
 ///
 /// Rules are compared for equality so that each is tested once, however many primitives share an
 /// accessor. Non-finite values are left to the bounds check, which reports them.
@@ -72,7 +72,7 @@ const UNIT_VECTOR_TOLERANCE: f64 = 0.00674;
 const UNIT_QUATERNION_TOLERANCE: f64 = 0.00769;
 
 impl ElementRules {
-    /// Adds a rule for the elements of an accessor, unless it already exists or there are too many.
+    /// Adds a rule for an accessor's elements, unless it already has this rule or too many rules.
     ///
     /// `pointer` is the member that sets the rule; violations are reported there.
     pub(super) fn add(&mut self, accessor: usize, demand: ElementRule, pointer: &str) {
@@ -174,7 +174,7 @@ struct BoundsScan {
 }
 
 impl<'a> AccessorScan<'a> {
-    /// Prepares a pass over some elements with the rules of all users of the accessor.
+    /// Prepares a pass over the elements of an accessor with the rules of all its users.
     fn new(
         document: &'a CheckedDocument<'a>,
         elements: &'a AccessorElements<'a>,
@@ -253,7 +253,7 @@ impl BoundsScan {
         }
     }
 
-    /// Reports non-finite values, and declared bounds that differ from the actual ones.
+    /// Reports non-finite values, and declared bounds that differ from the actual bounds.
     ///
     /// Bounds must be exact (glTF 2.0 §3.6.2.5). If the declared bounds are too narrow, the
     /// number of elements outside them is also reported.
@@ -295,7 +295,7 @@ impl BoundsScan {
 impl RuleScan<'_> {
     /// Tests one element against the rule.
     ///
-    /// `numbers` are the stored components; `elements` dequantizes them if the rule concerns the
+    /// `numbers` are the stored components; `elements` dequantizes them if the rule applies to the
     /// dequantized value. Each violation is counted under its code.
     fn visit_element(&mut self, elements: &AccessorElements<'_>, at: u64, numbers: &[f64]) {
         let length = |numbers: &[f64]| {

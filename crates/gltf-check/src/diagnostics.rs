@@ -38,7 +38,7 @@ struct SeverityList {
 }
 
 impl Diagnostics {
-    /// Adds a diagnostic with the help text of its code. If the list is full, nothing is formatted.
+    /// Adds a diagnostic with the help text of its code. If the list is full, it is not formatted.
     pub(super) fn add(&self, code: &DiagnosticCode, pointer: impl Display, message: impl Display) {
         self.add_with_help(code, pointer, message, code.remedy);
     }

@@ -15,7 +15,7 @@ pub(super) struct CheckedDocument<'a> {
     pub(super) root: &'a Value,
     /// The collection that receives the diagnostics of every check.
     pub(super) diagnostics: &'a Diagnostics,
-    /// Whether something refers to each object, by collection.
+    /// For each collection, whether each of its objects is used.
     used_flags: RefCell<Vec<Vec<bool>>>,
     /// The names in `extensionsUsed`.
     extensions: BTreeSet<&'a str>,
@@ -70,7 +70,7 @@ pub(super) fn object_members<'a>(value: &'a Value, key: &str) -> Option<&'a Map<
     value.get(key).and_then(Value::as_object)
 }
 
-/// Converts a value that is a non-negative integer, written as `1` or as `1.0`.
+/// Converts a non-negative integer, which may be written as `1` or as `1.0`.
 pub(super) fn as_whole_number(value: &Value) -> Option<u64> {
     // The cast saturates: a number too large for u64 becomes u64::MAX, which is also out of range.
     let from_float = |number: f64| (number >= 0.0 && number % 1.0 == 0.0).then_some(number as u64);

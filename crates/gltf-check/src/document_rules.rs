@@ -1,4 +1,4 @@
-//! Rules about the document as a whole: version, extension lists, variants, cameras, unused
+//! Rules about the document as a whole: version, extension lists, variants, cameras and unused
 //! objects.
 //!
 //! These rules relate several objects, or several members of one object, so the schema tables
@@ -79,8 +79,8 @@ fn is_known(extension: &str) -> bool {
 /// The root must declare the variants, and each variant may map a primitive to at most one
 /// material.
 ///
-/// If two mappings of a primitive listed the same variant, viewers would differ in their choice of
-/// material.
+/// If two mappings of a primitive listed the same variant, viewers could choose different
+/// materials.
 pub(super) fn check_variants(document: &CheckedDocument<'_>) {
     const NAME: &str = "KHR_materials_variants";
     let diagnostics = document.diagnostics;

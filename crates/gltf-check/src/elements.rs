@@ -5,7 +5,7 @@
 
 use super::layout::AccessorLayout;
 
-/// The elements of one accessor, with sparse replacements. All their bytes are present.
+/// The elements of one accessor, with sparse replacements. Their bytes are known to be present.
 ///
 /// All numbers are read as f64, which represents every component type exactly.
 #[derive(Debug)]

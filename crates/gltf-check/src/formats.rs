@@ -52,7 +52,7 @@ impl<'a> Semantic<'a> {
         Some(Self::Numbered(kind, number))
     }
 
-    /// Returns the name without its set index; empty for a custom name.
+    /// Returns the name without its set index, or an empty string for a custom name.
     fn base_name(self) -> &'a str {
         match self {
             Self::Single(kind) | Self::Numbered(kind, _) => kind,

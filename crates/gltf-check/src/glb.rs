@@ -81,8 +81,8 @@ impl ContainerReader<'_> {
     ///
     /// An unsupported version ends the validation, because its chunks may be laid out differently.
     /// Extra bytes after the declared end cause a warning and are ignored. If a file is shorter
-    /// than declared, the existing part is read. The minimum valid length, 20, is a file header and
-    /// an empty chunk.
+    /// than declared, the available part is read. The minimum valid length, 20, is a file header
+    /// and an empty chunk.
     fn check_header(&mut self) {
         let actual = self.bytes.len();
         let (Some(version), Some(length)) = (self.read_u32(4), self.read_u32(8)) else {
@@ -242,7 +242,7 @@ mod tests {
             assert_eq!(reported_codes(&bytes).1, expected);
         }
         for end in 4..good.len() {
-            assert!(!reported_codes(&good[..end]).1.is_empty(), "cut at {end}");
+            assert!(!reported_codes(&good[..end]).1.is_empty(), "truncated at {end}");
         }
     }
 }

@@ -1,7 +1,7 @@
-//! Validation of images: their source, actual and declared format, and use in textures.
+//! Validation of images: sources, actual and declared formats, and use in textures.
 //!
 //! ```text
-//!  uri ──────────┐             ┌─► mimeType, data URI: must agree with the bytes
+//!  uri ──────────┐             ┌─► mimeType, data URI: must match the bytes
 //!                ├─► bytes ────┼─► header: must be complete
 //!  bufferView ───┘             └─► textures: PNG and JPEG, others with an extension
 //! ```
@@ -74,7 +74,7 @@ fn sniff_media_type(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// The validation of one image.
+/// The context for validating one image.
 struct ImageChecker<'a> {
     document: &'a CheckedDocument<'a>,
     store: &'a BufferStore<'a>,
@@ -156,8 +156,8 @@ impl ImageChecker<'_> {
 
     /// Validates the header of an image, and returns the media type detected from its first bytes.
     ///
-    /// Only the header is decoded. Decoders distinguish a truncated file from a corrupt one only in
-    /// the error text, which selects the code here. Without the `basisu` feature, KTX2 is
+    /// Only the header is decoded. Decoders distinguish a truncated file from a corrupt file only
+    /// in the error text, so that text determines the code. Without the `basisu` feature, KTX2 is
     /// recognized but not checked. Returns `None` for an unknown format, after reporting it.
     fn check_image_header(&self, bytes: &[u8]) -> Option<&'static str> {
         let diagnostics = self.document.diagnostics;

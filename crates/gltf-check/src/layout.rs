@@ -14,8 +14,8 @@ use serde_json::Value;
 
 /// The layout that an accessor declares.
 ///
-/// It is a copy of the accessor's members, which have passed the schema, and does not refer to the
-/// buffer.
+/// It is a copy of the accessor's members, which have passed the schema checks, and does not refer
+/// to the buffer.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct AccessorLayout {
     /// The type of each component (`componentType`).
@@ -108,8 +108,8 @@ impl ComponentType {
         }
     }
 
-    /// Reads the component at the start of the bytes. Returns 0 if there are too few, which callers
-    /// prevent.
+    /// Reads the component at the start of the bytes. Callers must pass enough bytes; otherwise
+    /// returns 0.
     pub(super) fn read_number(self, bytes: &[u8]) -> f64 {
         let one = || bytes.first().copied().unwrap_or(0);
         let two = || bytes.first_chunk().copied().unwrap_or_default();
@@ -198,8 +198,8 @@ impl AccessorLayout {
         })
     }
 
-    /// Returns the bytes from one column to the next; matrix columns are aligned to four bytes
-    /// (§3.6.2.4).
+    /// Returns the number of bytes from one column to the next; matrix columns are aligned to four
+    /// bytes (§3.6.2.4).
     ///
     /// Without the alignment, a column of a small matrix could start at an odd address.
     pub(super) fn column_stride(&self) -> usize {
@@ -213,7 +213,7 @@ impl AccessorLayout {
             + self.element_type.rows * self.component_type.byte_size()
     }
 
-    /// Returns the bytes from one element to the next if the buffer view has no `byteStride`.
+    /// Returns the distance between elements in bytes if the buffer view has no `byteStride`.
     ///
     /// For vectors this is the size of an element; for matrices it includes the padding of the last
     /// column.

@@ -6,7 +6,7 @@
 //! loads the file, so that the report includes the loader's diagnostics.
 //!
 //! ```text
-//!  bytes ─glb─► JSON ─schema_walk, by the tables of schema─► references
+//!  bytes ─glb─► JSON ─schema_walk, with the tables in schema─► references
 //!        ─nodes, meshes, skins, animations─► rules for elements ─data─► diagnostics
 //!  loader ─load_outcome─► diagnostics
 //! ```

@@ -9,8 +9,8 @@ use serde_json::Value;
 
 /// Validates all materials, and the lights of KHR_lights_punctual.
 ///
-/// The schema covers single values; this function covers rules about two members, and the gap in
-/// the range of `ior`.
+/// The schema covers single values. This function checks rules that relate two members, and the gap
+/// in the range of `ior`.
 ///
 /// The schema walk validates texture references; neither textures nor images are accessed here.
 pub(super) fn check_materials(document: &CheckedDocument<'_>) {

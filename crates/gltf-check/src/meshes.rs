@@ -24,7 +24,7 @@ use std::fmt::Display;
 /// entry per target.
 ///
 /// Renderers blend all primitives of a mesh with the same weights, so the counts must agree. The
-/// first primitive sets the expected count, so each deviating primitive gives one diagnostic.
+/// first primitive sets the expected count, and each primitive that deviates is reported once.
 pub(super) fn check_meshes(
     document: &CheckedDocument<'_>,
     usage: &UsageMap<'_>,
@@ -63,7 +63,7 @@ pub(super) fn check_meshes(
     }
 }
 
-/// The validation of one primitive.
+/// The context for validating one primitive.
 struct PrimitiveChecker<'a, 'd> {
     document: &'a CheckedDocument<'a>,
     usage: &'a UsageMap<'a>,

@@ -11,7 +11,7 @@ use super::document::{
 use glam::DMat4;
 use serde_json::Value;
 
-/// The node hierarchy as a forest, without the links that violate this.
+/// The node hierarchy as a forest; links that would break the tree structure are dropped.
 ///
 /// ```text
 ///        A [0, 4)            B is below A: [1, 3) is inside [0, 4)
@@ -138,7 +138,7 @@ fn is_decomposable(matrix: &DMat4) -> bool {
         && are_perpendicular(z, x)
 }
 
-/// The mesh properties that its nodes depend on.
+/// The properties of a mesh that the checks of its nodes need.
 #[derive(Clone, Copy, Debug)]
 struct MeshSummary {
     /// The number of morph targets of the first primitive.

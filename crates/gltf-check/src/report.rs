@@ -14,8 +14,8 @@ pub struct CheckReport {
     pub diagnostics: Vec<Diagnostic>,
     /// The number of errors: violations of the specification, or missing data.
     pub errors: usize,
-    /// The number of warnings: other viewers may show the file differently, or something is omitted
-    /// here.
+    /// The number of warnings: other viewers may show the file differently, or the loader skips
+    /// something.
     pub warnings: usize,
     /// The number of notes: possible improvements to valid content.
     pub notes: usize,

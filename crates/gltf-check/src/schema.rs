@@ -185,7 +185,7 @@ const fn requires(name: &'static str, other: &'static str, kind: ValueKind) -> M
     MemberSchema { name, kind, rule: PresenceRule::Requires(other) }
 }
 
-/// Declares a member such that exactly one of it and another must be present.
+/// Declares one of two members of which exactly one must be present.
 const fn one_of(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
     MemberSchema { name, kind, rule: PresenceRule::ExactlyOne(other) }
 }

@@ -40,7 +40,7 @@ pub(super) fn check_schema(document: &CheckedDocument<'_>) {
 /// The state of the walk: the document and the JSON pointer of the current value.
 ///
 /// One buffer holds the pointer for the whole walk: tokens are appended on the way down and
-/// truncated on the way up, so a value without a defect costs no allocation.
+/// truncated on the way up, so a value without a defect requires no allocation.
 struct SchemaWalker<'a> {
     /// The document, which records references and diagnostics.
     document: &'a CheckedDocument<'a>,
@@ -61,8 +61,8 @@ impl SchemaWalker<'_> {
 
     /// Calls `work` with the token of a member or item appended to the JSON pointer.
     ///
-    /// Tokens are escaped as in RFC 6901: `~` becomes `~0` and `/` becomes `~1`. Names without
-    /// these characters, which are almost all, are appended without a copy.
+    /// Tokens are escaped as in RFC 6901: `~` becomes `~0` and `/` becomes `~1`. Almost all names
+    /// contain neither character and are appended without a copy.
     fn descend(&mut self, name: &str, work: impl FnOnce(&mut Self)) {
         let length = self.pointer.len();
         self.pointer.push('/');
@@ -283,7 +283,7 @@ impl SchemaWalker<'_> {
 
     /// Validates a number in a range.
     ///
-    /// The message uses the bracket for an open or closed lower end: `(0, 1]` or `[0, 1]`.
+    /// The bracket in the message indicates whether the minimum is excluded: `(0, 1]` or `[0, 1]`.
     fn check_number(&self, number: f64, range: NumberRange) {
         let NumberRange { min, max, exclusive_min } = range;
         let is_inside = if exclusive_min { number > min } else { number >= min } && number <= max;

@@ -37,9 +37,8 @@ pub(super) fn check_skins(
 
 /// Validates that the joints have a common root, and that `skeleton` is their common ancestor.
 ///
-/// Both are constant-time queries for each joint, because the tree stores the root and the
-/// traversal interval of each node. Walking up from each joint would take quadratic time for a long
-/// chain.
+/// Each check takes constant time per joint, because the tree stores the root and the traversal
+/// interval of each node. Walking up from each joint would take quadratic time for a long chain.
 fn check_common_root(
     document: &CheckedDocument<'_>,
     tree: &NodeTree,
@@ -68,7 +67,7 @@ fn check_common_root(
 /// per joint.
 ///
 /// The format is always MAT4 of floats (glTF 2.0 §5.28). More matrices than joints are allowed. The
-/// last row is tested with the data.
+/// last row of each matrix is tested when the data is read.
 fn check_inverse_bind_matrices(
     document: &CheckedDocument<'_>,
     usage: &UsageMap<'_>,
@@ -136,7 +135,7 @@ pub(super) fn check_skinned_meshes(document: &CheckedDocument<'_>, store: &Buffe
 /// Contains the components of `JOINTS_n` and the dequantized components of `WEIGHTS_n`.
 type InfluenceSet = (Vec<[f32; 4]>, Vec<[f32; 4]>);
 
-/// The validation of one primitive's joints and weights.
+/// The context for validating one primitive's joints and weights.
 struct InfluenceChecker<'a> {
     document: &'a CheckedDocument<'a>,
     store: &'a BufferStore<'a>,
@@ -164,7 +163,7 @@ impl InfluenceChecker<'_> {
     /// vertex sum to 1 over all sets.
     ///
     /// Sets are read up to the first that is missing or cannot be decoded. The four kinds of errors
-    /// are counted per set, which gives one diagnostic for each kind and attribute.
+    /// are counted per set, so that each kind and attribute gets one diagnostic.
     fn check_influences(&self, named: &Map<String, Value>) {
         let mut sets = Vec::new();
         while let (true, Some(joints), Some(weights)) = (

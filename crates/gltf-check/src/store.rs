@@ -29,7 +29,7 @@ pub(super) struct BufferStore<'a> {
     decompressed: Vec<OnceCell<Option<Vec<u8>>>>,
     /// The number of bytes that may be read or decoded, proportional to the size of the files.
     budget: MemoryBudget<'a>,
-    /// Whether the budget has been exceeded; nothing more is read then.
+    /// Whether the budget has been exceeded; if so, nothing more is read.
     exhausted: Cell<bool>,
 }
 
@@ -76,7 +76,7 @@ impl<'a> BufferStore<'a> {
     /// longer for padding.
     ///
     /// The declared `byteLength` must not be greater than the length of the data. If it is,
-    /// `BUFFER_BYTE_LENGTH_MISMATCH` is reported, and the existing bytes are still used.
+    /// `BUFFER_BYTE_LENGTH_MISMATCH` is reported, and the available bytes are still used.
     fn load_buffer(
         &self,
         at: usize,
@@ -256,7 +256,7 @@ impl<'a> BufferStore<'a> {
     /// §3.6.2.3).
     ///
     /// They are always converted to 32 bits. The conversion is charged to the budget, because the
-    /// count is only declared.
+    /// declared count is not verified.
     pub(super) fn sparse_indices(&self, sparse: &Value) -> Option<Vec<u32>> {
         let json = sparse.get("indices")?;
         let component = ComponentType::from_gl_constant(integer_member(json, "componentType")?)?;
@@ -290,9 +290,9 @@ pub(super) fn check_buffer_views(document: &CheckedDocument<'_>) {
 
 /// Validates the range and stride of one buffer view.
 ///
-/// The stride must be a multiple of four, absent for indices, and not greater than the view. The
-/// range is compared with the declared length of the buffer, not with its data, so that a truncated
-/// file gives one diagnostic at the buffer and none at its views.
+/// The stride must be a multiple of four, absent for indices, and no greater than the length of the
+/// view. The range is compared with the declared length of the buffer, not with its data, so that a
+/// truncated file gives one diagnostic at the buffer and none at its views.
 fn check_buffer_view(document: &CheckedDocument<'_>, at: usize, view: &Value) {
     let diagnostics = document.diagnostics;
     let offset = integer_member(view, "byteOffset").unwrap_or(0);

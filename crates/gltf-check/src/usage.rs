@@ -1,4 +1,4 @@
-//! Uses of accessors and buffer views, each with only one purpose (glTF 2.0 §3.6.2.1, §5.11.5).
+//! Uses of accessors and buffer views: each may have only one purpose (glTF 2.0 §3.6.2.1, §5.11.5).
 //!
 //! Graphics APIs upload a buffer view as a whole, for one purpose: in WebGL a vertex buffer cannot
 //! also be an index buffer. Only the first conflicting use of each is reported.

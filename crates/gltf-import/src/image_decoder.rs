@@ -2,8 +2,8 @@
 //! KTX2.
 //!
 //! The format is detected from the first bytes; the file name and the glTF `mimeType` are ignored.
-//! Sizes are read from the header and checked before any decoder allocates, and a decoder that
-//! panics counts as failed.
+//! Sizes are read from the header and checked before any decoder allocates, and a panic in a
+//! decoder is treated as a decoding error.
 
 mod jpeg;
 #[cfg(feature = "basisu")]
@@ -98,7 +98,7 @@ pub(crate) fn format_name(bytes: &[u8]) -> &'static str {
     }
 }
 
-/// Decodes an image of at most `max_texels` texels; the header is checked before anything is allocated.
+/// Decodes an image of at most `max_texels` texels, checking the header before allocating.
 ///
 /// ```
 /// let message = import::decode_image(b"GIF89a", 1 << 20).unwrap_err();
@@ -115,7 +115,7 @@ pub fn decode_bounded(bytes: &[u8], max_texels: u64) -> Result<Image, String> {
     decode_rgba(bytes)
 }
 
-/// Decodes the whole image. Callers check [`image_size`] first: this allocates 4 bytes per texel.
+/// Decodes the whole image into 4 bytes per texel. Callers must check [`image_size`] first.
 pub(crate) fn decode_rgba(bytes: &[u8]) -> Result<Image, String> {
     catch_decoder_panic(|| match ImageFormat::from_magic(bytes)? {
         ImageFormat::Png => decode_png(bytes),

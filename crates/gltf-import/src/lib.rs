@@ -14,7 +14,7 @@
 //! | --- | --- |
 //! | `gltf` | containers, accessors, compressed meshes, materials, animations, extensions |
 //! | `options`, `limits`, `memory_budget` | loading options, and limits on a file |
-//! | `uri_resolver`, `memory_folder` | files that a URI may open |
+//! | `uri_resolver`, `memory_folder` | files that a URI may refer to |
 //! | `image_decoder`, `parallel_decoding` | PNG, JPEG, WebP, KTX2 |
 //! | `warnings`, `error` | skipped data, and the error that stops loading |
 //! | `scalars`, `normals`, `srgb` | vertex attributes |

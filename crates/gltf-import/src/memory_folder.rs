@@ -1,5 +1,5 @@
-//! A folder of files in memory, for models with buffers and images where there is no file system,
-//! as in a browser.
+//! A folder of files in memory, for models with buffers and images in environments without a file
+//! system, such as a browser.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

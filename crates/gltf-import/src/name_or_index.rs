@@ -17,7 +17,7 @@ pub enum NameOrIndex {
 impl NameOrIndex {
     /// Finds the index of the selected item among items with these names. The error lists them.
     ///
-    /// An out-of-range index may still be a numeric name.
+    /// An out-of-range index is also tried as a name, because names may be numeric.
     pub(super) fn find_among(
         &self,
         names: &[Option<&str>],

@@ -89,7 +89,7 @@ impl<'a> DecodeQueue<'a> {
         }
     }
 
-    /// Prevents more images from being started.
+    /// Prevents threads from taking more images.
     fn stop_queue(&self) {
         self.next.store(self.encoded.len(), Ordering::Relaxed);
     }

@@ -149,7 +149,7 @@ mod tests {
         let gray = linear(Colormap::Grayscale, 0.5);
         let [low, high] = [0.0, 1.0].map(|t| linear(Colormap::Viridis, t));
         assert_eq!(colored, [[gray, low], [gray, high]]);
-        let [warning] = &warnings.into_list()[..] else { panic!("one warning") };
+        let [warning] = &warnings.into_list()[..] else { panic!("expected one warning") };
         assert_eq!(warning.message, "2 of 4 values of `t` are not finite; they are drawn gray");
         assert_eq!(colors_of(&colors, &[f64::NAN]), [gray], "no value is finite");
     }

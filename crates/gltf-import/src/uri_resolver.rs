@@ -6,7 +6,7 @@
 //! the root, symbolic links that lead out of it, devices, pipes, and files larger than the limit
 //! are rejected. Everything is checked before a file is opened, and a path that would leave the
 //! root is rejected without checking whether it exists. The user may allow other folders
-//! ([`ImportOptions::allow_outside`]); `..` and symbolic links may then lead there too.
+//! ([`ImportOptions::allow_outside`]); `..` and symbolic links may then also lead there.
 
 use super::ImportOptions;
 use super::limits::Limits;
@@ -195,7 +195,7 @@ impl<'a> UriResolver<'a> {
                 Err(Diagnostic::error(codes::FORBIDDEN_PATH, pointer, message, help))
             }
             AssetSource::Disk(sandbox) => {
-                // Canonical paths have no links, which could lead out of the folder.
+                // Canonical paths contain no symbolic links that could lead out of the folder.
                 let Ok(path) = sandbox.path_below_root(path, pointer)?.canonicalize() else {
                     return Ok(None);
                 };
@@ -367,7 +367,7 @@ fn uri_scheme(uri: &str) -> Option<&str> {
     (first && rest).then_some(scheme)
 }
 
-/// Base64 with or without padding, which accepts stray bits in the last digit.
+/// Base64 with or without padding; stray bits in the last digit are accepted.
 const LENIENT_BASE64: GeneralPurposeConfig = GeneralPurposeConfig::new()
     .with_decode_allow_trailing_bits(true)
     .with_decode_padding_mode(DecodePaddingMode::Indifferent);

@@ -54,8 +54,8 @@ impl ImportWarnings {
     /// Adds an error as a warning in lenient mode, and returns it otherwise.
     ///
     /// # Errors
-    /// Returns the error in strict mode. Limits and the requested scene or variant are never
-    /// waived.
+    /// Returns the error in strict mode. Errors about limits, or about the requested scene or
+    /// variant, are always returned.
     pub fn downgrade_if_lenient(
         &mut self,
         diagnostic: Diagnostic,
@@ -75,7 +75,7 @@ impl ImportWarnings {
         self.omitted += left_out;
     }
 
-    /// Returns the stored warnings, plus a warning with the number of those omitted.
+    /// Returns the stored warnings, plus a warning with the number of omitted warnings.
     pub fn into_list(mut self) -> Vec<Diagnostic> {
         if self.omitted > 0 {
             let message = format!("{} more warnings are not listed", self.omitted);

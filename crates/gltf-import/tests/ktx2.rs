@@ -1,8 +1,8 @@
 //! KTX2 images from real encoders, compared with the texels of the reference transcoder.
 //!
-//! The images in `ktx2/` have 7 x 5 texels: a gradient with a white corner. The Basis Universal
-//! 2.50 encoder wrote them, and the transcoder of the same project wrote the RGBA32 texels next to
-//! them. The transcoder's output is specified exactly.
+//! The images in `ktx2/` are 7 x 5 texels: a gradient with a white corner. The Basis Universal 2.50
+//! encoder wrote them, and the transcoder of the same project wrote the RGBA32 texels next to them.
+//! The transcoder's output is specified exactly.
 
 use import::{ImportOptions, decode_image, load_bytes};
 
@@ -34,7 +34,7 @@ fn every_truncation_is_an_error() {
     for (name, file, _) in IMAGES {
         // The levels after the first are stored before it, and are not read.
         for end in 0..file.len() {
-            assert!(decode_image(&file[..end], 35).is_err(), "{name} cut at {end}");
+            assert!(decode_image(&file[..end], 35).is_err(), "{name} truncated at {end}");
         }
     }
 }

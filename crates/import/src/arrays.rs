@@ -1,7 +1,7 @@
 //! Meshes from memory: converts arrays of vertices and polygons to a [`Model`].
 //!
-//! They are treated like PLY files: polygons are triangulated, missing normals are computed with
-//! the crease angle, and vertices are split between faces of different colors.
+//! The arrays are treated like a PLY file: polygons are triangulated, missing normals are computed
+//! with the crease angle, and vertices are split between faces of different colors.
 
 use super::ply::{self, Contents};
 use crate::load::{check_scene_limits, surface_without_area};
@@ -107,7 +107,7 @@ pub fn load_arrays(
         let (name, contents) = mesh.into_contents();
         let bytes = ply::array_bytes(&contents);
         budget.charge_bytes(&location, bytes, bytes)?;
-        // Only the materials of this model are read.
+        // Only the materials of this temporary model are read.
         let carrier = Model { materials, ..Model::default() };
         let built = ply::build_primitives(contents, &carrier, options, &mut warnings);
         let mut primitives: Vec<_> = built.into_iter().filter(|p| p.item_count() > 0).collect();
@@ -274,7 +274,7 @@ mod tests {
         ];
         let options = ImportOptions::default();
         let model = load_arrays("m", vec![square(), colored, textured], &nodes, &options)
-            .expect("good meshes");
+            .expect("valid meshes");
         assert_eq!(model.materials.len(), 3);
         assert_eq!(model.materials[0], Material::plain());
         assert_eq!(model.materials[1].alpha_mode, AlphaMode::Blend);
@@ -289,7 +289,7 @@ mod tests {
         let cloud = MeshArrays { positions: vec![[0.0; 3]; 5], ..MeshArrays::default() };
         let lines = MeshArrays { line_ends: vec![0, 1], ..cloud.clone() };
         for (mesh, count) in [(cloud, 5), (lines, 1)] {
-            let model = load(mesh).expect("a good mesh");
+            let model = load(mesh).expect("a valid mesh");
             assert_eq!(model.meshes[0].primitives[0].item_count(), count);
         }
     }
@@ -307,7 +307,7 @@ mod tests {
             (MeshArrays { line_ends: vec![0], ..square() }, "/meshes/0/line_ends"),
         ];
         for (mesh, location) in table {
-            assert_eq!(load(mesh).expect_err("wrong arrays").location, location);
+            assert_eq!(load(mesh).expect_err("inconsistent arrays").location, location);
         }
     }
 

@@ -18,13 +18,13 @@ pub(super) struct CornerAttributes {
 }
 
 impl Default for CornerAttributes {
-    /// Returns the texture origin and white.
+    /// Returns the origin of the texture and the color white.
     fn default() -> Self {
         Self { uv: [0.0; 2], color: [1.0; 4] }
     }
 }
 
-/// New vertices, one for each distinct pair of an old vertex and attributes.
+/// New vertices, one for each distinct combination of an old vertex and attributes.
 #[derive(Debug)]
 pub(super) struct CornerVertices {
     /// The last new vertex of each old vertex.

@@ -122,7 +122,7 @@ fn begins_with_obj_statement(text: &[u8]) -> bool {
     is_statement && words.next().is_some() && !text.contains(&0)
 }
 
-/// The first bytes of files that have the name of a model but are something else.
+/// First bytes of files that are named like models but contain something else.
 const MISLEADING: [&[u8]; 6] =
     [b"version https://git-lfs", b"<!DOCTYPE", b"<!doctype", b"<html", b"\x1f\x8b", b"\x89PNG"];
 

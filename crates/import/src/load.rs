@@ -1,4 +1,4 @@
-//! Loading: detects the format, runs its reader, and completes the model with the options.
+//! Loading: detects the format, runs its reader, and applies the options to the model.
 
 use crate::{FileFormat, obj, ply, stl, threemf};
 use glam::DVec3;
@@ -12,8 +12,8 @@ use std::path::Path;
 /// Loads a model. Its [format](FileFormat) is detected from the content; the name is used only if
 /// the content is ambiguous.
 ///
-/// Problems that leave something to draw do not stop loading; they are in [`Model::warnings`]. A
-/// file without anything to draw also loads.
+/// Problems that leave something to draw do not stop loading; they are listed in
+/// [`Model::warnings`]. A file without anything to draw also loads.
 ///
 /// ```no_run
 /// use import::{ImportOptions, load};

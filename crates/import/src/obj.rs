@@ -114,7 +114,7 @@ fn read_libraries(
         tried += 1;
         let words = token.tokens().map(Token::to_text);
         let is_one = words.clone().nth(1).is_none();
-        // One name with spaces is tried first: exporters do not quote it.
+        // One name with spaces is tried first, because exporters do not quote it.
         match read_library(token.to_text(), resolver) {
             Ok(library) => libraries.push(library),
             Err(fault) if is_one => warnings.downgrade(&fault, "the default material is used"),

@@ -91,7 +91,7 @@ pub(super) fn import_ply(
     build_materials(&mut model, textures, &contents, options, &mut warnings);
     let budget = MemoryBudget::new(resolver.limits);
     let charge = |bytes: u64| budget.charge_bytes("", bytes, resolver.total_bytes());
-    // Charged before the primitives multiply the memory of the arrays.
+    // Charge the budget now, because building the primitives multiplies the memory of the arrays.
     charge(array_bytes(&contents))?;
     let build = || build_primitives(contents, &model, options, &mut warnings);
     let primitives = options.timings.measure("geometry", build);

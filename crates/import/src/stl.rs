@@ -47,7 +47,7 @@ pub(super) fn import_stl(
     let limits = resolver.limits;
     let budget = MemoryBudget::new(limits);
     let parse = || {
-        // Binary files may begin with `solid` too, so the length decides first.
+        // Binary files may also begin with `solid`, so the length is checked first.
         if has_binary_length(bytes) || !is_text(bytes) {
             let Some((header, mut body)) = bytes.split_first_chunk() else {
                 return Err(binary::no_stl(bytes));

@@ -49,7 +49,7 @@ pub(super) fn build_primitives(
     };
     let has_attributes = surface.has_uvs || surface.has_colors;
     let mut primitives = Vec::new();
-    // The usual case: the arrays are used as they are, and no vertex is split.
+    // The common case: the arrays are used unchanged, and no vertex is split.
     if !has_attributes && surface.materials.is_empty() {
         let indices = std::mem::take(&mut surface.triangles).into_flattened();
         let (positions, normals) = (positions.into_owned(), normals.into_owned());

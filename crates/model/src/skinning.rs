@@ -226,7 +226,7 @@ fn add_weighted_deltas<const N: usize>(values: &mut [[f32; N]], deltas: &[[f32; 
 /// Computes the weighted mean of the joint matrices of a vertex. Returns `None` if all weights are
 /// zero.
 ///
-/// Dividing by the sum of the weights accepts files whose weights do not add up to 1.
+/// Dividing by the sum of the weights handles files whose weights do not add up to 1.
 ///
 /// Negative weights are ignored. If the mean overflows, the weights are treated as zero, so a
 /// hostile file cannot produce non-finite positions.
@@ -381,7 +381,7 @@ mod tests {
             nearly_equal(posed.positions[1], [0.0, 1.0, 0.0]),
             "the elbow itself does not move"
         );
-        assert!(nearly_equal(posed.positions[2], [-1.0, 1.0, 0.0]), "weights count in proportion");
+        assert!(nearly_equal(posed.positions[2], [-1.0, 1.0, 0.0]), "blended in proportion");
         let normals = posed.normals.unwrap();
         assert!(nearly_equal(normals[0], [1.0, 0.0, 0.0]));
         assert!(nearly_equal(normals[2], [0.0, 1.0, 0.0]));

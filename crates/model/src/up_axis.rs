@@ -39,7 +39,7 @@ impl UpAxis {
 }
 
 impl Model {
-    /// Adds a parent to every root node that rotates the file's `up` axis to y.
+    /// Gives every root node a parent that rotates the file's `up` axis to y.
     ///
     /// The roots themselves are not changed, because animations may set their transforms. The new
     /// nodes come last, so that the indices of all other nodes stay the same.

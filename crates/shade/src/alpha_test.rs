@@ -4,8 +4,8 @@
 //! that fragments that fail the test hide nothing.
 //!
 //! Styles with one color per fragment, such as normals and ids, also apply it to blended
-//! primitives, which have holes where textures and vertex colors make them less than half as opaque
-//! as their material.
+//! primitives, which then get holes where textures and vertex colors make them less than half as
+//! opaque as their material.
 
 use super::attributes::{PrimitiveIndices, interpolate};
 use super::fragment_lanes::{FragmentLanes, FragmentPacket};
@@ -41,8 +41,8 @@ impl DrawList<'_> {
         passes
     }
 
-    /// Runs the alpha test for eight fragments of a primitive, with vector instructions of this
-    /// level.
+    /// Runs the alpha test for eight fragments of a primitive, with the vector instructions of this
+    /// SIMD level.
     ///
     /// The rasterizer calls it before depth is written, so that fragments that fail the test hide
     /// nothing.

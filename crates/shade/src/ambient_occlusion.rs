@@ -4,8 +4,8 @@
 //! ```text
 //!          v  to the viewer
 //!    h1 ╲  │  ╱ h2          in several planes through v (slices) the horizon is the
-//!        ╲ │ ╱              highest surface on either side within a radius; between the
-//!   ▟█▙▖  ╲│╱  ▗▟██▙        horizons light arrives (Jimenez and others, *Practical
+//!        ╲ │ ╱              highest surface on either side within a radius; light
+//!   ▟█▙▖  ╲│╱  ▗▟██▙        arrives between the horizons (Jimenez et al., *Practical
 //!   ███████●████████        real-time strategies for accurate indirect occlusion*, 2016)
 //! ```
 //!
@@ -18,9 +18,8 @@
 //! ```
 //!
 //! The slices of a pixel are rotated by a 4 × 4 pattern, and the mean over 4 × 4 pixels of one
-//! surface removes the pattern again, so each pixel gets the horizons of sixteen times as many
-//! slices. The pattern is fixed to the whole picture, so that separately rendered parts join
-//! seamlessly.
+//! surface removes the pattern again, so each pixel effectively uses sixteen times as many slices.
+//! The pattern is anchored to the whole picture, so that separately rendered parts join seamlessly.
 //!
 //! Fragments do not search for horizons themselves. A fragment that does not cover the center of
 //! its pixel is next to the surface there, and would find itself below other surfaces and become a

@@ -42,7 +42,7 @@ pub(super) enum PrimitiveIndices<const N: usize> {
 }
 
 impl<const N: usize> PrimitiveIndices<N> {
-    /// Returns the vertices of each primitive from a function of its index.
+    /// Returns the vertices of each primitive by calling a function with its index.
     #[inline(always)]
     pub(super) fn vertex_indices(
         &self,
@@ -97,7 +97,7 @@ impl<const N: usize> VertexIndices<N> {
 
 /// Interpolates an attribute: the sum over the vertices, weighted by the barycentric weights.
 ///
-/// With the derivatives of the weights, it returns the derivative of the attribute.
+/// Given the derivatives of the weights, this returns the derivative of the attribute.
 #[inline(always)]
 pub(super) fn interpolate<const N: usize, const K: usize>(
     [a, b, c]: &Attributes<N, K>,

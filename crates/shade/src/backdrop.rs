@@ -91,8 +91,8 @@ mod tests {
         let slanted = gradient(45.0, [300, 100]);
         assert_eq!(codes(&slanted, 0.0, 0.0), [0, 0, 0, 255]);
         assert_eq!(codes(&slanted, 1.0, 1.0), [255, 255, 255, 255]);
-        // Lines of equal color are perpendicular to it in pixels: 100 pixels right count as much as
-        // 100 down.
+        // In pixels, lines of equal color are perpendicular to the gradient line: 100 pixels to the
+        // right have the same effect as 100 down.
         assert_eq!(codes(&slanted, 1.0 / 3.0, 0.0), codes(&slanted, 0.0, 1.0));
     }
 

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  textures, #rrggbb ──► linear light ──► shading ──► SrgbEncoder, Srgb16Encoder ──► picture
-//!                  table                              table, 8 bits and 16
+//!                  table                              tables for 8 and 16 bits
 //! ```
 //!
 //! Both directions use tables that are computed once with `libm`, so the bits are the same on every
@@ -35,7 +35,7 @@ pub fn srgb_to_linear_table() -> &'static [f32; 256] {
 /// than half of the linear light of code 1.
 const MIN_LIGHT_BITS: u32 = 0x3900_0000;
 
-/// Encodes linear light as the nearest 8-bit sRGB code, using a table with 2048 steps.
+/// An encoder from linear light to the nearest 8-bit sRGB code, with a table of 2048 steps.
 ///
 /// ```text
 ///  entry = code << 16 | carry        encode(x) = (entry of x + lower 16 bits of x) >> 16

@@ -26,7 +26,7 @@ use std::borrow::Cow;
 /// are in world space. The rasterizer uses separate screen positions.
 #[derive(Clone, Debug)]
 pub struct Draw<'a> {
-    /// The id of the first point, line or triangle; the others follow.
+    /// The id of the first point, line or triangle; the ids of the others follow.
     pub first_id: u32,
     /// The index among the primitives of the scene, counting each instance.
     pub part_id: u32,
@@ -51,7 +51,7 @@ pub struct Draw<'a> {
     pub kind: DrawKind,
     /// Whether the transform to the world is a reflection, so that front faces are wound clockwise.
     pub flips_winding: bool,
-    /// The scale from the mesh to the world, or the mean over all directions if they differ.
+    /// The scale from the mesh to the world, averaged over all directions if it is not uniform.
     pub world_scale: f32,
 }
 

@@ -38,7 +38,7 @@ impl HeightSlab {
 pub struct GroundGrid {
     /// The minimum x and z in the world.
     pub corner: [f32; 2],
-    /// The side of a cell.
+    /// The side length of a cell.
     pub cell: f32,
     /// The number of columns and rows.
     pub size: [usize; 2],
@@ -49,7 +49,7 @@ pub struct GroundGrid {
 /// The fraction of cosine-weighted light from the upper hemisphere that reaches horizontal ground.
 #[derive(Clone, Debug)]
 pub struct GroundOcclusion {
-    /// The grid of the visibility, with cells of twice the side.
+    /// The visibility grid, whose cells have twice the side length.
     grid: GroundGrid,
     /// The visibility, 0 to 1, at the center of each cell.
     visibility: Vec<f32>,
@@ -57,14 +57,14 @@ pub struct GroundOcclusion {
 
 /// The number of azimuths per cell.
 const AZIMUTHS: usize = 16;
-/// The side of a block of cells with different azimuths.
+/// The side length, in cells, of a block of cells with different azimuths.
 const BLOCK: usize = 2;
-/// The number of ground cells along the side of a visibility cell; visibility is smoother than the
-/// occluders.
+/// The number of ground cells along the side of a visibility cell, which can be larger because
+/// visibility is smoother than the occluders.
 const COARSENESS: usize = 2;
 /// The number of sectors per azimuth.
 const SECTORS: f32 = 64.0;
-/// The growth of the steps with distance, about the width of an azimuth's wedge at that distance.
+/// The length of a step as a fraction of its distance, about the width of an azimuth's wedge.
 const STEP_GROWTH: f32 = 0.08;
 
 impl GroundOcclusion {

@@ -120,7 +120,7 @@ impl<const N: usize> Lanes<N> {
         self
     }
 
-    /// Clamps each lane to two bounds. NaN stays NaN.
+    /// Clamps each lane between two bounds. NaN stays NaN.
     #[inline(always)]
     pub(crate) fn clamp(self, least: f32, most: f32) -> Self {
         self.map(|value| value.clamp(least, most))
@@ -155,7 +155,7 @@ impl<const N: usize> Lanes<N> {
         mask
     }
 
-    /// `self` where the mask is set, `otherwise` elsewhere.
+    /// Returns `self` where the mask is set, and `otherwise` elsewhere.
     #[inline(always)]
     pub(crate) fn select(self, mask: &Mask<N>, otherwise: Self) -> Self {
         let mut lanes = otherwise;
@@ -426,7 +426,7 @@ impl<const N: usize> Vec3Lanes<N> {
         }
     }
 
-    /// `self` in the lanes where the mask is set, `otherwise` elsewhere.
+    /// Returns `self` in the lanes where the mask is set, and `otherwise` elsewhere.
     #[inline(always)]
     pub(crate) fn select(self, mask: &Mask<N>, otherwise: Self) -> Self {
         self.zip(otherwise, |value, otherwise| value.select(mask, otherwise))

@@ -20,7 +20,7 @@ pub enum Light {
         to_light: [f32; 3],
         /// The illuminance of a surface that faces the light, in lux.
         lux: [f32; 3],
-        /// Its shadows, if it casts any.
+        /// Its shadow settings, if it casts shadows.
         shadow: Option<Shadow>,
     },
     /// Light from a point, equal in all directions.
@@ -31,7 +31,7 @@ pub enum Light {
         candela: [f32; 3],
         /// The distance beyond which no light arrives; infinite for a light without a limit.
         range: f32,
-        /// Its shadows, if it casts any.
+        /// Its shadow settings, if it casts shadows.
         shadow: Option<Shadow>,
     },
     /// Light from a point into a cone.
@@ -47,7 +47,7 @@ pub enum Light {
         /// The cosines of the inner cone angle, within which the light has full strength, and of
         /// the outer cone angle, at which it ends.
         cosines: [f32; 2],
-        /// Its shadows, if it casts any.
+        /// Its shadow settings, if it casts shadows.
         shadow: Option<Shadow>,
     },
     /// Ambient light: uniform from all directions, and reflected diffusely, without highlights.
@@ -59,7 +59,7 @@ pub enum Light {
 
 /// The light from one source at some fragments.
 ///
-/// This is all that the BRDF knows about a light: not its kind or position, only a direction and an
+/// The BRDF does not depend on the light's kind or position, only on this direction and
 /// illuminance. Shadows reduce it, and so does sheen for the layers below.
 ///
 /// `lux` does not include the cosine of Lambert's law, because each layer has different normals.
@@ -80,7 +80,7 @@ impl Light {
         }
     }
 
-    /// Returns the shadows of the light, if it casts any.
+    /// Returns the shadow settings of the light, if it casts shadows.
     #[must_use]
     pub const fn shadow(&self) -> Option<Shadow> {
         match self {

@@ -37,7 +37,7 @@ impl Shading<'_> {
         if let Some(occlusion) = self.occlusion {
             visibility = occlusion.visibility(positions, normals);
         }
-        // Both detect nearby objects, so only one is used.
+        // Both detect nearby objects, so use the minimum instead of the product.
         if let Some(occlusion) = self.ground_occlusion {
             let contact = Lanes::from_fn(|lane| occlusion.visibility_at(positions.lane(lane)));
             visibility = visibility.min_lanes(contact);

@@ -33,7 +33,7 @@ pub struct ShadowCube {
     pub spread: f32,
     /// A distance from the light, greater than 0, within which nothing casts a shadow.
     pub nearest: f32,
-    /// The side of a texel at distance 1 along the axis of a face.
+    /// The side length of a texel at distance 1 along the axis of a face.
     pub texel: f32,
 }
 

@@ -13,7 +13,7 @@
 //! acne), even in grazing light, with a bias of only a hundredth of a texel and no gap where one
 //! object rests on another (no peter-panning).
 //!
-//! The penumbra grows with the distance of the caster (Fernando, *Percentage-closer soft shadows*,
+//! The penumbra grows with the distance to the caster (Fernando, *Percentage-closer soft shadows*,
 //! 2005): a blocker search gives its radius, and a percentage-closer filter with that radius gives
 //! the shadow. Both use a fixed pattern of positions, so that pictures have no noise and are always
 //! identical.
@@ -49,8 +49,8 @@ pub struct Shadow {
 ///
 /// Wider penumbras are clamped, because the 48 filter positions would be too far apart.
 const MAX_FILTER_RADIUS: f32 = 63.0;
-/// The bias per unit of slope, in depth per texel, because vertices are snapped to a grid of 1/256
-/// texel.
+/// The bias per unit of slope (depth per texel). It is needed because vertices are snapped to a
+/// grid of 1/256 texel.
 const SLOPE_BIAS: f32 = 1.0 / 96.0;
 /// The transform from the world to the texels of a shadow map.
 #[derive(Clone, Copy, Debug, Default)]
@@ -71,11 +71,11 @@ pub struct ShadowMap {
     /// The number of texels per row, and the number of rows.
     size: [u32; 2],
     world_to_map: WorldToShadowMap,
-    /// The depth at infinite distance in perspective, relative to which depth is a multiple of 1/w,
-    /// or `None` in parallel light.
+    /// In perspective, the depth at infinite distance; depth minus this value is proportional to
+    /// 1/w. `None` in parallel light.
     depth_at_infinity: Option<f32>,
-    /// The radius of the penumbra in texels, per depth difference in parallel light, and otherwise
-    /// per difference of distances divided by the nearer distance.
+    /// The radius of the penumbra in texels: per unit of depth in parallel light, and otherwise per
+    /// difference of distances divided by the nearer distance.
     penumbra_scale: f32,
     /// The nearest surface at each texel, in rows from the top.
     pub texels: Vec<SurfaceDepth>,
@@ -86,8 +86,8 @@ pub struct ShadowMap {
 impl ShadowMap {
     /// Clears the map for a light and sets its transform.
     ///
-    /// `world_to_map` maps to texels and depth, 1 at the near plane; `origin` is a position near
-    /// the scene.
+    /// `world_to_map` maps the world to texels and depth, which is 1 at the near plane; `origin` is
+    /// a position near the scene.
     pub fn reset(&mut self, world_to_map: DMat4, size: [u32; 2], origin: DVec3) {
         let relative_to_map = world_to_map * DMat4::from_translation(origin.as_vec3().as_dvec3());
         let to_f32 = |row: DVec4| row.as_vec4().to_array();
@@ -111,9 +111,9 @@ impl ShadowMap {
 
     /// Sets the softness of the shadows.
     ///
-    /// `scale` is the radius of the penumbra in texels, per depth difference in parallel light, and
-    /// in perspective per difference of distances divided by the nearer distance.
-    /// `depth_at_infinity` is `None` in parallel light.
+    /// `scale` is the radius of the penumbra in texels: per unit of depth in parallel light, and in
+    /// perspective per difference of distances divided by the nearer distance. `depth_at_infinity`
+    /// is `None` in parallel light.
     pub fn set_penumbra(&mut self, scale: f64, depth_at_infinity: Option<f64>) {
         self.penumbra_scale = scale as f32;
         self.depth_at_infinity = depth_at_infinity.map(|depth| depth as f32);

@@ -55,7 +55,7 @@ pub fn studio_radiance(direction: [f32; 3]) -> [f32; 3] {
 }
 
 impl Softbox {
-    /// Computes how much of a direction the rectangle fills, from 0 to 1.
+    /// Computes the coverage of a direction by the rectangle, from 0 outside to 1 inside.
     fn coverage(&self, direction: [f32; 3]) -> f32 {
         let center = normalize(self.direction);
         let across = normalize(cross([0.0, 1.0, 0.0], center));

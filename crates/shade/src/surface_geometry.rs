@@ -109,8 +109,8 @@ impl Draw<'_> {
         if self.is_smooth {
             let attributes = vertices.fetch_attributes::<_, 3>(&self.vertices, NORMAL);
             normals = interpolate(&attributes, &fragments.weights()).into();
-            // The lengths shrink where normals diverge; the derivatives are those of the
-            // unnormalized vectors.
+            // The lengths shrink where normals diverge; the derivatives refer to the unnormalized
+            // vectors.
             let squares = normals.dot(normals);
             let steps = [
                 interpolate(&attributes, &fragments.weights_dx()).into(),

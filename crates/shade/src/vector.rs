@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn zero_vectors_are_handled_as_each_name_says() {
+    fn zero_vectors_are_handled_as_documented() {
         assert!(normalize([0.0; 3]).iter().all(|c| c.is_nan()));
         assert_eq!(normalize_or_zero([0.0; 3]), [0.0; 3]);
         assert_eq!(try_normalize([0.0; 3]), None);

@@ -20,7 +20,7 @@ use super::{
 ///
 /// JSON does not limit integers; range checks and the loader's limits do.
 const MAX_INTEGER: u64 = u64::MAX;
-/// Names are optional, need not be unique, and identify nothing: references are indices.
+/// Names are optional and need not be unique; references use indices instead.
 const NAME: super::MemberSchema = optional("name", Text);
 
 /// Declares the schema of an object.
@@ -76,7 +76,7 @@ static ACCESSOR: ObjectSchema = object_schema(
         optional("normalized", Boolean),
         required("count", Integer(1, MAX_INTEGER)),
         required("type", EnumString(&["SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"])),
-        // Their number depends on the type; accessor validation checks it.
+        // The number of bounds depends on the element type; accessor validation checks it.
         optional("max", Numbers(0, ANY)),
         optional("min", Numbers(0, ANY)),
         optional("sparse", object_kind(&SPARSE)),

@@ -19,7 +19,7 @@ use super::{ANY, NOT_NEGATIVE, NumberRange, ObjectSchema, POSITIVE, UNIT, option
 const MAX_INTEGER: u64 = u64::MAX;
 /// Indices of refraction: at least 1.
 ///
-/// A vacuum has an index of refraction of 1, and no film or coating is below that.
+/// A vacuum has an index of refraction of 1, and films and coatings are never below that.
 const ABOVE_ONE: NumberRange = NumberRange { min: 1.0, ..ANY };
 /// Cone angles of spot lights, in radians.
 ///

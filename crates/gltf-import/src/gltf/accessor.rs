@@ -2,10 +2,10 @@
 //!
 //! An accessor declares a byte offset, a number of elements, their type and, through its buffer
 //! view, the stride between them (glTF 2.0 §3.6.2). [`AccessorReader::resolve_accessor`] checks the
-//! declaration against the existing bytes in 64-bit arithmetic. [`AccessorReader::read_floats`] and
-//! its siblings create arrays and charge the memory budget, so that accessors without bytes (which
-//! the specification defines as zeros), or with the same bytes used a thousand times, cannot
-//! exhaust memory.
+//! declaration against the available bytes in 64-bit arithmetic. [`AccessorReader::read_floats`]
+//! and its siblings create arrays and charge the memory budget, so that accessors without bytes
+//! (which the specification defines as zeros), or thousands of accessors that share the same bytes,
+//! cannot exhaust memory.
 
 use super::buffers::{Buffers, checked_slice};
 use super::elements::{ResolvedAccessor, SparseElements, StridedBytes};
@@ -36,8 +36,8 @@ impl<'a> AccessorReader<'a> {
     /// Resolves an accessor to its bytes. `user` is the pointer to the member that refers to it.
     ///
     /// # Errors
-    /// Fails if the accessor does not exist, has an invalid type, or its elements are not all in
-    /// the buffer.
+    /// Fails if the accessor does not exist, it has an invalid type, or some of its elements are
+    /// not in the buffer.
     ///
     /// Nothing is converted or allocated here, except for sparse indices. A view is resolved again
     /// for each of its users, which costs little because the bytes are borrowed.
@@ -56,7 +56,7 @@ impl<'a> AccessorReader<'a> {
         };
         let pointer = format!("/accessors/{accessor}");
         let (component, shape) = accessor_format(json, &pointer)?;
-        // On 32-bit targets a count may not fit; it then exceeds every buffer.
+        // On 32-bit targets, a count may not fit; `usize::MAX` then exceeds every buffer.
         let count = usize::try_from(json.count.0).unwrap_or(usize::MAX);
         let block =
             ElementLayout { pointer: &pointer, count, size: element_size(component, shape) };

@@ -21,7 +21,7 @@ use model::{
     Material, ModelCamera, Node, NodeProperty, PunctualLight, UvTransform,
 };
 
-/// The objects that channels can change, and the list of texture transforms that channels need.
+/// The objects that channels can animate, and the list of texture transforms that they animate.
 pub(super) struct AnimatedObjects<'a> {
     /// The nodes, for transforms and morph weights.
     pub(super) nodes: &'a [Node],
@@ -38,7 +38,7 @@ pub(super) struct AnimatedObjects<'a> {
 /// Reads all animations of a file.
 ///
 /// Channels with a node come first, then channels with a pointer. The duration is the time of the
-/// last keyframe of all channels, in seconds.
+/// last keyframe in any channel, in seconds.
 ///
 /// # Errors
 /// Fails if a limit is exceeded or a file cannot be read; errors in channels are only warnings.
@@ -52,7 +52,7 @@ pub(super) fn import_animations(
     for (at, json) in source.root.animations.iter().enumerate() {
         let mut channels = Vec::with_capacity(json.channels.len());
         let reader = AnimationReader { source, samplers: &json.samplers, animation: at };
-        // An error in a channel costs only that channel, but an exceeded limit ends the import.
+        // An error in a channel discards only that channel, but an exceeded limit ends the import.
         let mut keep = |read: Result<AnimationChannel, Diagnostic>| match read {
             Err(diagnostic) if diagnostic.is_downgradable() => {
                 warnings.downgrade(&diagnostic, "the channel is skipped");

@@ -47,7 +47,7 @@ impl ChannelValueKind {
 /// animatable property.
 ///
 /// The object must exist and have the property; a pointer into an absent extension or texture is
-/// not a target. The supported paths do not contain JSON pointer escapes.
+/// not a valid target. The supported paths do not contain JSON pointer escapes.
 pub(super) fn resolve_pointer(
     root: &Root,
     targets: &mut AnimatedObjects<'_>,

@@ -15,7 +15,7 @@ use std::ops::Range;
 /// Element and component types allowed for an attribute or for animation values, including
 /// KHR_mesh_quantization.
 ///
-/// Normalization is not restricted; conversion follows the accessor.
+/// Normalization is not restricted; conversion follows the accessor's `normalized` flag.
 pub(super) struct AllowedFormats {
     /// glTF's `type`.
     element_types: &'static [Type],
@@ -72,8 +72,8 @@ impl AllowedFormats {
     /// Checks that an accessor has one of the formats.
     ///
     /// # Errors
-    /// The message lists the allowed types by their JSON names and numbers, as they appear in
-    /// files.
+    /// Fails if it does not. The message lists the allowed types by their JSON names and numbers,
+    /// as they appear in files.
     pub(super) fn check_elements(
         &self,
         elements: &ResolvedAccessor<'_>,
@@ -113,7 +113,7 @@ fn type_name(shape: Type) -> &'static str {
 
 /// The range of vertices that a primitive's indices use.
 ///
-/// Arrays that are read have `used.len()` elements; index 0 is the vertex `used.start` in the file.
+/// Arrays have `used.len()` elements; index 0 is the vertex `used.start` in the file.
 pub(super) struct VertexRange {
     /// Number of vertices in the file.
     pub(super) vertices: usize,
@@ -178,7 +178,7 @@ impl AttributeReader<'_, '_> {
 
     /// Reads a set of texture coordinates. Non-finite coordinates become 0.
     ///
-    /// Otherwise a single NaN would spread over the triangle and its mip level selection.
+    /// Without this, a single NaN would spread over the triangle and its mip level selection.
     /// Coordinates outside [0, 1] are valid, because the sampler wraps them.
     ///
     /// # Errors

@@ -164,8 +164,8 @@ impl<'a> Buffers<'a> {
 }
 
 impl Buffers<'_> {
-    /// Turns a missing file into missing data in lenient mode, so that only the items that use it
-    /// are lost.
+    /// In lenient mode, turns a missing-file error into a missing-data error, so that only the
+    /// items that use the file are lost.
     fn soften_missing_file(&self, diagnostic: Diagnostic) -> Diagnostic {
         let is_file = matches!(diagnostic.code, codes::IO_ERROR | codes::FORBIDDEN_PATH);
         let code =

@@ -11,7 +11,7 @@ use gltf::json::validation::Checked;
 use model::{CameraProjection, Diagnostic, ModelCamera};
 use std::f64::consts::PI;
 
-/// Imports every camera of a file, and reports for each whether its parameters are valid.
+/// Imports every camera of a file, and returns for each whether its parameters are valid.
 ///
 /// Invalid cameras remain in the list with a default projection, because nodes and animations refer
 /// to cameras by index.

@@ -94,7 +94,7 @@ impl Container {
 ///
 /// # Errors
 /// Fails if the file is shorter than 12 bytes or than its declared length, or its version is not 2.
-/// In lenient mode, the existing part of a truncated file is read.
+/// In lenient mode, the available part of a truncated file is read.
 fn check_glb_header(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<usize, Diagnostic> {
     let (Some(version), Some(length)) = (read_u32(bytes, 4), read_u32(bytes, 8)) else {
         return Err(format_error(&format!("the file has only {} bytes", bytes.len()), TRUNCATED));
@@ -236,7 +236,7 @@ mod tests {
         for end in 0..whole.len() {
             let cut = Container::from_bytes(&whole[..end], &mut ImportWarnings::default());
             let diagnostic = cut.unwrap_err();
-            assert_eq!(diagnostic.code, codes::NOT_GLTF, "cut at {end}");
+            assert_eq!(diagnostic.code, codes::NOT_GLTF, "truncated at {end}");
             if end >= HEADER {
                 let expected = format!("the header declares 36 bytes, but the file has {end}");
                 assert_eq!(diagnostic.message, expected);

@@ -2,7 +2,7 @@
 //!
 //! On their own, these types reject valid files (an integer written as `1.0`, a scene without
 //! nodes, an animation channel without a target) and accept invalid files (an index of 2³² becomes
-//! 0). Both problems are fixed in the `Value` before it is converted to the types. The nesting
+//! 0). Both problems are fixed in the `Value` before it is converted to these types. The nesting
 //! depth and the number of values are limited before any value is built.
 //!
 //! ```text
@@ -22,8 +22,8 @@ use serde_json::{Map, Number, Value};
 
 /// The parsed JSON of a file.
 ///
-/// Parsing is complete before any buffer is read, so files that are not glTF cost no more than
-/// parsing.
+/// Parsing is complete before any buffer is read, so rejecting a file that is not glTF costs no
+/// more than parsing it.
 #[derive(Debug)]
 pub(super) struct GltfDocument {
     /// The file's content except for the node transforms. Its indices have not been checked.

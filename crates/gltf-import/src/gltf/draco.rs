@@ -26,8 +26,8 @@ const EXTENSION: &str = "KHR_draco_mesh_compression";
 
 /// Decoded contents of a stream.
 ///
-/// The bytes have the component type of the accessor, so that they are converted like any other
-/// accessor's.
+/// The bytes have the component type of the accessor, so that they are converted like the bytes of
+/// any other accessor.
 #[derive(Debug, Default)]
 pub(super) struct DracoData {
     /// Vertex indices of triangles.
@@ -283,8 +283,8 @@ mod decoder {
         attribute.buffer().data().get(start..)?.get(..size)
     }
 
-    /// Appends a value, converted to the component type of the accessor, which almost always
-    /// matches.
+    /// Appends a value, converted to the component type of the accessor; the types almost always
+    /// match.
     ///
     /// Numbers are converted by value with saturation and not rescaled, because the decoder has
     /// already dequantized them.

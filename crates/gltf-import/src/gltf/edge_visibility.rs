@@ -2,7 +2,7 @@
 //!
 //! The first packs two bits per triangle edge, lowest bits first, and may add edges as line
 //! strings. The second lists pairs of vertices. Invalid data is skipped with a warning; drawings
-//! then find edges from the shape. The silhouette normals of the first extension are not read,
+//! then detect edges from the shape. The silhouette normals of the first extension are not read,
 //! because the triangles have normals.
 //!
 //! ```text
@@ -27,8 +27,8 @@ const OUTLINE_EXTENSION: &str = "CESIUM_primitive_outline";
 
 /// Reads the edges of one primitive.
 ///
-/// The counts are those in the file, before invalid triangles are dropped, because the bits refer
-/// to them.
+/// The counts are taken before invalid triangles are dropped, because the bits refer to the
+/// triangles in the file.
 pub(super) struct EdgeReader<'a, 'w> {
     pub(super) source: &'a AccessorReader<'a>,
     pub(super) json: &'a Json,
@@ -217,7 +217,7 @@ fn index_member(json: &Value, member: &str) -> Option<usize> {
     json.get(member).and_then(Value::as_u64).map(|at| usize::try_from(at).unwrap_or(usize::MAX))
 }
 
-/// Renumbers edge vertices relative to the first used vertex, as for the triangles. Edges with
+/// Renumbers edge vertices relative to the first used vertex, as is done for triangles. Edges with
 /// unused vertices are removed.
 pub(super) fn rebase_edges(edges: &mut PrimitiveEdges, used: &std::ops::Range<usize>) {
     for lines in &mut edges.lines {

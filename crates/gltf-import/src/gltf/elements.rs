@@ -1,8 +1,8 @@
 //! Accessor elements: converts bytes to arrays of floats, shorts or indices.
 //!
-//! Tightly packed floats, by far the most common case, are converted in one loop over words that
-//! the compiler turns into a copy. Other types and strides are converted element by element, with
-//! the type selected outside the loop.
+//! Tightly packed floats, by far the most common case, are converted in a loop that the compiler
+//! turns into a copy. Other types and strides are converted element by element, with the type
+//! selected outside the loop.
 
 use gltf::json::accessor::{ComponentType, Type};
 use std::ops::Range;

@@ -1,8 +1,8 @@
 //! Extension support: lists the extensions that are drawn, ignored or rejected.
 //!
 //! To add a material extension (KHR_materials_…), follow "How to add" in ARCHITECTURE.md. Other
-//! extensions are read in the module of their object (for nodes, `scene_graph`). Then change the
-//! row in the table, which the program uses to report a file's extensions.
+//! extensions are read in the module of their object (for nodes, `scene_graph`). Then update the
+//! extension's row in the table, which the program uses to report a file's extensions.
 
 use crate::warnings::ImportWarnings;
 use gltf::json::Root;

@@ -235,8 +235,8 @@ fn image_bytes<'a>(
 
 /// Checks the size and number of texels against the limits.
 ///
-/// `texels_left` is the remainder of the limit for all images of the file, and is reduced by this
-/// image.
+/// `texels_left` is the remainder of the limit for all images of the file, and is reduced by the
+/// texels of this image.
 ///
 /// # Errors
 /// Fails if the size is 0. Returns [`LIMIT_EXCEEDED`](model::codes::LIMIT_EXCEEDED) for

@@ -45,8 +45,8 @@ pub(super) fn deserialize_document(
     }
 }
 
-/// Serializes the value and deserializes the text. The `gltf` crate has already compiled that code
-/// for its types, and the column of an error leads back to the value.
+/// Serializes the value and deserializes the text. The text parser is already compiled for the
+/// types of the `gltf` crate, and the column of an error locates the value.
 ///
 /// # Errors
 /// Returns the first mistake.

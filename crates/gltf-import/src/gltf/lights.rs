@@ -193,7 +193,7 @@ mod tests {
         let LightKind::Spot { inner_cone_angle: inner, outer_cone_angle: outer, .. } =
             spot.unwrap().kind
         else {
-            panic!("no spot")
+            panic!("expected a spot light")
         };
         assert!(inner < outer && outer == 0.5 && warnings == 1, "{inner} {outer} {warnings}");
     }

@@ -1,8 +1,8 @@
 //! Materials: factors and textures, including the KHR_materials extensions.
 //!
-//! Extension numbers are found through the table of [animatable properties](model::object_model),
-//! which contains their JSON pointers and bounds, and textures through the table of
-//! [`TextureSlot`]s.
+//! Numeric extension properties are found through the table of [animatable
+//! properties](model::object_model), which contains their JSON pointers and bounds, and textures
+//! through the table of [`TextureSlot`]s.
 //!
 //! ```text
 //!  core members ──────────────────────────► Material
@@ -67,8 +67,8 @@ impl<'a> MaterialReader<'a, '_> {
     /// Factors out of range are clamped with a warning. Specular-glossiness textures replace the
     /// metallic-roughness textures, which files also contain for readers without the extension.
     ///
-    /// At the end, `update_derived` computes fields that depend on several others. Animations call
-    /// it too.
+    /// At the end, `update_derived` computes fields that depend on several others. Animations also
+    /// call it.
     fn read_material(mut self) -> Material {
         let json = &self.root.materials[self.at];
         let pbr = &json.pbr_metallic_roughness;
@@ -174,7 +174,7 @@ impl<'a> MaterialReader<'a, '_> {
             else {
                 continue;
             };
-            // The scale of the clearcoat normals is read with their texture.
+            // The scale of the clearcoat normal map is read with its texture.
             let json = self.extension_object(name).and_then(|extension| extension.get(member));
             let (Some(json), Some(numbers)) = (json, numbers(material)) else { continue };
             let given: Option<Vec<f32>> = match json {
@@ -268,7 +268,7 @@ impl<'a> MaterialReader<'a, '_> {
 
     /// Reads the texture in a slot. A reference to a missing texture causes a warning.
     ///
-    /// The `texCoord` of KHR_texture_transform, if present, overrides that of the texture
+    /// The `texCoord` of KHR_texture_transform, if present, overrides the `texCoord` of the texture
     /// reference.
     fn read_texture(&mut self, slot: TextureSlot) -> Option<TextureInfo> {
         let JsonTextureInfo { texture, uv_set, transform, .. } =

@@ -187,7 +187,7 @@ impl CompressionMode {
         }
     }
 
-    /// Checks the element size. The error names the allowed sizes.
+    /// Checks the element size. The error lists the allowed sizes.
     fn check_stride(self, stride: usize) -> Result<(), &'static str> {
         let fits = |fits: bool, allowed| if fits { Ok(()) } else { Err(allowed) };
         match self {

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  1. scene graph    nodes, scenes, cameras, lights, materials, textures, skins, animations
-//!  2. images         those that the JSON appears to need: read, then decoded by other threads
+//!  2. images         images that the JSON appears to need: read, then decoded by other threads
 //!  3. geometry       meshes, variants, instances, while the images are decoded
 //!  4. images         stored, or read again if the meshes turn out to need others
 //! ```

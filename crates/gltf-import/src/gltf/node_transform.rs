@@ -2,7 +2,7 @@
 //!
 //! The `gltf` crate stores transforms in single precision, which would lose millimeters in models
 //! far from the origin, as is common in CAD and map data. So the transforms are removed from the
-//! JSON beforehand.
+//! JSON before it is deserialized.
 
 use crate::warnings::ImportWarnings;
 use glam::{DMat4, DVec4};

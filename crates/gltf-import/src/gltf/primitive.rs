@@ -276,8 +276,8 @@ impl<'a> PrimitiveReader<'a, '_> {
 
     /// Removes items with an out-of-range index. All remaining indices are valid.
     ///
-    /// Whole points, lines or triangles are removed, never single indices, because this would shift
-    /// all others.
+    /// Whole points, lines or triangles are removed, never single indices, because that would shift
+    /// all the others.
     ///
     /// The highest index is tested first, in one pass that the compiler vectorizes; almost all
     /// files need only this test.
@@ -314,8 +314,8 @@ impl<'a> PrimitiveReader<'a, '_> {
 
     /// Reads all attributes except positions.
     ///
-    /// Texture coordinates are read up to the last set that the primitive has. A missing set before
-    /// it becomes zeros, because materials refer to sets by number.
+    /// Texture coordinates are read up to the last set that the primitive has. Missing sets before
+    /// it are filled with zeros, because materials refer to sets by number.
     ///
     /// # Errors
     /// Fails if a limit is exceeded or a file cannot be read. An invalid attribute is dropped with

@@ -35,7 +35,7 @@ pub(super) struct CollectedScalars {
     primitives: Vec<PrimitiveScalars>,
 }
 
-/// All scalar attribute names, without duplicates, in alphabetical order.
+/// Returns all scalar attribute names, without duplicates, in alphabetical order.
 pub(super) fn scalar_attributes(root: &Root) -> Vec<String> {
     let is_scalar = |accessor: &json::Index<json::Accessor>| {
         let accessor = root.accessors.get(accessor.value());
@@ -86,7 +86,7 @@ impl CollectedScalars {
         let (accessor, pointer) = named(attribute.clone());
         let values =
             attributes.read_attribute(accessor, &pointer, &CUSTOM_SCALAR, |source, elements| {
-                // Charges for the conversion to colors.
+                // Charge the budget for the conversion to colors.
                 source.charge_array(elements.accessor, elements.count, 16)?;
                 source.read_floats::<1>(&elements)
             })?;

@@ -95,7 +95,7 @@ fn read_node(
 /// `what` is the name of the member and, in messages, the kind of object that it refers to.
 ///
 /// # Errors
-/// Fails if the index is out of range. In lenient mode, the node then lacks the object.
+/// Fails if the index is out of range. In lenient mode, the reference is dropped instead.
 fn checked_index<T>(
     index: Option<Index<T>>,
     what: &str,
@@ -274,7 +274,7 @@ pub(super) fn scene_roots(
 }
 
 /// Returns whether a node that a scene lists should be drawn as a root. If one of its ancestors is
-/// also listed, that already draws the node.
+/// also listed, the node is already drawn with that ancestor.
 fn is_scene_root(
     nodes: &[Node],
     listed: &[bool],

@@ -80,7 +80,7 @@ pub(super) fn variant_materials(
         let pointer = format!("{pointer}/extensions/{VARIANTS_EXTENSION}/mappings/{position}");
         let index =
             |json: Option<&Value>| json.and_then(Value::as_u64).map(|position| position as usize);
-        // A missing index is treated like one out of range.
+        // A missing index is treated like an out-of-range index.
         let material = index(mapping.get("material")).unwrap_or(usize::MAX);
         let listed = mapping.get("variants").and_then(Value::as_array).into_iter().flatten();
         let diagnostic = if material < root.materials.len() {

@@ -36,8 +36,8 @@ pub(super) fn import_skins(
 /// Extra matrices, beyond the number of joints, are ignored.
 ///
 /// # Errors
-/// Fails if there are no joints, a joint does not exist, or the inverse bind matrices have the
-/// wrong format, are too few or are not affine.
+/// Fails if there are no joints, a joint does not exist, or the inverse bind matrices are too few,
+/// not affine, or in the wrong format.
 fn read_skin(source: &AccessorReader<'_>, at: usize) -> Result<Skin, Diagnostic> {
     let json = &source.root.skins[at];
     let count = source.root.nodes.len();

@@ -63,7 +63,7 @@ fn texture_image(root: &Root, at: usize, warnings: &mut ImportWarnings) -> Optio
     None
 }
 
-/// Converts the sampler. Missing or unknown states take their defaults.
+/// Converts the sampler. Missing or unknown members get their defaults.
 ///
 /// ```text
 ///  minFilter                 min_filter   mipmap_mode

@@ -17,9 +17,9 @@ use model::Topology;
 /// Expands a sequence of vertices to a list. Leftover vertices that do not form another item are
 /// dropped.
 ///
-/// Lists need up to three times as many indices as strips, but leave a single case for all later
-/// steps. Degenerate triangles, which stitch strips together, are retained, because they cover no
-/// pixels.
+/// Lists need up to three times as many indices as strips, but later steps then have only one case
+/// to handle. Degenerate triangles, which stitch strips together, are retained, because they cover
+/// no pixels.
 pub(super) fn expand_to_list(mode: Mode, mut vertices: Vec<u32>) -> (Topology, Vec<u32>) {
     let topology = match mode {
         Mode::Points => Topology::Points,

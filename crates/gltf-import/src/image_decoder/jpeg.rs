@@ -6,8 +6,8 @@
 //! Source: ITU-T T.81 (1992), §B.2.2.
 
 /// Rejects files in which a later component is sampled more finely than the first. The decoder
-/// sizes its buffers for the rows of the first component, and panics if another needs more. No
-/// camera or program is known to write such files.
+/// sizes its buffers for the rows of the first component, and panics if another component needs
+/// more. No camera or program is known to write such files.
 ///
 /// Everything that looks like a frame header is checked, anywhere in the file. Entropy-coded data
 /// cannot contain the marker, and it is not known which header the decoder will find in a broken
@@ -82,12 +82,12 @@ mod tests {
     fn truncated_or_mismatched_headers_are_ignored() {
         let whole = frame_header(&[0x11, 0x11, 0x22]);
         for end in 0..whole.len() {
-            assert_eq!(check_chroma_sampling(&whole[..end]), Ok(()), "cut at {end}");
+            assert_eq!(check_chroma_sampling(&whole[..end]), Ok(()), "truncated at {end}");
         }
         let mut longer = whole.clone();
         longer[5] += 1;
         assert_eq!(check_chroma_sampling(&longer), Ok(()));
         let message = check_chroma_sampling(&[longer, whole].concat()).unwrap_err();
-        assert!(message.starts_with("the JPEG has more samples"), "the second header counts too");
+        assert!(message.starts_with("the JPEG has more samples"), "both headers count");
     }
 }

@@ -7,7 +7,7 @@
 //!                       └─ Zstandard or plain ─► RGB or RGBA ──┘
 //! ```
 //! The container is read here, so that every size is checked before anything is allocated for it;
-//! the `basisu` crate decodes blocks. Only that crate's two RGBA decoders are called. Its
+//! the `basisu` crate decodes the blocks. Only that crate's two RGBA decoders are called. Its
 //! `Transcoder` has a dozen more targets, which would all be linked, and reads more kinds of input
 //! than glTF allows.
 
@@ -151,7 +151,7 @@ mod tests {
         assert!(decode(&bytes).is_ok());
         for end in 0..bytes.len() {
             let message = decode(&bytes[..end]).unwrap_err();
-            assert!(message.contains("the KTX2 image"), "cut at {end}: {message}");
+            assert!(message.contains("the KTX2 image"), "truncated at {end}: {message}");
         }
     }
 }

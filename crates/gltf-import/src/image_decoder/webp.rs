@@ -144,7 +144,7 @@ mod tests {
         assert_eq!(fits(&[&wide]), too_large("9 x 4"));
         assert_eq!(fits(&[&odd, &small, &high]), too_large("8 x 5"));
         assert_eq!(fits(&[&moving(&small), &moving(&wide)]), too_large("9 x 4"));
-        assert_eq!(fits(&[&small, b"VP8 \xFF\xFF\xFF\xFF\0\0\0\x9D\x01"]), Ok(()), "cut off");
+        assert_eq!(fits(&[&small, b"VP8 \xFF\xFF\xFF\xFF\0\0\0\x9D\x01"]), Ok(()), "truncated");
         assert_eq!(fits(&[&frame(0x4008, 0xC004)]), Ok(()), "with upscaling hints");
     }
 }

@@ -1,5 +1,5 @@
 //! Counts errors that do not affect the shape of a model. Each kind is reported once, with the
-//! location of the first.
+//! location of the first occurrence.
 
 use super::elements::NONE;
 use crate::text::LineCounter;

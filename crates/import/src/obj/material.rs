@@ -15,7 +15,7 @@
 //! Black `Kd` and `Ke` become white if a texture multiplies them.
 //!
 //! Files do not specify how colors are encoded. Users picked them on screens, and the programs of
-//! the time displayed them without conversion, so they are sRGB.
+//! the time displayed them without conversion, so they are treated as sRGB.
 //!
 //! `Ns` is the exponent of Blinn's distribution of half vectors. The Beckmann and GGX distributions
 //! with α² = 2 / (Ns + 2) approximate it (B. Walter et al., *Microfacet Models for Refraction

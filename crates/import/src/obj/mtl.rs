@@ -75,7 +75,7 @@ const TEXTURES: [(&str, &str); 23] = [
     ("decal", ""),
 ];
 
-/// Statements without effect, because the scene sets the ambient light and the renderer the
+/// Statements that are ignored because the scene sets the ambient light and the renderer sets the
 /// filters.
 const IGNORED: [&str; 5] = ["Ka", "map_Ka", "map_aat", "sharpness", "Tf"];
 

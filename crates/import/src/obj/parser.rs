@@ -19,7 +19,7 @@ const IGNORED: [&[u8]; 6] =
 /// The content of an OBJ file. Names are slices of its text.
 #[derive(Debug, Default)]
 pub(super) struct ObjFile<'a> {
-    /// Positions, not finite if the statement is broken.
+    /// Positions; a position is not finite if its statement is broken.
     pub(super) positions: Vec<[f32; 3]>,
     /// Vertex colors as stored in the file, with NaN for missing components. Shorter than
     /// `positions` if the last vertices have no colors.
@@ -54,7 +54,8 @@ pub(super) struct GroupName<'a> {
 /// Parses an OBJ file in UTF-8.
 ///
 /// # Errors
-/// Fails if an element refers to a vertex that does not exist. In lenient mode it is skipped.
+/// Fails if an element refers to a vertex that does not exist. In lenient mode, the element is
+/// skipped.
 pub(super) fn parse_obj<'a>(
     text: &'a [u8],
     warnings: &mut ImportWarnings,
@@ -364,8 +365,7 @@ fn take_integer(rest: &mut &[u8]) -> Option<i64> {
 }
 
 /// Converts a reference (from 1, or from −1 for the last of `count`) to an index from 0. Returns
-/// `None` if there can be no such item. An item whose index is `count` or more may be defined
-/// later.
+/// `None` if no such item can exist. An item whose index is `count` or more may be defined later.
 #[inline]
 fn resolve_index(reference: i64, count: usize) -> Option<u32> {
     let index = if reference > 0 { reference - 1 } else { count as i64 + reference };

@@ -9,7 +9,7 @@ use gltf_import::ImportWarnings;
 use model::{Diagnostic, Topology, codes};
 use std::collections::BTreeMap;
 
-/// Smoothing groups from this number on belong to single polygons.
+/// Smoothing groups from this number on each belong to a single polygon.
 pub(super) const FLAT_GROUP: u32 = 1 << 31;
 
 /// Attributes shared by all items of a part.
@@ -52,8 +52,8 @@ impl Part {
 /// Splits and sorts the elements of a file. Parts are in the order of their first elements.
 ///
 /// # Errors
-/// Fails if an element has a vertex that is not three finite numbers. In lenient mode it is
-/// skipped.
+/// Fails if an element has a vertex that is not three finite numbers. In lenient mode, the element
+/// is skipped.
 pub(super) fn split_elements(
     file: &ObjFile<'_>,
     text: &[u8],

@@ -61,7 +61,7 @@ impl PhongMaterial {
         }
     }
 
-    /// Returns whether `Tr 1` alone specifies the opacity.
+    /// Returns whether `Tr 1` is the only opacity value, which would make everything invisible.
     pub(super) fn is_invisible_by_transparency(&self) -> bool {
         self.dissolve.is_none() && self.transparency.is_some_and(|transparency| transparency >= 1.0)
     }

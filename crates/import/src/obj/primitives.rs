@@ -22,8 +22,8 @@ pub(super) struct GroupPrimitive {
 /// Builds the primitives of a file, in the order of their first elements.
 ///
 /// # Errors
-/// Fails if an element has a vertex that is not three finite numbers. In lenient mode it is
-/// skipped.
+/// Fails if an element has a vertex that is not three finite numbers. In lenient mode, the element
+/// is skipped.
 pub(super) fn build_primitives(
     mut file: ObjFile<'_>,
     text: &[u8],

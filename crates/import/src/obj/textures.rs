@@ -174,11 +174,11 @@ fn combine_all(
         ImageSource::File { .. } => file(at).cloned(),
         ImageSource::Opacity { color, opacity: other, channel } => {
             let color = color.and_then(file);
-            // If the opacity cannot be read, the color remains.
+            // If the opacity cannot be read, the color is used unchanged.
             let Some(other) = file(*other) else { return color.cloned() };
             let has_alpha = other.rgba.iter().any(|texel| texel[3] < 255);
             let alpha = |texel| opacity(texel, *channel, has_alpha);
-            // Combined images count against the limit too, because a small file can request many.
+            // Combined images also count against the limit, because a small file can request many.
             limit.allows(color.unwrap_or(other)).then(|| match color {
                 Some(color) => combine_images(color, Some(other), |[r, g, b, _], beside| {
                     [r, g, b, beside.map_or(255, alpha)]

@@ -57,8 +57,8 @@ struct FaceRecord {
 /// Reads the polygons of an element.
 ///
 /// # Errors
-/// Fails if an index has no vertex, or the file ends before the last face. In lenient mode the face
-/// or the rest of the faces is skipped.
+/// Fails if an index refers to a missing vertex, or the file ends before the last face. In lenient
+/// mode, the face or all remaining faces are skipped.
 pub(super) fn read_faces(
     body: &mut Body<'_>,
     element: &PlyElement,
@@ -104,7 +104,7 @@ pub(super) fn read_faces(
 }
 
 impl FaceRecord {
-    /// Reads a face. An inner error concerns only this face.
+    /// Reads a face. An error that affects only this face is returned as `Ok(Some(error))`.
     ///
     /// # Errors
     /// Fails if nothing after the error can be read.
@@ -153,9 +153,9 @@ impl FaceRecord {
     }
 }
 
-/// Returns the error for an index without a vertex.
+/// Returns the error for an index of a missing vertex.
 pub(super) fn no_such_vertex(body: &Body<'_>, vertex: f64, vertices: u64) -> Diagnostic {
-    body.fault(&format!("there is no vertex {vertex}: the file has {vertices}, counted from 0"))
+    body.fault(&format!("there is no vertex {vertex}: the file has {vertices}, numbered from 0"))
 }
 
 impl Faces {
@@ -187,7 +187,7 @@ impl Faces {
 
 /// Reads triangle strips: lists of vertices in which −1 starts a new strip.
 ///
-/// Every second triangle of a strip is reversed, so that all face the same side.
+/// Every second triangle of a strip is reversed, so that all face the same way.
 ///
 /// # Errors
 /// Fails in the same cases as [`read_faces`].

@@ -145,7 +145,7 @@ fn triangulate_faces(
 
 /// Builds the triangles for each texture.
 ///
-/// Texture coordinates of corners override those of vertices, and vertex colors override face
+/// Corner texture coordinates override vertex texture coordinates, and vertex colors override face
 /// colors. A textured surface has no other colors.
 fn build_surface(
     faces: &Faces,

@@ -17,7 +17,7 @@ use glam::{DVec3, Vec3};
 pub(crate) enum Smoothing<'a> {
     /// The angle between the triangle normals is at most this many degrees.
     CreaseAngle(f64),
-    /// Both triangles are in the same smoothing group other than 0; contains the group of each
+    /// Both triangles are in the same nonzero smoothing group. The slice contains the group of each
     /// triangle.
     Groups(&'a [u32]),
 }
@@ -25,8 +25,8 @@ pub(crate) enum Smoothing<'a> {
 /// Vertex normals, and the vertices that were split for them.
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct CreaseNormals {
-    /// Vertices of the triangles. Indices beyond the given positions are new vertices; all other
-    /// vertices remain in use.
+    /// Vertices of the triangles. Indices beyond the original positions are new vertices. Original
+    /// vertices that were in use remain in use.
     pub(crate) triangles: Vec<[u32; 3]>,
     /// For each new vertex in order, the vertex it is a copy of.
     pub(crate) copies: Vec<u32>,
@@ -34,7 +34,7 @@ pub(crate) struct CreaseNormals {
     pub(crate) normals: Vec<[f32; 3]>,
 }
 
-/// The tolerance by which cosines may be below the cosine of the crease angle.
+/// The amount by which the cosine between two normals may be below the cosine of the crease angle.
 ///
 /// It allows for rounded coordinates, so that all edges of a twelve-sided prism, whose normals are
 /// 30° apart, are treated alike.
@@ -214,7 +214,7 @@ fn arc_cosine(cosine: f32) -> f32 {
 
 /// The corners at each vertex. Corner 3 t + k is the k-th corner of triangle t.
 struct CornersByVertex {
-    /// For each vertex, the end of its corners in the list; initially the beginning.
+    /// For each vertex, the end of its corners in the list; before they are filled in, the start.
     ends: Vec<u32>,
     /// The corners, sorted by vertex and then by triangle.
     corners: Vec<u32>,
@@ -322,7 +322,7 @@ impl VertexFans {
                 && smooth.joins(corners[one as usize] / 3, corners[other as usize] / 3)
             {
                 let (one, other) = (self.find_root(one), self.find_root(other));
-                // The smaller index becomes the root in any order of the edges.
+                // The smaller index becomes the root, regardless of the order of the edges.
                 self.roots[one.max(other) as usize] = one.min(other);
             }
         }

@@ -70,7 +70,7 @@ mod tests {
             }
             zeros += usize::from(whole == 0);
         }
-        assert!(zeros > 100, "collinear points are among them");
+        assert!(zeros > 100, "some of the points are collinear");
     }
 
     #[test]

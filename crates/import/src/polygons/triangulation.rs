@@ -41,11 +41,11 @@ pub(crate) enum PolygonKind {
 pub(crate) struct Triangulator {
     /// The corners in the plane, in counter-clockwise order.
     points: Vec<[f64; 2]>,
-    /// The remaining corner before each corner.
+    /// For each corner, the previous corner that has not been clipped.
     previous: Vec<u32>,
-    /// The remaining corner after each corner.
+    /// For each corner, the next corner that has not been clipped.
     next: Vec<u32>,
-    /// Whether each corner remains and is reflex or collinear.
+    /// Whether each corner has not been clipped and is reflex or collinear.
     is_reflex: Vec<bool>,
     /// The axis of the plane along which the polygon is longer.
     long_axis: usize,
@@ -153,8 +153,8 @@ impl Triangulator {
         reflex_in_order.sort_by(|(a, _), (b, _)| a[*axis].total_cmp(&b[*axis]));
     }
 
-    /// Clips ears until one triangle is left. If there is no ear, a collinear corner is clipped; if
-    /// there is none either, the rest becomes a fan.
+    /// Clips ears until one triangle is left. Without an ear, a collinear corner is clipped;
+    /// without a collinear corner, the rest becomes a fan.
     fn cut_ears(&mut self, triangles: &mut Vec<[u32; 3]>) -> PolygonKind {
         let (mut at, mut remaining, mut since_cut) = (0_u32, self.points.len(), 0_usize);
         while remaining > 3 {

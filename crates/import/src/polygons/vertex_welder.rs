@@ -19,8 +19,8 @@ pub(crate) struct VertexWelder {
 
 /// A slot without a vertex.
 const EMPTY: u32 = u32::MAX;
-/// Number of slots to probe before the search tree is used. It makes files with contrived
-/// collisions slower by a logarithmic factor instead of quadratic.
+/// Number of slots to probe before the search tree is used. With this limit, contrived collisions
+/// cost a logarithmic factor instead of quadratic time.
 const PROBES: usize = 32;
 /// Number of positions whose slots are read ahead of use.
 const BATCH: usize = 192;
@@ -96,7 +96,7 @@ impl VertexWelder {
                 return vertex;
             }
         }
-        // A file can be made so that all its hashes collide. An ordered map keeps that case fast.
+        // A file can be crafted so that all hashes collide. An ordered map keeps that case fast.
         if let Some(vertex) = self.crowded.get(&key) {
             return *vertex;
         }

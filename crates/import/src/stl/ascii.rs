@@ -92,7 +92,7 @@ impl<'a> SolidReader<'a, '_> {
         Err(self.unexpected(keyword, "facet"))
     }
 
-    /// Reads the rest of a line, up to a facet if there is one, because some files have no line
+    /// Reads a name: the rest of the line, up to any facet on it, because some files have no line
     /// ends.
     fn read_name(&mut self) -> String {
         let mut rest = self.scanner.clone();
@@ -159,7 +159,7 @@ impl<'a> SolidReader<'a, '_> {
     fn read_corners(&mut self) -> Result<[[f32; 3]; 3], Diagnostic> {
         let mut token = self.require("normal")?;
         if token.is_keyword("normal") {
-            // A normal with too few numbers does not consume the loop.
+            // Stop at the keyword `outer`, because the normal may have too few numbers.
             for _ in 0..4 {
                 token = self.require("outer")?;
                 if token.is_keyword("outer") {

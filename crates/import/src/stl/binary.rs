@@ -16,7 +16,7 @@ use gltf_import::MemoryBudget;
 use model::{Diagnostic, codes};
 use std::io::Read;
 
-/// Maximum number of array bytes per triangle, which occurs while normals are computed without
+/// Maximum number of array bytes per triangle, which is reached while normals are computed without
 /// shared vertices.
 const ARRAY_BYTES: u64 = 140;
 

@@ -158,7 +158,7 @@ fn truncated_files_are_errors_or_read_leniently() {
     }
     let lenient = ImportOptions { lenient: true, ..ImportOptions::default() };
     for bytes in [&file[..150], &text.as_bytes()[..200]] {
-        let model = load_bytes("part.stl", bytes, &lenient).expect("a part of it");
+        let model = load_bytes("part.stl", bytes, &lenient).expect("the available part");
         assert_eq!(model.meshes[0].primitives[0].item_count(), 1);
         assert!(!model.warnings.is_empty());
     }
@@ -211,7 +211,7 @@ fn unexpected_words_are_reported_with_a_location() {
         let said = refusal(text.as_bytes());
         assert!(from == "outer" || said.starts_with(message), "{said}");
         let lenient = ImportOptions { lenient: true, ..ImportOptions::default() };
-        let model = load_bytes("part.stl", text.as_bytes(), &lenient).expect("the rest of it");
+        let model = load_bytes("part.stl", text.as_bytes(), &lenient).expect("the rest");
         assert!(model.meshes[0].primitives[0].item_count() >= 1, "{to}");
     }
 }

@@ -51,8 +51,8 @@ pub(crate) fn parse_integer(token: &[u8]) -> Option<i64> {
     Some(if is_negative { -value } else { value })
 }
 
-/// Parses the float at the beginning of a text, and returns it with the length of its token, in one
-/// pass. Returns `None` unless it has few digits and a small exponent and is followed by white
+/// Parses the float at the beginning of a string, and returns it with the length of its token, in
+/// one pass. Returns `None` unless it has few digits and a small exponent and is followed by white
 /// space.
 #[inline]
 pub(super) fn simple_decimal(text: &[u8]) -> Option<(f32, usize)> {
@@ -77,7 +77,7 @@ fn fast_decimal(token: &[u8]) -> Option<f64> {
     scan_decimal(token).filter(|(_, length)| *length == token.len()).map(|(value, _)| value)
 }
 
-/// Parses the number at the beginning of a text by one exact operation, and returns it with its
+/// Parses the number at the beginning of a string by one exact operation, and returns it with its
 /// length. Returns `None` if it has too many digits or too large an exponent for this.
 #[inline]
 fn scan_decimal(text: &[u8]) -> Option<(f64, usize)> {

@@ -39,7 +39,7 @@ mod tests {
         for bytes in [&little[..], &big, "\u{FEFF}v ä𝄞".as_bytes(), "v ä𝄞".as_bytes()] {
             assert_eq!(*decode_text(bytes), *"v ä𝄞".as_bytes());
         }
-        assert_eq!(*decode_text(b"\xFF\xFE\x00\xD8a"), *"\u{FFFD}".as_bytes(), "half a pair");
+        assert_eq!(*decode_text(b"\xFF\xFE\x00\xD8a"), *"\u{FFFD}".as_bytes(), "lone surrogate");
         assert_eq!(*decode_text(b"v \xE4"), *b"v \xE4");
     }
 }

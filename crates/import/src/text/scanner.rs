@@ -1,9 +1,9 @@
-//! Scans the lines and tokens of a text by byte offset, and locates offsets by line and column for
+//! Scans the lines and tokens of text by byte offset, and locates offsets by line and column for
 //! messages.
 
 use super::decimal::simple_decimal;
 
-/// Reads the lines or tokens of a text.
+/// Reads the lines or tokens of text.
 ///
 /// Lines end with LF, CR or both. Every byte up to and including the space character, except for
 /// line ends, is white space, because some exporters write tabs, form feeds and NUL.
@@ -13,22 +13,22 @@ pub(crate) struct TextScanner<'a> {
     at: usize,
 }
 
-/// A piece of a text: a line, or a run of bytes without white space.
+/// A piece of text: a line, or a run of bytes without white space.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Token<'a> {
-    /// The bytes; not empty, except for a line.
+    /// The bytes; only a line may be empty.
     pub(crate) bytes: &'a [u8],
     /// Offset of the first byte in the text.
     pub(crate) offset: usize,
 }
 
 impl<'a> TextScanner<'a> {
-    /// Creates a scanner at the beginning of a UTF-8 text.
+    /// Creates a scanner at the beginning of UTF-8 text.
     pub(crate) const fn new(text: &'a [u8]) -> Self {
         Self { text, at: 0 }
     }
 
-    /// Creates a scanner that starts at an offset in a text.
+    /// Creates a scanner that starts at an offset in text.
     pub(crate) const fn starting_at(text: &'a [u8], offset: usize) -> Self {
         Self { text, at: offset }
     }
@@ -64,8 +64,8 @@ impl<'a> TextScanner<'a> {
         is_next
     }
 
-    /// Reads a number in the usual form, which is faster than reading a token. Returns `None`,
-    /// without consuming anything, for any other token.
+    /// Reads a number in the most common form, which is faster than reading a token. Returns
+    /// `None`, without consuming anything, for any other token.
     #[inline]
     pub(crate) fn next_simple_number(&mut self) -> Option<f32> {
         let start = self.skip_space();
@@ -130,7 +130,7 @@ impl<'a> Token<'a> {
 
 /// Counts lines up to an offset, for the locations of messages.
 ///
-/// Counting continues from the last offset, so any number of messages in text order takes a single pass.
+/// Counting continues from the last offset, so locating offsets in text order takes a single pass.
 #[derive(Debug)]
 pub(crate) struct LineCounter<'a> {
     text: &'a [u8],
@@ -197,7 +197,7 @@ mod tests {
             ("four", "line 4, column 2"),
         ];
         assert_eq!(found, expected.map(|(word, place)| (word.to_owned(), place.to_owned())));
-        assert_eq!(counter.locate(4), "line 1, column 5", "backward");
+        assert_eq!(counter.locate(4), "line 1, column 5", "an earlier offset");
         let line = TextScanner::new(b"  a  bc ").next_line().unwrap();
         let offsets: Vec<usize> = line.tokens().map(|token| token.offset).collect();
         assert_eq!((offsets, line.trim().bytes), (vec![2, 5], &b"a  bc"[..]));

@@ -31,7 +31,7 @@ pub(super) struct Entry {
     method: u16,
     /// Checksum of the content.
     crc: u32,
-    /// Number of bytes in the archive.
+    /// Number of compressed bytes in the archive.
     compressed: u64,
     /// Number of bytes of the content.
     size: u64,

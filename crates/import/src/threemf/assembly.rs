@@ -196,7 +196,7 @@ impl Assembly {
                     stack.push((at, next + 1));
                     stack.push((component.object, 0));
                 }
-                // An object whose count has begun but not ended is an ancestor of this one.
+                // An object whose count has begun but not ended is an ancestor of this object.
                 Progress::Begun => {
                     let location = &self.objects[at].location;
                     let fault = Diagnostic::invalid(location, "the object contains itself");

@@ -11,7 +11,7 @@ use gltf_import::ImportWarnings;
 use homog::{Affine, Model as ModelSpace};
 use model::{Diagnostic, LengthUnit, Material};
 
-/// Memory for an object in addition to its mesh and components; its tags may be shorter.
+/// Memory for an object without its mesh and components; it may exceed the length of the tags.
 const OBJECT_BYTES: u64 = 256;
 
 /// A reference to an object: an item to build, or a component of an object.
@@ -128,7 +128,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
         false
     }
 
-    /// Adds a warning at an element, unless there already is a warning on the same subject.
+    /// Adds a warning at an element, unless there is already a warning on the same subject.
     pub(super) fn say_once(&mut self, element: &Element<'_>, subject: &'static str, message: &str) {
         if !self.said.contains(&subject) {
             self.said.push(subject);
@@ -197,7 +197,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
         };
         let mut entries = Vec::new();
         while let Some(entry) = self.xml.next_child(depth)? {
-            // Charged one by one: a material takes far more memory than its text.
+            // Charged one by one, because a material takes far more memory than its text.
             if kind == GroupKind::Base {
                 let location = self.xml.location_of(&entry);
                 self.package.charge_bytes(&location, size_of::<Material>() as u64)?;

@@ -47,12 +47,12 @@ impl<'a> Namespaces<'a> {
             (b"", b"xmlns") => Some((&b""[..], uri)),
             _ => None,
         });
-        // A part has only a few; more would make each lookup slow.
+        // A part has only a few prefixes; more would make each lookup slow.
         Self { prefixes: declared.take(64).collect() }
     }
 
-    /// Returns the name of a prefix's namespace for messages, and its level of support. An
-    /// undeclared prefix counts as read.
+    /// Returns the name of a prefix's namespace for messages, and its level of support. Elements
+    /// with an undeclared prefix are read.
     pub(super) fn support_of(&self, prefix: &[u8]) -> (&'static str, Support) {
         let Some(uri) = self.prefixes.iter().find(|(p, _)| *p == prefix).map(|(_, uri)| *uri)
         else {
@@ -72,7 +72,7 @@ impl<'a> Namespaces<'a> {
     /// Checks the extensions that a part requires.
     ///
     /// # Errors
-    /// Fails if an extension is unknown or encrypts the content. In lenient mode it is ignored.
+    /// Fails if an extension is unknown or encrypts the content; in lenient mode, it is ignored.
     pub(super) fn check_required(
         &self,
         root: &Element<'_>,

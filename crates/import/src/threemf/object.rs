@@ -117,7 +117,7 @@ impl PartReader<'_, '_> {
                     NONE => Diagnostic::invalid(&location, "the triangle lacks a vertex"),
                     corner => {
                         let message = format!("there is no vertex {corner}: the mesh has {count}");
-                        Diagnostic::invalid(&location, message + ", counted from 0")
+                        Diagnostic::invalid(&location, message + ", numbered from 0")
                     }
                 };
                 self.warnings.downgrade_if_lenient(fault, "the triangle is skipped")?;

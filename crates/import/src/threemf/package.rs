@@ -91,7 +91,7 @@ impl<'a> Package<'a> {
     /// only part with a model file name.
     ///
     /// # Errors
-    /// Fails if there is no model part: the archive is not 3MF.
+    /// Fails if there is no model part, which means that the archive is not 3MF.
     pub(super) fn model_part(&self, warnings: &mut ImportWarnings) -> Result<String, Diagnostic> {
         const RELATIONSHIPS: &str = "_rels/.rels";
         if self.part_name(RELATIONSHIPS).is_some() {

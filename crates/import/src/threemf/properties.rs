@@ -2,8 +2,8 @@
 //!
 //! ```text
 //!  basematerials         a material for each base, with its display color
-//!  colorgroup            colors of corners
-//!  texture2dgroup        texture coordinates of corners
+//!  colorgroup            corner colors
+//!  texture2dgroup        corner texture coordinates
 //!  compositematerials    the mean of base colors, weighted by their proportions
 //!  multiproperties       layers: the last texture, or the mixture of colors
 //! ```
@@ -311,7 +311,7 @@ impl PartProperties {
             } else if layer.multiplies {
                 color = std::array::from_fn(|c| color[c] * own[c]);
             } else {
-                // Blend over the layers below; over a texture, within the limits of a factor.
+                // Blend over the layers below. Over a texture, a factor can only approximate this.
                 let below = color;
                 color = std::array::from_fn(|c| below[c] + (own[c] - below[c]) * own[3]);
                 color[3] = own[3] + below[3] * (1.0 - own[3]);

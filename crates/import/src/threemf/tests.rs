@@ -276,7 +276,7 @@ fn model_errors_have_a_location() {
         ("x=\"1\"", "x=\"1e39\"", "the vertex does not have three finite coordinates"),
         ("id=\"1\"", "", "the object has no id"),
         ("id=\"1\"", "id=\"3\"", "there is no object 1"),
-        ("</mesh>", "</mash>", "this is not the end of the innermost element"),
+        ("</mesh>", "</mash>", "this end tag does not match the innermost element"),
         ("<mesh>", "<!DOCTYPE a>", "document type declarations are not allowed"),
     ] {
         let message = broken(from, to);

@@ -43,7 +43,7 @@ enum Tag<'a> {
 }
 
 impl<'a> XmlReader<'a> {
-    /// Creates a reader at the beginning of a UTF-8 text; `document` is its name in messages.
+    /// Creates a reader at the beginning of UTF-8 text; `document` is its name in messages.
     pub(super) const fn new(text: &'a [u8], document: &'a str) -> Self {
         let lines = RefCell::new(LineCounter::new(text));
         Self { text, at: 0, open: Vec::new(), closes_next: false, document, lines }
@@ -101,7 +101,7 @@ impl<'a> XmlReader<'a> {
             };
             let inner = &rest[skipped.min(rest.len())..];
             let Some(length) = inner.windows(end.len()).position(|window| window == end) else {
-                return Err(self.fault(self.at, "this part of the text is not closed"));
+                return Err(self.fault(self.at, "this markup is not closed"));
             };
             self.at += skipped + length + end.len();
         }
@@ -112,7 +112,7 @@ impl<'a> XmlReader<'a> {
         let length = rest.iter().position(|&byte| byte == b'>');
         let name = length.map(|length| rest[2..length].trim_ascii());
         if name.is_none() || self.open.pop() != name {
-            return Err(self.fault(self.at, "this is not the end of the innermost element"));
+            return Err(self.fault(self.at, "this end tag does not match the innermost element"));
         }
         self.at += length.unwrap_or(0) + 1;
         Ok(Tag::End)
@@ -310,13 +310,13 @@ mod tests {
     #[test]
     fn malformed_xml_is_an_error_with_a_location() {
         let table = [
-            ("<a><b>\n</a>", "a.xml: line 2, column 1: this is not the end of the innermost"),
+            ("<a><b>\n</a>", "a.xml: line 2, column 1: this end tag does not match"),
             ("<a><b", "a.xml: line 1, column 4: the tag is not closed"),
             ("<a>", "a.xml: line 1, column 4: the text ends within an element"),
-            ("<a><!-- ", "a.xml: line 1, column 4: this part of the text is not closed"),
+            ("<a><!-- ", "a.xml: line 1, column 4: this markup is not closed"),
             ("<!DOCTYPE a [<!ENTITY b 'bb'>]><a/>", "a.xml: line 1, column 1: document type"),
             ("<a>< b/></a>", "a.xml: line 1, column 4: the tag has no name"),
-            ("<a></a></a>", "a.xml: line 1, column 8: this is not the end of the innermost"),
+            ("<a></a></a>", "a.xml: line 1, column 8: this end tag does not match"),
         ];
         for (text, expected) in table {
             let message = children(text).unwrap_err();

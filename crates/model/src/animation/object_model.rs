@@ -6,9 +6,9 @@
 //! property is declared only once:
 //!
 //! ```text
-//!  row("extensions/KHR_materials_sheen/sheenColorFactor", 3, UNIT_RANGE, |m| …)
-//!       JSON pointer into the material                    │  │           access to the numbers
-//!                                                 components  bounds
+//!  property_row("extensions/KHR_materials_sheen/sheenColorFactor", 3, UNIT_RANGE, |m| …)
+//!                 JSON pointer into the material                   │  │           access
+//!                                                         components  bounds
 //! ```
 //!
 //! Values set by an animation are clamped to the bounds, and dependent fields are updated. To add a
@@ -62,7 +62,7 @@ const UNBOUNDED: [f32; 2] = [f32::MIN, f32::MAX];
 /// Bounds for the emissive strength. A larger strength would be a mistake, and products with it
 /// could overflow.
 const EMISSIVE_STRENGTH_RANGE: [f32; 2] = [0.0, 1e6];
-/// Bounds that exclude zero, which the smallest normal number replaces.
+/// Bounds that exclude zero: the minimum is the smallest normal number.
 const STRICTLY_POSITIVE: [f32; 2] = [f32::MIN_POSITIVE, f32::MAX];
 
 /// Returns access to a single number as a slice of length 1.

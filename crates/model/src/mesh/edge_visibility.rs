@@ -1,7 +1,7 @@
 //! Edge visibility: the edges that a file marks for line drawings
 //! (EXT_mesh_primitive_edge_visibility, CESIUM_primitive_outline).
 //!
-//! If a file does not mark edges, drawings find feature edges from the shape.
+//! If a file does not mark edges, line drawings detect feature edges from the shape.
 
 /// The marked triangle edges of a primitive.
 ///

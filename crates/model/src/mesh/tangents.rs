@@ -33,9 +33,9 @@ impl Primitive {
         self.run_mikktspace(uv_set).map(Cow::Owned)
     }
 
-    /// Runs the algorithm. A panic inside it counts as a failure.
+    /// Runs the algorithm. A panic inside it is treated as a failure.
     ///
-    /// Triangles with degenerate texture coordinates have the x axis as tangent.
+    /// Triangles with degenerate texture coordinates have the x axis as their tangent.
     fn run_mikktspace(&self, uv_set: usize) -> Option<Vec<[f32; 4]>> {
         let uvs = self.uvs.get(uv_set).filter(|_| self.topology == Topology::Triangles)?;
         // The default for triangles with degenerate texture coordinates.
@@ -105,7 +105,7 @@ impl Geometry<PortableMath> for MikktspaceInput<'_> {
     }
 }
 
-/// A square root and arccosine with identical bits on all machines.
+/// A square root and an arccosine that are bit-identical on all machines.
 struct PortableMath;
 
 impl Ops for PortableMath {

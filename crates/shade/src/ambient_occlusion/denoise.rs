@@ -52,8 +52,8 @@ impl Kernel for DenoiseEight<'_> {
 }
 
 impl DenoiseEight<'_> {
-    /// Computes the change of depth, toward the viewer, over the distance at which the weight of a
-    /// neighbor reaches zero.
+    /// Computes the change in depth, toward the viewer, that corresponds to the distance at which
+    /// the weight of a neighbor reaches zero.
     #[inline(always)]
     fn depth_distances(&self, depths: Lanes<LANES>) -> Lanes<LANES> {
         let space = self.space;

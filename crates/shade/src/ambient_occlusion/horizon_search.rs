@@ -8,14 +8,14 @@ use raster::{Kernel, LANES};
 
 /// Number of planes through the view direction in which to search for horizons at each pixel.
 const SLICE_COUNT: usize = 4;
-/// Number of steps to either side of a slice.
+/// Number of steps in each of the two directions along a slice.
 const STEP_COUNT: usize = 6;
 /// The minimum cosine by which an occluder must rise above the surface; anything lower is the
 /// surface itself.
 const SURFACE_TOLERANCE: f32 = 0.002;
 /// The minimum weight of a slice, to avoid dividing by zero.
 const LEAST_WEIGHT: f32 = 1e-3;
-/// The side of the pattern that rotates the slices.
+/// The side length of the pattern that rotates the slices, in pixels.
 const PATTERN_SIDE: usize = 4;
 /// The order of the rotations in the pattern, a Bayer matrix, in which neighbors differ greatly.
 const TURNS: [[u8; PATTERN_SIDE]; PATTERN_SIDE] =
@@ -61,9 +61,9 @@ pub(super) struct HorizonSearch<'a, const N: usize> {
     pub(super) y: usize,
 }
 
-/// The surfaces of some pixels.
+/// The surfaces visible at some pixels.
 struct Surfaces<const N: usize> {
-    /// Columns and rows.
+    /// The pixel columns and rows.
     pixels: [Lanes<N>; 2],
     /// Positions relative to the origin.
     positions: Vec3Lanes<N>,
@@ -89,7 +89,7 @@ struct Slice<const N: usize> {
     sine: Lanes<N>,
     /// The unit normal of the slice.
     slice_normal: Vec3Lanes<N>,
-    /// A vector on the surface that points one unit out of the slice.
+    /// A vector along the surface whose component perpendicular to the slice is 1.
     out_of_slice: Vec3Lanes<N>,
 }
 
@@ -128,7 +128,7 @@ impl<const N: usize> Kernel for HorizonSearch<'_, N> {
             let slice = self.project_normals(&surfaces, index);
             let [ahead, behind] = kernel_part!(N, self.find_horizons(&surfaces, &slice));
             visible += slice.weight * slice.visible_arc([ahead, behind]);
-            // The same expression is used here, so that the visibility of an unoccluded surface is
+            // Evaluate the same expression here, so that the visibility of an unoccluded surface is
             // exactly 1.
             open += slice.weight * slice.visible_arc(slice.surface_horizons());
         }
@@ -169,7 +169,7 @@ impl<const N: usize> HorizonSearch<'_, N> {
         Surfaces { pixels, positions, depths, normals, views, radii }
     }
 
-    /// Projects the normals into a slice, which gives its weight and the tilt of the surface in it.
+    /// Projects the normals into a slice to find the slice's weight and the surface's tilt in it.
     #[inline(always)]
     fn project_normals(&self, surfaces: &Surfaces<N>, index: usize) -> Slice<N> {
         let Surfaces { pixels, positions, depths, normals, views, radii } = surfaces;
@@ -206,7 +206,7 @@ impl<const N: usize> HorizonSearch<'_, N> {
         let mut occluded = [Lanes::ZERO; 2];
         let mut highest = [Lanes::splat(SURFACE_TOLERANCE * SURFACE_TOLERANCE); 2];
         for step in 0..STEP_COUNT {
-            // Steps are short nearby, where they have the most weight.
+            // Steps are shorter near the pixel, where occluders have the most weight.
             let t = (step as f32 + step_offsets) * (1.0 / STEP_COUNT as f32);
             let distance = 1.0 + t * t * (surfaces.radii - 1.0);
             for (side, sign) in [1.0, -1.0].into_iter().enumerate() {
@@ -262,7 +262,7 @@ fn containing_pixels<const N: usize>(coordinates: Lanes<N>, side: u32) -> [i32; 
     pixels
 }
 
-/// Computes the change of depth per pixel to the right and down on the surface of each pixel.
+/// Computes the change in depth per pixel to the right and down on the surface of each pixel.
 ///
 /// Depth is linear on a plane, so of the two neighbors, the one that is more nearly collinear with
 /// the pixel beyond it is used. At a silhouette this is the neighbor on the same surface, and at a

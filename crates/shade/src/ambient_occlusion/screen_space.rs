@@ -62,7 +62,7 @@ impl ScreenSpace {
         }
     }
 
-    /// Width and height in pixels.
+    /// Returns the width and height in pixels.
     pub(super) fn size(&self) -> [u32; 2] {
         self.size
     }
@@ -73,7 +73,7 @@ impl ScreenSpace {
         self.radius
     }
 
-    /// Returns positions in the world relative to the origin.
+    /// Converts positions in the world to positions relative to the origin.
     #[inline(always)]
     pub(super) fn to_relative<const N: usize>(&self, positions: Vec3Lanes<N>) -> Vec3Lanes<N> {
         positions - Vec3Lanes::splat(self.origin)
@@ -128,8 +128,8 @@ impl ScreenSpace {
         self.unproject([columns + x, rows + y], depths)
     }
 
-    /// Returns the columns and rows of the pixels that show positions. For positions outside the
-    /// picture or behind the eye, returns a pixel in the margin.
+    /// Returns the columns and rows of the pixels in which positions appear. For positions outside
+    /// the picture or behind the eye, returns a pixel in the margin.
     #[inline(always)]
     pub(super) fn pixels_at<const N: usize>(&self, positions: Vec3Lanes<N>) -> [[i32; 2]; N] {
         let projected = self.project(positions);

@@ -11,7 +11,7 @@
 
 use crate::color::srgb_to_linear;
 
-/// Number of steps in the table. With linear interpolation, these are finer than 16 bits can
+/// Number of steps in the table. With linear interpolation, they are finer than 16 bits can
 /// resolve.
 const TABLE_STEPS: usize = 1024;
 

@@ -60,7 +60,7 @@ impl BackdropImage {
         Self { size, texels, upper_left, extent, background }
     }
 
-    /// Returns whether the picture is opaque everywhere.
+    /// Returns whether the backdrop is opaque everywhere.
     pub(super) fn is_opaque(&self) -> bool {
         let covers = [0, 1].iter().all(|&k| self.upper_left[k] <= 0.0);
         self.background[3] >= 1.0

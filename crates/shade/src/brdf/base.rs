@@ -49,7 +49,7 @@ pub(super) struct BaseBrdf<const N: usize> {
     energy_compensation: Rgb<N>,
     /// The fraction of a white environment that is reflected specularly.
     pub(super) specular_albedo: Rgb<N>,
-    /// The fraction of light from all directions that passes the interface to the diffuse part.
+    /// The fraction of light from all directions that the interface transmits to the diffuse part.
     pub(super) diffuse_transmittance: Lanes<N>,
 }
 
@@ -98,8 +98,8 @@ impl<const N: usize> BaseBrdf<N> {
     /// Sets the metallic-roughness workflow: a mix of dielectric and metal by metalness
     /// (KHR_materials_ior, KHR_materials_specular).
     ///
-    /// F0 and F90 are mixed instead of two BRDFs, which gives one lobe instead of two. F is exactly
-    /// the mix of both, because Schlick's approximation is linear in F0 and F90.
+    /// Mixing F0 and F90 instead of two BRDFs gives one lobe instead of two. F is exactly the mix
+    /// of both, because Schlick's approximation is linear in F0 and F90.
     #[inline(always)]
     fn set_metallic_roughness(
         &mut self,

@@ -68,7 +68,7 @@ impl<const N: usize> Clearcoat<N> {
     /// Adds the prefiltered radiance of the environment in the mirror direction.
     ///
     /// This is the split sum with a Fresnel factor instead of the directional albedo; for a smooth
-    /// layer, which is the usual case, both agree.
+    /// layer, which is the common case, both agree.
     #[inline(always)]
     pub(super) fn add_environment(&mut self, environment: &Environment) {
         let SurfaceGeometry { normals, views, .. } = self.geometry;

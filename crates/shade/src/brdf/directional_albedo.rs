@@ -106,8 +106,8 @@ pub(super) fn locate_entries<const N: usize>(positions: Lanes<N>) -> ([i32; N], 
 }
 
 /// Computes the energy compensation, a factor that restores the loss of single scattering, for a
-/// surface with the normal reflectance `f0`, whose albedo as a white metal would be `white_albedo`
-/// = `A + B`.
+/// surface with reflectance `f0` at normal incidence, whose albedo as a white metal would be
+/// `white_albedo` = `A + B`.
 ///
 /// For F0 = 1, the factor makes the albedo exactly 1 (white furnace test); for F0 = 0, it is 1.
 /// Kulla and Conty (2017) add a lobe for the lost energy; Turquin's factor scales the existing

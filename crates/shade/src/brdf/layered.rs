@@ -4,7 +4,7 @@
 //!            direct light   environment     the order in which light passes down
 //!                 │              │
 //!  clearcoat   ───┼──────────────┼───       reflects part of all light, composited last
-//!  sheen       ───┼──────────────┼───       adds its lobe, scales the rest by its base scale
+//!  sheen       ───┼──────────────┼───       adds its lobe, attenuates the rest
 //!  base        ───▼──────────────▼───       GGX specular and Lambert diffuse
 //! ```
 //!
@@ -144,7 +144,7 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
     /// specular albedo `F0 · A + F90 · B`. It is exact for a uniform environment; otherwise its
     /// accuracy depends on how representative the light around the mirror direction is.
     ///
-    /// The diffuse part is multiplied by the ambient occlusion, and the specular part by a fit of
+    /// The diffuse part is multiplied by the ambient occlusion, and the specular part by a fit to
     /// it that depends on the viewing angle.
     #[inline(always)]
     pub(crate) fn add_environment(&mut self, environment: &Environment) {
@@ -178,7 +178,7 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
     /// Adds diffuse light from all directions, specified as the radiance of a white Lambert
     /// surface.
     ///
-    /// Sheen is separate, and reflects light from all directions by its albedo.
+    /// Sheen is handled separately: it reflects light from all directions according to its albedo.
     #[inline(always)]
     fn add_diffuse(&mut self, white: Rgb<N>) {
         let MaterialInputs { occlusion, screen_visibility, .. } = *self.inputs;

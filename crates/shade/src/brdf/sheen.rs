@@ -127,8 +127,8 @@ fn charlie_lambda(cosine: f32, alpha: f32) -> f32 {
 /// Looks up the directional albedo of white sheen, the integral of the lobe over the hemisphere,
 /// with bilinear interpolation in the table. It is at most 1.
 ///
-/// The table has sixteen roughnesses by sixteen square roots of cosines; the root puts more entries
-/// near grazing angles.
+/// The table has sixteen roughness values by sixteen square roots of the cosine; the root puts more
+/// entries near grazing angles.
 #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
 #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
 fn sheen_albedo<const N: usize>(cosine: Lanes<N>, roughness: Lanes<N>) -> Lanes<N> {

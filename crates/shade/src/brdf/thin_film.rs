@@ -97,7 +97,7 @@ fn schlick_fresnel<const N: usize>(f0: Lanes<N>, cosine: Lanes<N>) -> Lanes<N> {
 /// to sRGB.
 #[inline(always)]
 fn spectral_sensitivity<const N: usize>(path: Lanes<N>, shifts: Rgb<N>) -> Rgb<N> {
-    // In waves per meter of wave number; the phase is 2π times this.
+    // In meters; the product with a wave number is a phase in turns.
     let path = path * 1e-9;
     let gaussian = |value: f32, center: f32, variance: f32, shift: Lanes<N>| {
         let wave = (path * center + shift).map(cosine_of_turns);

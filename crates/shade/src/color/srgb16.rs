@@ -10,10 +10,10 @@ use std::sync::OnceLock;
 
 /// The bits of 2⁻²¹, which is below the threshold of the first code, 2⁻²⁰·⁷ in linear light.
 const MIN_LIGHT_BITS: u32 = (127 - 21) << 23;
-/// The number of steps from there to 1, with 128 per octave.
+/// The number of steps from that value to 1, with 128 per octave.
 const STEP_COUNT: usize = 21 * 128 + 1;
 
-/// Encodes linear light as the nearest 16-bit sRGB code.
+/// An encoder from linear light to the nearest 16-bit sRGB code.
 #[derive(Debug)]
 pub struct Srgb16Encoder {
     /// For each code except the first, the smallest linear light for which it is the nearest code.

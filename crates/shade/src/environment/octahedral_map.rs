@@ -1,4 +1,4 @@
-//! The octahedral map, which stores colors by direction on a square (Engelhardt and Dachsbacher 2008).
+//! The octahedral map: colors by direction on a square (Engelhardt and Dachsbacher 2008).
 //!
 //! ```text
 //!   ┌────┬────┐     A direction is divided by the sum of its coordinates' magnitudes, which
@@ -29,8 +29,8 @@ pub(super) struct OctahedralMap {
 /// Samples trilinearly between mip levels `near` and `near + 1` of each lane. Directions need not
 /// be normalized.
 ///
-/// `level` is not called for the next level if its weight is zero, because levels may be computed on
-/// demand.
+/// `level` is not called for the next level if its weight is zero, because levels may be computed
+/// on demand.
 #[inline(always)]
 pub(super) fn sample_trilinear<'a, const N: usize>(
     level: impl Fn(usize) -> &'a OctahedralMap,
@@ -146,8 +146,8 @@ impl OctahedralMap {
     /// Returns the index of a node. A node one step beyond a border is mirrored along that border.
     fn wrap_node(&self, x: i32, y: i32) -> usize {
         let last = self.side as i32 - 1;
-        // Beyond the left or right border, step back inside with the row mirrored; likewise for
-        // rows.
+        // Beyond the left or right border, step back inside with the row mirrored. The upper and
+        // lower borders are handled likewise.
         let (x, y) =
             if (0..=last).contains(&x) { (x, y) } else { (x.abs().min(2 * last - x), last - y) };
         let (x, y) =

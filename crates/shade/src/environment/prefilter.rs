@@ -31,8 +31,8 @@ const SAMPLE_COUNT: u32 = 64;
 
 /// The prefiltered levels of an environment, from sharp to blurred.
 ///
-/// Each level is computed when a surface first needs it, because most models have few roughnesses,
-/// and the sharpest of the blurred levels takes longer than all the others.
+/// Each level is computed when a surface first needs it, because most models have few distinct
+/// roughness values, and the sharpest of the blurred levels takes longer than all the others.
 #[derive(Clone, Debug)]
 pub(super) struct PrefilteredLevels {
     /// The mip chain of the environment, with sides halved from level to level.
@@ -84,15 +84,15 @@ impl PrefilteredLevels {
 /// The number of samples to read at once.
 const SAMPLE_LANES: usize = 8;
 
-/// Light directions around the normal, which is z, and the mip levels from which they read the
-/// environment.
+/// Light directions around the normal, which is z, and the mip level of the environment to read for
+/// each.
 struct SamplePacket {
     /// The number of lanes in use.
     count: usize,
     directions: Vec3Lanes<SAMPLE_LANES>,
     /// The mip level of each sample.
     levels: [usize; SAMPLE_LANES],
-    /// The last columns and rows of these levels.
+    /// The index of the last column and row of each of these levels.
     last_nodes: Lanes<SAMPLE_LANES>,
 }
 
@@ -114,9 +114,8 @@ impl SamplePacket {
 /// Returns the directions in which a surface with this α reflects a view along its normal, with
 /// their mip levels.
 ///
-/// The level is half the logarithm of the ratio of the sample's to the texel's solid angle, plus
-/// one. The one is a bias against noise, and loses no sharpness that would be visible at this
-/// roughness.
+/// The level is half the base-2 logarithm of the sample's solid angle over a texel's, plus one. The
+/// added one is a bias against noise; the lost sharpness would not be visible at this roughness.
 ///
 /// The sample set is computed once per level, in the frame of the normal. With n = v = r the lobe
 /// has no preferred azimuth, at the cost of stretched highlights at grazing angles.

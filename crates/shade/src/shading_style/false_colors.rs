@@ -115,7 +115,7 @@ mod tests {
             for next in 1..5 {
                 let [a, b] = [part_color(part), part_color(part + next)];
                 let difference = (0..3).map(|k| (a[k] - b[k]).abs()).fold(0.0, f32::max);
-                assert!(difference > 0.06, "{part} and {next} further: {a:?} {b:?}");
+                assert!(difference > 0.06, "parts {part} and {part} + {next}: {a:?} {b:?}");
             }
         }
     }

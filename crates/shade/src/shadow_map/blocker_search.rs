@@ -72,7 +72,7 @@ pub(super) struct Blockers {
 
 impl ShadowMap {
     /// Counts the blockers of a receiver at the positions of a disc around it, and sums their
-    /// depths. The comparisons are those of [`ShadowMap::find_blocker`].
+    /// depths. The comparisons are the same as in [`ShadowMap::find_blocker`].
     #[inline(always)]
     pub(super) fn count_blockers(
         &self,

@@ -12,9 +12,9 @@ use super::MAX_FILTER_RADIUS;
 use crate::approximations::floor_to_int;
 use raster::SurfaceDepth;
 
-/// The side of a block in texels.
+/// The side length of a block in texels.
 const BLOCK_SIDE: usize = 16;
-/// The side of a neighborhood in texels.
+/// The side length of a neighborhood in texels.
 const NEIGHBORHOOD_SIDE: f32 = 3.0 * BLOCK_SIDE as f32;
 
 // Texels are compared at their centers, up to a texel beyond the radius. Lookups must not extend

@@ -25,8 +25,7 @@ impl ShadowMap {
             return Lanes::ZERO;
         }
         let kernel = FindVisibility { map: self, receiver, wanted };
-        // Eight receivers are part of a wide kernel, but a single receiver may not be inside such a
-        // kernel.
+        // Eight receivers are always inside a wide kernel already; a single receiver might not be.
         if const { N == 1 } {
             SimdLevel::best().run_kernel(kernel)
         } else {
@@ -84,7 +83,7 @@ impl ShadowMap {
         if radius <= 1.0 {
             return None;
         }
-        // If everything in the wider disc is blocked, the narrower disc is blocked too.
+        // If everything in the wider disc is blocked, the narrower disc is also blocked.
         if found.count == disc.position_count() {
             return Some(0.0);
         }

@@ -106,8 +106,8 @@ impl TexelAddressing {
     /// Fits the ellipse of a pixel's footprint. A long ellipse becomes a line of taps, and the
     /// derivatives are replaced by the steps for a single tap.
     ///
-    /// J, the derivatives in texels, maps the unit circle to the ellipse, whose axes are those of J
-    /// Jᵀ: their squared lengths are the eigenvalues, and the longer axis is an eigenvector.
+    /// J, the derivatives in texels, maps the unit circle to the ellipse. The squared lengths of
+    /// the ellipse's axes are the eigenvalues of J Jᵀ, and the longer axis is an eigenvector.
     #[inline(always)]
     fn fit_anisotropy<const N: usize>(
         &self,

@@ -3,7 +3,7 @@
 //! ```text
 //!   level 0        level 1     2    …
 //!  ┌────────────┐  ┌──────┐  ┌───┐ ┌─┐
-//!  │            │  │      │  └───┘ └─┘     each texel is the mean of 2 × 2 in the level before
+//!  │            │  │      │  └───┘ └─┘     each texel is the mean of 2 × 2 in the previous level
 //!  │            │  └──────┘
 //!  └────────────┘
 //! ```

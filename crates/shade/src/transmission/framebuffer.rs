@@ -5,7 +5,7 @@
 //!   opaque surfaces ─► linear radiance, alpha ──┐
 //!                                               ├─► mip levels ─► lookup at the exit of the ray,
 //!   backdrop, where ─► display colors, alpha ───┘                 at the level for the roughness
-//!   no surface is
+//!   not covered
 //! ```
 //!
 //! Surfaces and a visible environment are light, and are tone mapped together with the light that
@@ -22,8 +22,8 @@ use crate::{Backdrop, Draw};
 use glam::{DMat4, DVec3};
 use raster::for_each_parallel;
 
-/// The maximum light of a texel, the largest half float. A single texel beyond it, from a sun or
-/// its reflection, would be infinite in all levels.
+/// The maximum light of a texel, the largest half float. A single brighter texel, from a sun or its
+/// reflection, would become infinite and affect all levels.
 const MAX_RADIANCE: f32 = 65_504.0;
 
 /// A picture of the opaque surfaces of a scene, with its mip levels.

@@ -3,7 +3,7 @@
 //!
 //! ```text
 //!   level 0      one texel per pixel, sampled bilinearly, so unblurred light stays sharp
-//!   level 1 …    each texel is the mean of 2 × 2 in the level before, sampled with a quadratic
+//!   level 1 …    each texel is the mean of 2 × 2 in the previous level, sampled with a quadratic
 //!                B-spline; bilinear sampling would show these large texels as diamonds
 //! ```
 //!

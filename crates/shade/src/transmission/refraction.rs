@@ -43,8 +43,8 @@ pub(super) fn refracted_exits<const N: usize>(
     positions + rays * (lengths / rays.dot(rays).sqrt().max(1e-6))
 }
 
-/// The side of the Khronos sample viewer's framebuffer in texels, and its number of mip levels,
-/// which is the base-2 logarithm.
+/// The side length of the Khronos sample viewer's framebuffer in texels, and its number of mip
+/// levels, which is the base-2 logarithm.
 const REFERENCE_SIDE: f32 = 1024.0;
 const REFERENCE_LEVELS: f32 = 10.0;
 

@@ -18,10 +18,10 @@ pub(super) enum StreamError {
     /// An element refers to another that has not been decoded yet.
     #[error("the stream refers to an edge or vertex before the first")]
     Unwritten,
-    /// The delta mode of a channel is not known.
+    /// The delta mode of a channel is unknown.
     #[error("a channel of the stream has the unknown mode {0:#04x}")]
     Channel(u8),
-    /// The table of common vertex codes breaks its rules.
+    /// The table of common vertex codes is invalid.
     #[error("the corner table of the stream is invalid")]
     Table,
     /// A variable-length integer has too many bytes.

@@ -1,4 +1,4 @@
-//! meshopt mode TRIANGLES: most triangles share an edge with a recent one and take one byte.
+//! meshopt mode TRIANGLES: most triangles share an edge with a recent triangle and take one byte.
 //!
 //! ```text
 //!  code  X Y    X < 15: edge X, counted back from        a ───► b     edges pushed: c b, a c
@@ -7,9 +7,9 @@
 //!               table, else from a byte of the data
 //! ```
 //!
-//! The third vertex (Y < 15, and each half of a table entry) is 0 for a new vertex, 1 to 12 for a
-//! vertex in the vertex FIFO, 13 and 14 for the last explicit index −1 and +1, and 15 for an
-//! explicit index, which is a zigzag-coded difference from the last explicit index.
+//! The code of a vertex (Y < 15, or half of a table entry) is 0 for a new vertex, 1 to 12 for a
+//! vertex in the vertex FIFO, 13 or 14 for the last explicit index −1 or +1, and 15 for an explicit
+//! index, which is a zigzag-coded difference from the last explicit index.
 
 use super::byte_stream::{ByteStream, StreamError, decode_zigzag, push_index};
 
@@ -227,14 +227,14 @@ mod tests {
         type Row<'a> = (&'a [u8], &'a [u8], &'a [[u8; 3]]);
         let table: [Row<'_>; 8] = [
             (&[0xF0], &[], &[[0, 1, 2]]),
-            // First the newest edge, a c; then the second newest of the edges after that.
+            // Edge 0 is the newest, a c; edge 1 is the second newest, c b.
             (&[0xF0, 0x00], &[], &[[0, 1, 2], [0, 2, 3]]),
             (&[0xF0, 0x10], &[], &[[0, 1, 2], [2, 1, 3]]),
             // A recent vertex: 1 is the vertex before the newest.
             (&[0xF0, 0x01], &[], &[[0, 1, 2], [0, 2, 1]]),
             // One above the last explicit index, then one below.
             (&[0xF0, 0x0F, 0x0E, 0x0D], &[20], &[[0, 1, 2], [0, 2, 10], [0, 10, 11], [0, 11, 10]]),
-            // From the table, with the newest vertex as third corner.
+            // From the table, with the newest vertex as the third corner.
             (&[0xF0, 0xFC], &[], &[[0, 1, 2], [3, 4, 2]]),
             // All vertices explicit, and the numbering restarts.
             (&[0xFF], &[0xFF, 14, 2, 1], &[[7, 8, 7]]),
@@ -261,7 +261,7 @@ mod tests {
         assert!(decode_triangles(&whole, 9, 2).is_ok());
         for end in 0..whole.len() {
             let cut = decode_triangles(&whole[..end], 9, 2).unwrap_err();
-            assert!(matches!(cut, StreamError::Short | StreamError::Table), "cut at {end}: {cut}");
+            assert!(matches!(cut, StreamError::Short | StreamError::Table), "at {end}: {cut}");
         }
     }
 }

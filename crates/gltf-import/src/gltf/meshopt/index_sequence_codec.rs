@@ -58,7 +58,7 @@ mod tests {
         }
         for end in 0..stream.len() {
             let cut = decode_index_sequence(&stream[..end], 4, 2);
-            assert_eq!(cut, Err(StreamError::Short), "cut at {end}");
+            assert_eq!(cut, Err(StreamError::Short), "truncated at {end}");
         }
         assert_eq!(decode_index_sequence(&stream, 3, 2), Err(StreamError::Long(1)));
         assert_eq!(decode_index_sequence(&stream, 5, 2), Err(StreamError::Short));

@@ -9,12 +9,12 @@
 //!
 //! A group stores its differences with 0, 1, 2, 4 or 8 bits each. A difference of all ones is an
 //! escape: its value follows in a byte after the group. Version 1 adds four-byte channels whose
-//! deltas are bytes, 16-bit words or 32-bit exclusive ors, and controls that store bytes
-//! uncompressed or omit them.
+//! deltas are bytes, 16-bit words or 32-bit XORs, and controls that store bytes uncompressed or
+//! omit them.
 //!
 //! The format is specified in EXT_meshopt_compression (version 0 of the attribute codec) and
-//! KHR_meshopt_compression (version 1). Storing bytes by position instead of by element groups
-//! similar values: high bytes change rarely, so most of their groups take 0 bits per difference.
+//! KHR_meshopt_compression (version 1). Storing bytes by position, not by element, groups similar
+//! values: high bytes change rarely, so most of their groups take 0 bits per difference.
 
 use super::byte_stream::{ByteStream, StreamError};
 
@@ -173,7 +173,7 @@ fn decode_byte_group(
 
 /// The interpretation of a four-byte delta.
 ///
-/// Version 0 has only bytes. 16-bit words suit quantized attributes; exclusive ors suit floats,
+/// Version 0 has only bytes. 16-bit words suit quantized attributes; XORs suit floats,
 /// because adjacent values share their sign and exponent.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum DeltaChannel {
@@ -181,14 +181,14 @@ enum DeltaChannel {
     Bytes8,
     /// Two zigzag-coded 16-bit differences.
     Words16,
-    /// The exclusive or of two 32-bit words, rotated left by this number of bits.
+    /// The XOR of two 32-bit words, rotated left by this number of bits.
     Xor32(u32),
 }
 
 impl DeltaChannel {
     /// Decodes the channel that a mode byte declares.
     ///
-    /// The low half is the kind; the high half is the rotation of an exclusive or.
+    /// The low half is the kind; the high half is the rotation of an XOR.
     fn new(mode: u8) -> Result<Self, StreamError> {
         match (mode >> 4, mode & 15) {
             (0, 0) => Ok(Self::Bytes8),
@@ -274,7 +274,7 @@ mod tests {
         }
         for end in 0..stream.len() {
             let cut = decode_vertices(&stream[..end], 17, 4);
-            assert_eq!(cut, Err(StreamError::Short), "cut at {end}");
+            assert_eq!(cut, Err(StreamError::Short), "truncated at {end}");
         }
         assert_eq!(decode_vertices(&stream, 16, 4), Err(StreamError::Long(4)));
         stream.insert(20, 0);
@@ -286,7 +286,7 @@ mod tests {
         let bits = 0x3F80_0000u32 ^ 0x4000_0000;
         let rotated = bits.rotate_left(4).to_le_bytes();
         // Three channels of two elements: bytes in one-bit groups and uncompressed, words, and
-        // exclusive ors rotated by 4.
+        // XORs rotated by 4.
         let mut stream = vec![0xA1, 0b10_10_11_01, 0b10_10_11_11, 0xFF];
         stream.extend([0, 0b01, 0, 6]); // byte 0: one group of one bit: 6 → +3, then 0
         stream.extend([1, 4]); // byte 1: −1, +2
@@ -310,7 +310,7 @@ mod tests {
             // truncated.
             let cut = decode_vertices(&stream[..end], 2, 12).unwrap_err();
             let is_expected = matches!(cut, StreamError::Short | StreamError::Channel(_));
-            assert!(is_expected, "cut at {end}: {cut}");
+            assert!(is_expected, "at {end}: {cut}");
         }
         for mode in [0x03, 0x10, 0x11, 0x0F] {
             *stream.last_mut().unwrap() = mode;

@@ -16,7 +16,7 @@ pub(in super::super) const MAGIC: [u8; 12] = *b"\xABKTX 20\xBB\r\n\x1A\n";
 /// Maximum number of texels in an image, because `basisu` counts their bytes in 32 bits.
 const MAX_TEXELS: u64 = 1 << 28;
 
-/// Maximum number of mip levels, which an image of 2^31 texels per side has.
+/// Maximum number of mip levels, for an image of 2^31 texels per side.
 const MAX_LEVELS: u32 = 32;
 
 /// Reads the width and height of the first mip level from the header (KTX 2.0 §3).
@@ -146,7 +146,7 @@ impl<'a> Ktx2File<'a> {
     /// Returns the decompressed data of the level: `unit` bytes per UASTC block or texel.
     ///
     /// # Errors
-    /// Returns a message if the data is broken, or has another length.
+    /// Returns a message if the data is broken or has the wrong length.
     pub(super) fn level_data(&self, unit: usize) -> Result<Cow<'a, [u8]>, String> {
         let [columns, rows] = match self.encoding {
             TexelEncoding::Etc1s | TexelEncoding::Uastc => self.block_counts(),
@@ -341,7 +341,7 @@ pub(super) mod tests {
         let usual = HeaderFields { color_model: 166, ..HeaderFields::default() };
         let refused = |fields: &HeaderFields, words: &str| {
             let message = Ktx2File::read(&file_of(fields, &[0; 16])).err().unwrap_or_default();
-            assert!(message.contains(words), "{message} instead of {words}");
+            assert!(message.contains(words), "expected {words}, found {message}");
         };
         assert!(Ktx2File::read(&file_of(&usual, &[0; 16])).is_ok());
         for (shape, words) in

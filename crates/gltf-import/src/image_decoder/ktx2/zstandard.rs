@@ -4,8 +4,8 @@ use ruzstd::frame::read_frame_header;
 use ruzstd::io::Read;
 use ruzstd::streaming_decoder::StreamingDecoder;
 
-/// The largest window that is allocated for data shorter than the window. KTX tools write a window
-/// of the data's length.
+/// The largest window that is allocated for data shorter than the window. KTX tools set the window
+/// size to the length of the data.
 const MAX_WINDOW_BYTES: u64 = 8 << 20;
 
 /// Number of bytes read from the decoder at a time: one block.
@@ -14,7 +14,7 @@ const STEP_BYTES: usize = 128 << 10;
 /// Decompresses a frame that must contain `length` bytes. The checksum is not verified.
 ///
 /// # Errors
-/// Returns a message if the frame is broken, needs more memory than its data, or has another
+/// Returns a message if the frame is broken, needs more memory than its data, or has the wrong
 /// length.
 pub(super) fn decompress(frame: &[u8], length: usize) -> Result<Vec<u8>, String> {
     let broken = || "the Zstandard data of the KTX2 image is broken".to_owned();

@@ -168,7 +168,7 @@ fn supported_texture_options_are_applied() {
     assert_eq!(emissive.uv_matrix, TextureInfo::IDENTITY_UV);
     assert_eq!(model.materials[0].emissive, [1.0; 3], "black would hide the emissive texture");
     assert_eq!(model.materials[0].base_color, [1.0; 4], "black would hide the color texture");
-    assert_eq!(model.images.len(), 1, "one file");
+    assert_eq!(model.images.len(), 1, "both textures use one file");
     assert_eq!(model.images[0].as_ref().unwrap().rgba, [[255, 0, 0, 255]]);
     let told = warnings(&model);
     for expected in ["`-boost`", "`-t`", "`map_Ks`"] {
@@ -205,7 +205,7 @@ fn opacity_roughness_and_metalness_images_are_combined() {
     assert_eq!((material.roughness, material.metallic), (1.0, 1.0));
     assert_eq!(material.alpha_mode, AlphaMode::Blend);
 
-    // A file with both color and opacity is used alone; a mask by itself has the color white.
+    // A file with both color and opacity is used unchanged; a mask without a color is white.
     folder.write("a.mtl", "newmtl m\nmap_Kd leaf.png\nmap_d leaf.png\n");
     let model = folder.load("a.obj");
     assert_eq!(model.images.len(), 1);

@@ -1,4 +1,4 @@
-//! Tests of triangulation, by area and covered points, not by which ears were clipped.
+//! Tests of triangulation, which check areas and covered points, not which ears were clipped.
 
 use super::*;
 
@@ -115,7 +115,7 @@ fn concave_polygons_are_covered_once_from_every_first_corner() {
 
 #[test]
 fn collinear_and_repeated_corners_are_triangulated() {
-    // With corners in the middle of all four edges there are six triangles, all with area.
+    // With corners in the middle of all four edges there are six triangles with nonzero area.
     let square = [
         [0.0, 0.0],
         [1.0, 0.0],
