@@ -34,7 +34,7 @@ pub struct ViewVolume {
 const ROUNDING: f64 = 1e-13;
 
 impl ViewVolume {
-    /// The pairs of corners joined by an edge: four near, four far, four along the line of sight.
+    /// The pairs of corners joined by an edge: four near, four far, four from near to far.
     pub const EDGES: [[usize; 2]; 12] = [
         [0, 1],
         [1, 2],

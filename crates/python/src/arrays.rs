@@ -113,7 +113,7 @@ pub(crate) fn wrong_shape(name: &str, shape: &[usize], wanted: &str) -> Failure 
 /// Reads rows of `N` numbers.
 ///
 /// # Errors
-/// If the shape is different.
+/// Returns an error if the shape is different.
 pub(crate) fn rows_of<T: Copy + Default, const N: usize>(
     name: &str,
     numbers: Numbers<T>,
@@ -128,7 +128,7 @@ pub(crate) fn rows_of<T: Copy + Default, const N: usize>(
 /// Reads rows of `N` finite numbers.
 ///
 /// # Errors
-/// If the shape is different, or a number is not finite.
+/// Returns an error if the shape is different, or a number is not finite.
 pub(crate) fn finite_rows<const N: usize>(
     name: &str,
     value: &Bound<'_, PyAny>,
@@ -147,7 +147,7 @@ pub(crate) fn finite_rows<const N: usize>(
 /// Reads a matrix of finite numbers, row by row.
 ///
 /// # Errors
-/// If the shape is different, or a number is not finite.
+/// Returns an error if the shape is different, or a number is not finite.
 pub(crate) fn matrix<const R: usize, const C: usize>(
     name: &str,
     value: &Bound<'_, PyAny>,
@@ -171,7 +171,7 @@ pub(crate) fn matrix<const R: usize, const C: usize>(
 /// Reads a list of `N` finite numbers.
 ///
 /// # Errors
-/// If the length is different, or a number is not finite.
+/// Returns an error if the length is different, or a number is not finite.
 pub(crate) fn vector<const N: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyResult<[f64; N]> {
     let numbers = real_array::<f64>(name, value, "float64")?;
     let is_row = numbers.shape == [N] || numbers.shape == [N, 1] || numbers.shape == [1, N];
@@ -188,7 +188,7 @@ pub(crate) fn vector<const N: usize>(name: &str, value: &Bound<'_, PyAny>) -> Py
 /// Creates an array of this shape with these elements, without copying them.
 ///
 /// # Errors
-/// If the number of elements does not match the shape.
+/// Returns an error if the number of elements does not match the shape.
 pub(crate) fn new_array<'py, T: Element>(
     py: Python<'py>,
     values: Vec<T>,

@@ -1,4 +1,4 @@
-//! Meshes from Python arrays: vertices, faces, colors, textures and materials, validated.
+//! Meshes from validated Python arrays: vertices, faces, colors, textures and materials.
 
 use crate::arrays::{self, Numbers};
 use crate::detached::run_detached;

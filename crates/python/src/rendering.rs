@@ -210,7 +210,7 @@ impl<'a> RenderJob<'a> {
         Ok(RenderedJob { picture, passes, camera, warnings })
     }
 
-    /// Renders with a renderer.
+    /// Renders `scene` with `renderer`.
     fn render_scene(
         &self,
         scene: &Scene,
@@ -340,7 +340,7 @@ fn render_jobs(
     Ok(rendered.into_iter().map(|(_, job)| job).collect())
 }
 
-/// Returns whether a failure is more informative than another: not caused by a cancellation.
+/// Returns whether a failure ranks before another: cancellations come last, then by job index.
 fn is_cause(one: &(usize, Failure), other: &(usize, Failure)) -> bool {
     let is_stopped = |failure: &Failure| failure.message.contains("canceled");
     (is_stopped(&one.1), one.0) < (is_stopped(&other.1), other.0)

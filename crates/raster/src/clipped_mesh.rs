@@ -1,4 +1,4 @@
-//! Clipped meshes: transforms positions, clips before the divide and adds the result to a frame.
+//! Adds clipped meshes to a frame: transforms positions and clips triangles before the divide.
 //!
 //! ```text
 //!   positions ─source_to_clip─► outcodes ─► all inside ──────────────► ÷ w, snap ─► frame

@@ -87,9 +87,9 @@ impl Frame {
 
     /// Creates an empty frame that shows a region of a larger picture.
     ///
-    /// Vertices and fragments have coordinates in the whole picture, and regions drawn one by one
-    /// match the whole bit for bit. Use regions to draw pictures too large for memory, or to redraw
-    /// only the part that has changed.
+    /// Vertices and fragments use the coordinates of the whole picture. Regions drawn one by one
+    /// match the whole, bit for bit. Use regions to draw pictures too large for memory, or to
+    /// redraw only the part that has changed.
     ///
     /// # Errors
     /// Returns [`RasterError::Size`] unless both sides are at least 1 and the region ends within
@@ -227,7 +227,7 @@ impl Frame {
     ///
     /// Runs must be sorted and must not overlap; any part of a run beyond the mesh is ignored.
     ///
-    /// With several threads the triangles are assembled in chunks of 4096. The order of the buffer,
+    /// With several threads, triangles are assembled in chunks of 4096. The order of the buffer,
     /// and with it the winner at equal depth, does not depend on how the chunks are distributed.
     pub fn add_mesh_runs(&mut self, mesh: MeshTriangles<'_>, runs: &[Range<usize>]) {
         // One rectangle test serves all triangles of the mesh, because it depends only on the
@@ -242,7 +242,7 @@ impl Frame {
             let chunks = self.triangles.append_chunks(chunk_count).iter_mut();
             for_each_parallel(self.threads, chunks.enumerate(), |(index, chunk)| {
                 let slice = index * CHUNK_TRIANGLES..(index + 1) * CHUNK_TRIANGLES;
-                // The runs that extend into this chunk, by binary search.
+                // Find the runs that extend into this chunk by binary search.
                 let before = runs.partition_point(|run| run.end <= slice.start);
                 for run in runs[before..].iter().take_while(|run| run.start < slice.end) {
                     let run = run.start.max(slice.start)..run.end.min(slice.end);
@@ -252,7 +252,7 @@ impl Frame {
             self.triangles.remove_empty_chunks(first);
             return;
         }
-        // One thread: fill chunk after chunk.
+        // With one thread, fill chunk after chunk.
         for run in runs {
             let mut rest = run.clone();
             while !rest.is_empty() {
@@ -419,7 +419,7 @@ impl MeshTriangles<'_> {
     }
 }
 
-/// Returns the vertices with depths oriented so that greater wins.
+/// Returns the vertices, with depths negated if necessary so that the greater depth wins.
 #[inline(always)]
 fn oriented_depths(negates: bool, mut vertices: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
     if negates {

@@ -85,8 +85,8 @@ impl SamplePlane {
     /// Rasterizes the part of a large triangle in one row of blocks.
     ///
     /// All eight blocks are classified and bounded by vector instructions; then only touched blocks
-    /// are visited, in the bit order of a mask. The bounds of a block are raised before its samples
-    /// are written, to depths that are valid for the new samples.
+    /// are visited, in the bit order of a mask. Before the samples of a block are written, its
+    /// bounds are raised to depths that are valid for them.
     #[inline(always)]
     fn rasterize_block_row<S: Simd>(
         &mut self,
@@ -303,7 +303,7 @@ impl SamplePlane {
 
     /// Depth-tests and writes one sample, without a branch.
     ///
-    /// The block's nearest bound is raised if necessary; its farthest bound can safely stay.
+    /// The block's nearest bound is raised if necessary; its farthest bound can safely stay as is.
     #[inline(always)]
     pub(crate) fn depth_test_sample(&mut self, index: usize, depth: f32, triangle: u32) {
         let (old, old_triangle) = (self.depth[index], self.triangle[index]);
@@ -316,7 +316,7 @@ impl SamplePlane {
 
     /// Writes the depth and triangle of one sample without a test.
     ///
-    /// The block's nearest bound is raised if necessary; its farthest bound can safely stay.
+    /// The block's nearest bound is raised if necessary; its farthest bound can safely stay as is.
     pub(crate) fn write_sample(&mut self, index: usize, depth: f32, triangle: u32) {
         self.depth[index] = depth;
         self.triangle[index] = triangle;

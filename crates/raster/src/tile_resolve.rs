@@ -53,7 +53,7 @@ pub(crate) struct Contribution {
     pub(crate) translucent: bool,
 }
 
-/// The pixels of a row that cannot be written immediately. Kept between rows to reuse their memory.
+/// The pixels of a row that cannot be written immediately. The buffers are reused between rows.
 #[derive(Debug, Default)]
 pub(crate) struct RowScratch {
     /// Pixels that several opaque triangles share.

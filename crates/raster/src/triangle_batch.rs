@@ -45,7 +45,7 @@ pub(crate) struct TriangleBatch {
     y: [Ints; 3],
     /// The depth of each triangle's first vertex.
     first_depth: Floats,
-    /// Whether 32 bits are enough; the values of other triangles are meaningless.
+    /// Whether 32 bits are enough for each triangle. If not, its values are meaningless.
     is_small: [bool; BATCH_SIZE],
     /// The coefficients of the edge functions: see [`TriangleFunctions`].
     pub(crate) a: [Ints; 3],

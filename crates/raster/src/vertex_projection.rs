@@ -5,9 +5,9 @@
 //!   position ─to_clip─► (x, y, z, w) ─÷ w─► NDC ─ndc_to_screen─► pixels ─round─► ScreenVertex
 //! ```
 //!
-//! Operations are in the same order as for a single point ([`ScreenVertex::snap`]). A vertex
-//! therefore has the same bits in an unclipped mesh and in a clipped triangle next to it, so no
-//! cracks appear between them. The loops over eight lanes compile to vector instructions.
+//! Operations are in the same order as for a single point ([`ScreenVertex::snap`]). A vertex is
+//! therefore bit-identical in an unclipped mesh and in a clipped triangle next to it, so no cracks
+//! appear between them. The loops over eight lanes compile to vector instructions.
 //!
 //! Vertices may be on either side of the eye. Vertices with w ≤ 0 or beyond the guard band become
 //! `None`, and triangles that use them must be clipped.
