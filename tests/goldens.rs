@@ -27,7 +27,7 @@ pub fn run() -> ExitCode {
     })
 }
 
-/// Returns the names of the scenes. `cargo xtask tidy` finds goldens without a scene.
+/// Returns the scene names. `cargo xtask tidy` finds goldens without a scene.
 fn scene_names() -> Result<Vec<String>, String> {
     let entries =
         fs::read_dir(project_root().join("scenes")).map_err(|error| format!("scenes: {error}"))?;

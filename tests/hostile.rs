@@ -35,7 +35,7 @@ const MAX_MEMORY_MIB: u64 = 200;
 /// The time limit of a case, generous enough for a busy machine.
 const TIME_LIMIT: Duration = Duration::from_secs(10);
 
-/// The slowest case of a run and the largest memory use, with the names of the cases.
+/// The slowest case of a run and the largest memory use, with the case names.
 #[derive(Default)]
 struct Extremes {
     slowest: (Duration, String),

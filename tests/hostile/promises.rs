@@ -90,7 +90,7 @@ fn check_primitive(model: &Model, primitive: &Primitive) -> Result<(), String> {
     let uvs = primitive.uvs.iter().map(Vec::len).chain(skins);
     require(
         primitive.joint_indices.len() == primitive.joint_weights.len(),
-        "the numbers of joints and weights differ",
+        "the joint and weight counts differ",
     )?;
     let targets = primitive
         .morph_targets
@@ -159,7 +159,7 @@ fn check_nodes(model: &Model) -> Result<(), String> {
     for skin in &model.skins {
         require(
             skin.joints.len() == skin.inverse_bind_matrices.len(),
-            "the numbers of joints and matrices differ",
+            "the joint and matrix counts differ",
         )?;
         require(skin.joints.iter().all(|&joint| joint < model.nodes.len()), "a joint is missing")?;
     }

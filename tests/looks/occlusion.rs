@@ -9,7 +9,7 @@ use std::path::Path;
 /// edges.
 const MODELS: [&str; 5] =
     ["bearing", "dense-sphere-draco-quantized", "flight-helmet", "teapot", "torus"];
-/// The numbers of samples per pixel to test.
+/// The sample counts to test.
 const SAMPLES: [u32; 4] = [1, 4, 8, 16];
 /// The fraction of its neighbors' light below which a pixel is a dot.
 const DOT: f64 = 0.25;

@@ -139,7 +139,7 @@ fn dependency_faults(
     Ok(faults)
 }
 
-/// Parses the three numbers of a version.
+/// Parses a version's three numbers.
 fn version_numbers(version: &str) -> [u32; 3] {
     let mut numbers = version.split('.').map(|number| number.parse().unwrap_or(0));
     [(); 3].map(|()| numbers.next().unwrap_or(0))

@@ -67,7 +67,7 @@ impl Metadata {
             .find(|package| package.name == name || short_name(&package.name) == name)
     }
 
-    /// Returns the names of all direct and indirect dependencies of a package.
+    /// Returns every direct and indirect dependency of a package, by name.
     pub fn transitive_dependencies(&self, name: &str) -> BTreeSet<&str> {
         let roots = self.resolved.iter().filter(|(_, (known, _))| short_name(known) == name);
         let mut pending: Vec<&String> = roots.flat_map(|(_, (_, ids))| ids).collect();

@@ -71,7 +71,7 @@ fn copy_programs(from: &Path, to: &Path) -> Outcome {
     fs::write(to.join("Cargo.toml"), manifest.join("\n")).map_err(|error| error.to_string())
 }
 
-/// Returns the names of the program folders.
+/// Returns the program folder names.
 fn program_names(folder: &Path) -> Result<Vec<String>, String> {
     let entries = fs::read_dir(folder).map_err(|error| error.to_string())?;
     let is_program = |entry: &fs::DirEntry| entry.path().join("src/main.rs").exists();

@@ -73,7 +73,7 @@ pub fn build_site(out: &Path) -> Outcome {
     node::write_single_file(out)
 }
 
-/// Returns the files of the page, by name.
+/// Returns the page's files, by name.
 fn page_files() -> Result<Vec<PathBuf>, String> {
     let folder = project_root().join("crates/explorer/page");
     let entries =
@@ -95,7 +95,7 @@ pub fn list_lessons(site: &Path) -> Result<Vec<Value>, String> {
     }
 }
 
-/// Returns the models of all lessons.
+/// Returns every lesson's models.
 fn lesson_models(site: &Path) -> Result<BTreeSet<String>, String> {
     let lessons = list_lessons(site)?;
     let models = lessons.iter().filter_map(|lesson| lesson["models"].as_array()).flatten();

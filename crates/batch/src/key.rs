@@ -163,7 +163,7 @@ fn hash_scene(hash: &mut Sha256, path: &Path, allowed: &[PathBuf]) {
     }
 }
 
-/// Returns the hash of a file's content, and the names of referenced files.
+/// Returns the hash of a file's content, and the referenced file names.
 ///
 /// Only the part of a large file that may contain names is kept in memory. Only regular files have
 /// content here, because a model may name a device or a pipe, which would never end.

@@ -1,4 +1,4 @@
-//! Renders a turntable of a model: twelve pictures of a full turn, two at a time. The model is
+//! Renders a turntable of a model: twelve views of a full turn, two at a time. The model is
 //! loaded once.
 //!
 //! Run it with `cargo run -p alberti-pipeline --example turntable -- model.glb frames`.

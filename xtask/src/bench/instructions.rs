@@ -149,7 +149,7 @@ impl Request {
     }
 }
 
-/// Returns the names of all counts.
+/// Returns the name of every count.
 fn known_names() -> Vec<&'static str> {
     SCENES.into_iter().chain(SAMPLES.map(|(name, _)| name)).collect()
 }

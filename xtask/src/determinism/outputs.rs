@@ -53,7 +53,7 @@ impl Outputs {
         hexadecimal(&all.finalize())
     }
 
-    /// Returns the names of files that differ or are in only one of the two folders.
+    /// Returns the files, by name, that differ or are in only one of the two folders.
     pub fn differences(&self, other: &Self) -> Vec<String> {
         let names: BTreeSet<&String> = self.digests.keys().chain(other.digests.keys()).collect();
         let differs = |name: &&&String| self.digests.get(**name) != other.digests.get(**name);

@@ -58,7 +58,7 @@ enum Failure {
     Failed(String),
 }
 
-/// Compiles and runs one target. Returns the names of the files that differ.
+/// Compiles and runs one target. Returns the files that differ, by name.
 fn compare_target(
     target: &Target,
     workload: &Workload,

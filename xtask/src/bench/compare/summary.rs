@@ -85,7 +85,7 @@ impl VariantSummary<'_> {
     }
 }
 
-/// Returns the names of the individual models, in the order in which they were measured.
+/// Returns the individual model names, in the order in which they were measured.
 pub fn model_names(measurements: &[Measurement]) -> Vec<&str> {
     let mut names: Vec<&str> = Vec::new();
     for Measurement { model, .. } in measurements {

@@ -4,7 +4,7 @@ use super::tables::{list, ratio, text};
 use serde_json::Value;
 use std::fmt::Write as _;
 
-/// The names of our contestants, on their own or followed by a suffix such as the number of
+/// Our contestants' names, on their own or followed by a suffix such as the number of
 /// samples.
 const OURS: [&str; 3] = ["raster", "render", "alberti"];
 
