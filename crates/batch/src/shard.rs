@@ -89,8 +89,8 @@ impl ShardBalance {
 /// Parses `I/N`; `auto` and `auto/N` take the index from the environment.
 ///
 /// # Errors
-/// Returns an error if the text is not `I/N` with `1 <= I <= N`, or `auto` is used outside an array
-/// job, or the number of tasks in the array job is not `N`.
+/// Returns an error if the text is not `I/N` with `1 <= I <= N`. Also returns an
+/// error if `auto` is used outside an array job, or if the array job does not have `N` tasks.
 pub fn parse_shard(text: &str) -> Result<Shard, String> {
     parse_shard_with(text, |name| std::env::var(name).ok().as_deref().and_then(parse_count))
 }
@@ -153,7 +153,7 @@ enum TaskCount {
 /// The known job schedulers.
 ///
 /// The order is: Slurm, AWS Batch, Cloud Run jobs, Google Batch, Grid Engine, LSF, PBS, Buildkite,
-/// GitLab CI, and Kubernetes, which comes last because other schedulers may run their tasks in it.
+/// GitLab CI, Kubernetes. Kubernetes comes last because other schedulers may run their tasks in it.
 const SCHEDULERS: &[Scheduler] = &[
     Scheduler {
         index: "SLURM_ARRAY_TASK_ID",

@@ -46,8 +46,8 @@ impl Basis {
     /// lengths of the vectors do not matter.
     ///
     /// # Errors
-    /// Returns an error if a vector is zero or not finite, or if `up` is parallel to the gaze, that
-    /// is, if the sine of the angle between them is at most 10⁻¹².
+    /// Returns an error if a vector is zero or not finite, or if `up` is parallel to the gaze.
+    /// Vectors are considered parallel if the sine of the angle between them is at most 10⁻¹².
     pub fn from_gaze(gaze: Vector<World>, up: Vector<World>) -> Result<Self, CameraError> {
         let backwards = -unit_vector(gaze, "gaze", CameraError::ZeroGaze)?;
         unit_vector(up, "view-up", CameraError::ZeroUp)?;

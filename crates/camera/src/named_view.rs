@@ -12,7 +12,7 @@
 //! ```
 //!
 //! Models face +z with +y up, as in glTF. The viewer of the front view is on the +z axis and looks
-//! along −z, with +x on the right. "Right" is the viewer's right, as on a drawing, not the right
+//! along −z, with +x on the right. As on a drawing, "right" is the viewer's right, not the right
 //! hand of the figure.
 //!
 //! A name selects a direction and a view-up. Framing decides how far away the camera is.
@@ -47,7 +47,7 @@ pub enum NamedView {
     Bottom,
     /// From (1, 1, 1): all three axes foreshortened equally, by √(2/3).
     Isometric,
-    /// From (1, 1, √7): the foreshortening ratios of x, y and z are 1 : 1 : ½, as in ISO 5456-3.
+    /// From (1, 1, √7). The foreshortening ratios of x, y and z are 1, 1 and ½, as in ISO 5456-3.
     /// The x axis is drawn at 7° to the horizontal and the z axis at 42°.
     Dimetric,
     /// From (2, 3, 6): three different foreshortening factors, √45/7, √40/7 and √13/7.

@@ -40,8 +40,11 @@ impl ScreenCorners {
     /// [`ViewWindow::at_distance`] moves the window to any near plane.
     ///
     /// # Errors
-    /// Returns an error if a corner or the eye is not finite, a side has no length, the sides are
-    /// not perpendicular, or the eye is in the plane of the screen or behind the screen.
+    /// Returns an error if:
+    /// - a corner or the eye is not finite;
+    /// - a side has no length;
+    /// - the sides are not perpendicular;
+    /// - the eye is in the plane of the screen or behind the screen.
     ///
     /// ```
     /// use camera::ScreenCorners;

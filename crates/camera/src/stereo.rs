@@ -58,8 +58,8 @@ impl StereoRig {
     /// same rectangle in the plane of zero parallax.
     ///
     /// # Errors
-    /// Returns an error if a distance of the rig is not positive and finite, the window is empty,
-    /// not finite or not in front of the eye, or an eye is too far away.
+    /// Returns an error if a distance of the rig is not positive and finite, or if an eye is too
+    /// far away. The window must be finite, not empty, and in front of the eye.
     ///
     /// ```
     /// use camera::{Basis, Camera, StereoRig, ViewWindow};
@@ -104,9 +104,9 @@ impl StereoRig {
         Ok(StereoPair { left: moved(left)?, right: moved(right)? })
     }
 
-    /// Returns the parallax of a point at `distance`: how far its image for the right eye is to the
-    /// right of its image for the left eye, measured on the plane of zero parallax. It is negative
-    /// in front of that plane and equals the interocular distance at infinity.
+    /// Returns the parallax of a point at `distance`: how far the right eye's image is to the right
+    /// of the left eye's image. The offset is measured on the plane of zero parallax. It is
+    /// negative in front of that plane and equals the interocular distance at infinity.
     ///
     /// # Errors
     /// Returns an error if a distance is not positive and finite.

@@ -165,9 +165,9 @@ impl PlanarPoints {
         Some(self.blocking_vertex(outline, point, meets, end).unwrap_or(end))
     }
 
-    /// Returns the corner at the smallest angle from straight right, among the corners within the
-    /// triangle formed by the point, the point where the ray meets the edge, and the end of that
-    /// edge.
+    /// Returns the corner at the smallest angle from straight right, among the reflex corners
+    /// within a triangle. The triangle is formed by the point, the point where the ray meets the
+    /// edge, and the end of that edge.
     fn blocking_vertex(
         &self,
         outline: &[usize],

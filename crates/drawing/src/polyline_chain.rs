@@ -204,8 +204,8 @@ fn turn_cosine(a: PagePoint, b: PagePoint, c: PagePoint) -> f64 {
 ///
 /// A greedy pass lets the run grow as long as all points dropped since the last retained point are
 /// within [`COLLINEAR_TOLERANCE`] of the segment to the next point. Every dropped point is tested
-/// against the *final* segment, so errors do not accumulate along a curve of many small steps, as
-/// they would if each point were compared only with its neighbors.
+/// against the *final* segment, so errors do not accumulate along a curve of many small steps.
+/// Errors would accumulate if each point were compared only with its neighbors.
 fn remove_collinear(points: Vec<PagePoint>, closed: bool) -> Vec<PagePoint> {
     let mut retained = vec![points[0]];
     let mut dropped: Vec<PagePoint> = Vec::new();

@@ -85,9 +85,9 @@ impl ElementRules {
 
 /// Reads the elements of all accessors that have data, and reports rule violations.
 ///
-/// The work is charged to the memory budget, so that a small file that declares many elements
-/// cannot take long: accessors without data take no space in the file, and overlapping accessors
-/// share the same bytes.
+/// The work is charged to the memory budget, so a small file that declares many elements cannot
+/// take long. Such files are possible because accessors without data take no space, and
+/// overlapping accessors share the same bytes.
 pub(super) fn check_data(
     document: &CheckedDocument<'_>,
     store: &BufferStore<'_>,

@@ -1,8 +1,10 @@
 //! Mirror symmetry of models, based on their surfaces rather than on their triangles.
 //!
-//! Models are symmetric about a plane if the mirror image of each vertex is on a face, and the
-//! mirror images of the ends and the middle of each feature edge are on feature edges. The
-//! triangulation of flat faces therefore does not matter. Round faces must be divided
+//! Models are symmetric about a plane if both conditions hold:
+//! - the mirror image of each vertex is on a face;
+//! - the mirror images of the ends and the middle of each feature edge are on feature edges.
+//!
+//! The triangulation of flat faces therefore does not matter. Round faces must be divided
 //! symmetrically, or so finely that the difference is within the tolerance.
 
 use crate::circles::CIRCLE_TOLERANCE;

@@ -1,9 +1,9 @@
 //! Gauss–Jordan elimination of a small square matrix: its inverse and its rank.
 //!
 //! Rows and columns are first scaled by powers of two, which is exact, until the largest entry of
-//! each is near 1. The rank then does not depend on units, even if they differ wildly (a near plane
-//! at 10⁻¹² and a far plane at 10⁶): only a pivot at the level of rounding noise makes a matrix
-//! singular.
+//! each is near 1. The rank then does not depend on units, even if they differ wildly, as with a
+//! near plane at 10⁻¹² and a far plane at 10⁶. Only a pivot at the level of rounding noise makes a
+//! matrix singular.
 
 /// Pivots of a balanced matrix up to this size count as rounding noise.
 const ROUNDING_NOISE: f64 = 4.0 * f64::EPSILON;

@@ -5,8 +5,12 @@
 //!   └─ mtllib ──mtl──► statements ──material, textures─────────────────────────────────────┘
 //! ```
 //!
-//! Reads polygons with any number of corners, lines and points; positions, texture coordinates,
-//! normals and vertex colors; objects, groups and smoothing groups; materials and their textures.
+//! The parser reads:
+//! - polygons with any number of corners, lines and points;
+//! - positions, texture coordinates, normals and vertex colors;
+//! - objects, groups and smoothing groups;
+//! - materials and their textures.
+//!
 //! Free-form curves and surfaces and unknown statements are listed in a warning.
 //!
 //! A file without elements is a point cloud. Missing normals are computed from the smoothing groups

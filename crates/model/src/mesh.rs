@@ -24,8 +24,8 @@ pub struct Mesh {
 ///
 /// Strips, loops and fans have been expanded to plain lists, with the winding that the
 /// specification defines. Every attribute that is present has one entry per vertex, every index is
-/// less than the number of vertices, and every position is finite, because the importer has dropped
-/// invalid items.
+/// less than the number of vertices, and every position is finite. The importer ensures this by
+/// dropping invalid items.
 #[derive(Clone, Debug, Default)]
 pub struct Primitive {
     /// Whether the indices form points, lines or triangles.

@@ -1,8 +1,10 @@
 //! The viewing pipeline from a glTF model to a picture.
 //!
-//! Making a picture takes three steps: describe it ([`SceneFile`], read from a file or built from
-//! defaults), resolve the description to a [`Scene`] (with models loaded and all defaults filled
-//! in), and render the scene.
+//! Making a picture takes three steps:
+//!
+//! 1. Describe it in a [`SceneFile`], read from a file or built from defaults.
+//! 2. Resolve the description to a [`Scene`], with models loaded and all defaults filled in.
+//! 3. Render the scene.
 //!
 //! ```no_run
 //! use pipeline::{Origin, Scene, render};

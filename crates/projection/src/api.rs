@@ -3,8 +3,11 @@
 //! All functions accept distances and return only the matrix. They reject an infinite `far` if the
 //! formula needs a finite value. Each is a one-line wrapper around [`Frustum`], [`Perspective`] or
 //! [`Orthographic`] with its [`Convention`]. `fovy` is in radians (M19), and `aspect` is width /
-//! height. In the names, `lh` means that the camera looks along +z, `zo` that depth is from zero to
-//! one, `rev` that near is at 1, and `inf` that there is no far plane.
+//! height. In the names:
+//! - `lh` means that the camera looks along +z;
+//! - `zo` means that depth is from zero to one;
+//! - `rev` means that near is at 1;
+//! - `inf` means that there is no far plane.
 //!
 //! ```
 //! use projection::{Convention, Frustum, api};
@@ -148,6 +151,6 @@ by_angle! {
     perspective_rh_zo_inf, ZERO_ONE_RH, infinite
 }
 by_angle! {
-    /// Builds IF-3: right-handed, near at 1, infinity at 0: depth = near/distance.
+    /// Builds IF-3: right-handed, near at 1 and infinity at 0, so depth = near/distance.
     perspective_rh_zo_rev_inf, ZERO_ONE_RH.reversed(), infinite
 }

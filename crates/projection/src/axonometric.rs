@@ -75,8 +75,8 @@ impl Axonometric {
         Self::by_angles(alpha, libm::atan2(unit.y, level))
     }
 
-    /// Returns the projection that foreshortens the x, y and z axes as x : y : z, seen from the
-    /// octant of positive axes.
+    /// Returns the projection that foreshortens the x, y and z axes in the ratio `x : y : z`, seen
+    /// from the octant of positive axes.
     ///
     /// The ratios may have any common factor. The square of each must not exceed the sum of the
     /// squares of the other two.

@@ -14,8 +14,9 @@ use homog::{Clip, Projective, View};
 /// ```
 ///
 /// # Guarantees
-/// 0 < near < far, where far may be infinite; the window is finite and not empty; the matrix and
-/// its inverse are finite in every [`Convention`].
+/// - 0 < near < far, where far may be infinite.
+/// - The window is finite and not empty.
+/// - The matrix and its inverse are finite in every [`Convention`].
 ///
 /// ```
 /// use homog::Point;

@@ -19,8 +19,8 @@ use homog::{Clip, HPoint, Plane, Projective, View};
 /// Development 1(2), 2005.
 ///
 /// # Errors
-/// Returns an error if a number is not finite, the projection is singular, the normal is zero, the
-/// eye is not behind the plane, or no part of the volume is in front of it.
+/// Returns an error if a number is not finite, the projection is singular, or the normal is zero.
+/// The eye must be behind the plane, and part of the volume must be in front of it.
 ///
 /// ```
 /// use homog::{Normal, Plane, Point};

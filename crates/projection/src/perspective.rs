@@ -8,8 +8,9 @@ use homog::{Clip, Projective, View};
 /// The symmetric perspective projection (GL-2, FOV-1; C61, C92).
 ///
 /// # Guarantees
-/// 0 < near < far, where far may be infinite; both fields of view are between 0 and π; the matrix
-/// and its inverse are finite in every [`Convention`].
+/// - 0 < near < far, where far may be infinite.
+/// - Both fields of view are between 0 and π.
+/// - The matrix and its inverse are finite in every [`Convention`].
 ///
 /// ```
 /// use homog::Point;

@@ -8,9 +8,9 @@
 //! ```
 //!
 //! Much of a large mesh is outside the picture or faces away. A cluster is a run of consecutive
-//! triangles with their bounding box and a cone around their normals, so one test decides for all
-//! of them (Shirman and Abi-Ezzi, *The Cone of Normals Technique*, 1993). Triangles keep their
-//! order and their ids, so culling never changes the picture.
+//! triangles with their bounding box and a cone around their normals. One test decides for all of
+//! them (Shirman and Abi-Ezzi, *The Cone of Normals Technique*, 1993). Triangles keep their order
+//! and their ids, so culling never changes the picture.
 
 use core::ops::Range;
 use glam::DVec3;
@@ -135,9 +135,8 @@ impl Cluster {
     /// faces are counterclockwise.
     ///
     /// For a viewer `e` and a vertex `p`, a triangle with normal `n` faces away if n · (e − e_w p)
-    /// < 0. The box bounds every `p`, and the cone every `n`. The dot product is at most the dot
-    /// product of the vector from the center of the box and the nearest normal of the cone, plus
-    /// the radius of the box.
+    /// < 0. The box bounds every `p`, and the cone every `n`. The dot product is at most its value
+    /// at the center of the box, for the nearest normal of the cone, plus the radius of the box.
     #[must_use]
     pub fn is_back_facing<S: Space>(&self, viewer: HPoint<S>) -> bool {
         let axis = DVec3::from_array(self.cone_axis.map(f64::from));
@@ -155,9 +154,8 @@ impl Cluster {
         let along = to_viewer.dot(axis);
         let across = (to_viewer.length_squared() - along * along).max(0.0).sqrt();
         let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-        // The cosine of the difference between two angles: the angle from the axis to the viewer,
-        // which exceeds a right angle, and the angle from the axis to the border of the cone, which
-        // does not.
+        // The cosine of the difference between two angles from the axis. The angle to the viewer
+        // exceeds a right angle, and the angle to the border of the cone does not.
         let greatest = along * cosine + across * sine + radius;
         along < 0.0 && greatest < -CONE_MARGIN * to_viewer.length()
     }

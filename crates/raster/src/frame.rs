@@ -208,8 +208,8 @@ impl Frame {
 
     /// Adds the triangles of a mesh, with ids that count up from `first_id`.
     ///
-    /// Triangles are dropped if a vertex is `None` or not in the mesh, if they are degenerate, if
-    /// their winding is culled, or if their bounds contain no sample of the frame.
+    /// Triangles with a vertex that is `None` or not in the mesh are dropped. So are triangles that
+    /// are degenerate, culled by winding, or without a sample of the frame in their bounds.
     pub fn add_mesh(
         &mut self,
         vertices: &[Option<ScreenVertex>],

@@ -82,8 +82,8 @@ impl<S: Surface> TileResolve<'_, S> {
     ///
     /// Groups of eight extend across pixel borders, so lanes are idle only in the last group of the
     /// row. Contributions are shaded in the order of their triangles. In pixel order, a group would
-    /// alternate between a layer and the surface behind it, and surfaces shade eight fragments of
-    /// one draw call in half the time they need for fragments of two.
+    /// alternate between a layer and the surface behind it. Surfaces shade eight fragments of one
+    /// draw call in half the time they need for fragments of two.
     #[inline(always)]
     pub(crate) fn write_layered_pixels<P: Copy>(
         &self,

@@ -1,8 +1,8 @@
 //! SIMD dispatch: selects at run time the vector instructions for drawing a frame.
 //!
 //! There are two levels: the baseline for which the program was built (SSE2 on x86-64, NEON on ARM)
-//! and AVX2. Each hot loop is compiled once per level. The picture does not depend on the level:
-//! every operation is exact or correctly rounded (no fused multiply-add, no approximate
+//! and AVX2. Each hot loop is compiled once per level. The picture does not depend on the level.
+//! Every operation is exact or correctly rounded (no fused multiply-add, no approximate
 //! reciprocal), so each lane has the same bits as the scalar computation.
 //!
 //! On x86, shading is compiled only for AVX2 ([`SimdLevel::run_wide_kernel`]); without it,

@@ -9,7 +9,7 @@
 //!
 //! # Why eight at a time
 //!
-//! A triangle of a few pixels takes less time to fill than to set up: setup needs six differences
+//! A triangle of a few pixels takes less time to fill than to set up. Setup needs six differences
 //! for the edge functions, and one division and eight products for the depth plane. One vector
 //! instruction does one such step for several triangles. Triangles that exceed the 32-bit range are
 //! set up individually, in 64 bits.

@@ -80,8 +80,8 @@ pub(crate) struct SampleStart {
 /// Depth is already z/w, which is linear in screen space, so it needs no perspective correction.
 ///
 /// Samples evaluate it as (z + dy·y) + dx·x, with x and y relative to the corner of the bounds
-/// within the tile, and clamp it to the depths of the vertices: the plane of a sliver is steep, and
-/// meaningless outside the sliver.
+/// within the tile. The result is clamped to the depths of the vertices, because the plane of a
+/// sliver is steep, and meaningless outside the sliver.
 #[derive(Clone, Copy, Debug)]
 struct DepthPlane {
     /// The grid position of the first vertex.

@@ -1,8 +1,8 @@
 //! Suspicions: known misprints that explain a matrix at least as well as its best reading.
 //!
 //! Each test undoes one misprint and reads the result. A misprint is assumed only if that reading
-//! needs clearly fewer digits, or if the original matrix has no meaningful reading, because every
-//! misprint is also the correct matrix of something less likely.
+//! needs clearly fewer digits, or if the original matrix has no meaningful reading. The test is
+//! strict because every misprint is also the correct matrix of something less likely.
 
 use super::matrix_reading::{is_moderate, readings_of, transpose};
 use super::rounded::{Entries, Rounded};

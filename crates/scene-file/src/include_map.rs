@@ -4,8 +4,10 @@ use super::source_text::SourceText;
 use super::syntax::PathStep::{self, Field, Index};
 use std::collections::BTreeMap;
 
-/// For each list of the scene, by field name, the source of each element: the index of the included
-/// file, or `None` for the scene file, and the element's index there.
+/// The source of each element of each list in the scene, by the field name of the list.
+///
+/// A source is the index of the included file, or `None` for the scene file, and the element's
+/// index there.
 pub(super) type ElementSources = BTreeMap<&'static str, Vec<(Option<usize>, usize)>>;
 
 /// The sources of the parts of a scene. A part without an entry is in the scene file itself.

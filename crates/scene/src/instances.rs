@@ -202,7 +202,8 @@ struct CircleLayout {
 
 impl CircleLayout {
     /// Returns the transform at an angle in radians: translation to the circle, then rotation about
-    /// the axis; or, for instances that do not rotate, only the translation that results from both.
+    /// the axis. For instances that do not rotate, it is only the translation that results from
+    /// both.
     fn transform_at(&self, angle: f64) -> Option<InstanceTransform> {
         let turn = InstanceTransform::rotation(Vector::from(self.axis), angle)?;
         let out = self.zero_degree_direction()?.map(|c| c * self.radius);

@@ -237,8 +237,8 @@ impl Linter<'_> {
     /// picture's.
     ///
     /// A frustum with fixed sides stretches the picture; a model's camera shows more or less at the
-    /// sides, since only its vertical angle is used. Ratios within [`ASPECT_TOLERANCE`] pass:
-    /// cameras often store 1.7778 for 16 : 9.
+    /// sides, since only its vertical angle is used. Ratios within [`ASPECT_TOLERANCE`] pass,
+    /// because cameras often store 1.7778 for 16 : 9.
     fn lint_aspect_ratio(&self) -> Option<Lint> {
         let image = self.scene.image;
         let view_size = image.view_size();

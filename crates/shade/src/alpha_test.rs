@@ -4,7 +4,7 @@
 //! that fragments that fail the test hide nothing.
 //!
 //! Styles with one color per fragment, such as normals and ids, also apply it to blended
-//! primitives, which then get holes where textures and vertex colors make them less than half as
+//! primitives. These then get holes where textures and vertex colors make them less than half as
 //! opaque as their material.
 
 use super::attributes::{PrimitiveIndices, interpolate};

@@ -24,7 +24,7 @@
 //! The inner `[f32; N]` is the rasterizer's `F32x8`, so conversions are free. Loops use array
 //! iterators instead of indices, which avoids bounds checks.
 //!
-//! The bits of a lane depend neither on `N` nor on the instruction set: every operator rounds like
+//! The bits of a lane depend neither on `N` nor on the instruction set. Every operator rounds like
 //! its scalar counterpart, nothing is fused or reassociated, and [`Lanes::lerp`] is `a + (b − a)·t`
 //! in this order. When a formula is rewritten, the order of its operations must not change, or the
 //! goldens will.

@@ -116,7 +116,8 @@ impl PreethamSky {
 ///
 /// Perez, Seals and Michalsky 1993, with five coefficients that are linear in the turbidity.
 fn perez_distribution(component: usize, cosine: f32, gamma: f32) -> f32 {
-    // A: gradient near the horizon; B: its width; C and D: glow around the sun; E: backscatter.
+    // A is the gradient near the horizon, and B its width. C and D are the glow around the sun. E
+    // is the backscatter.
     let [a, b, c, d, e] = PEREZ[component].map(|[factor, constant]| factor * TURBIDITY + constant);
     let sun_cosine = libm::cosf(gamma);
     let horizon = 1.0 + a * libm::expf(b / cosine);

@@ -18,9 +18,9 @@
 //! the shadow. Both use a fixed pattern of positions, so that pictures have no noise and are always
 //! identical.
 //!
-//! Percentage-closer filtering (Reeves, Salesin and Cook, *Rendering antialiased shadows with depth
-//! maps*, 1987) averages the results of depth comparisons, not depths, because a mean depth would
-//! not be the depth of any surface. Here planes are compared, and the average is over a disc.
+//! Percentage-closer filtering averages the results of depth comparisons, not depths (Reeves,
+//! Salesin and Cook, *Rendering antialiased shadows with depth maps*, 1987). A mean depth would not
+//! be the depth of any surface. Here planes are compared, and the average is over a disc.
 
 mod blocker_search;
 mod nearest_depths;

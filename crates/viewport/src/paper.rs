@@ -170,8 +170,8 @@ impl DrawingScale {
     }
 
     /// Returns the largest standard scale at which an object of size `thing` fits into `room`, both
-    /// in the same unit, or `None` if the object is too large for all scales or if a size is not
-    /// finite.
+    /// in the same unit. Returns `None` if the object is too large for all scales, or if a size is
+    /// not finite.
     #[must_use]
     pub fn largest_standard(thing: [f64; 2], room: [f64; 2]) -> Option<Self> {
         let fits = |scale: &&Self| {

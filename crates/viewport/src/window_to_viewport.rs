@@ -97,8 +97,9 @@ impl WindowToViewport {
         self.homography().raw().transform_point2(point.into()).into()
     }
 
-    /// Returns the three factors of the chain, in the order in which a point passes through them:
-    /// T(−xw min, −yw min) to the origin, S(sx, sy), T(xv min, yv min) to the target position.
+    /// Returns the three factors of the chain, in the order in which a point passes through them.
+    /// T(−xw min, −yw min) moves it to the origin, S(sx, sy) scales, and T(xv min, yv min) moves it
+    /// to the target position.
     ///
     /// Both signs in the first factor are negative; one source prints T(−xw min, +yw min) (misprint
     /// M18).

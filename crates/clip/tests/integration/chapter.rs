@@ -58,7 +58,7 @@ fn points_on_both_sides_of_the_eye_are_far_apart_in_the_picture() {
     assert!(clip_segment(seen(0.5, 0.5, -1e-9), seen(0.5, 0.5, 1e-9), &Volume::CHAPTER).is_none());
 }
 
-/// C31, C47: clipping in four dimensions agrees with clipping in the picture: after the divide, the
+/// C31, C47: clipping in four dimensions agrees with clipping in the picture. After the divide, the
 /// cut point is where the image leaves the square.
 #[test]
 fn cuts_before_and_after_the_division_agree() {

@@ -4,9 +4,9 @@
 //! it smooth. A machined part has an edge wherever the normals on the two sides differ. The angle
 //! between faces cannot distinguish the two cases.
 //!
-//! A normal is stored as a point of an octahedron whose lower half is unfolded to form a square,
-//! with 16 bits per coordinate and an error of at most 0.004° (Meyer et al., *On Floating-Point
-//! Normal Vectors*, 2010).
+//! A normal is stored as a point of an octahedron whose lower half is unfolded to form a square
+//! (Meyer et al., *On Floating-Point Normal Vectors*, 2010). Each coordinate has 16 bits, and the
+//! error is at most 0.004°.
 
 use glam::{DVec2, DVec3};
 

@@ -1,7 +1,7 @@
 //! Bounding-volume hierarchy over axis-aligned boxes, built by the binned surface-area heuristic.
 //!
 //! The construction follows Wald, *On fast construction of SAH-based bounding volume hierarchies*
-//! (2007): each node is split at the boundary between bins along its longest axis where the
+//! (2007). Each node is split along its longest axis, at the boundary between bins where the
 //! expected cost of its children is lowest. One hierarchy in world space serves both the search for
 //! intersections and all views, each of which projects the boxes of its nodes onto the screen
 //! (`screen_bvh`).
@@ -386,8 +386,8 @@ fn partition_by_sah<const BINS: usize>(
     (left > 0 && left < items.len()).then_some(split)
 }
 
-/// Returns the last bin on the left side of the cheapest split, found by a sweep from the right and
-/// a sweep from the left, or `None` if no box has an area.
+/// Returns the last bin on the left side of the cheapest split, or `None` if no box has an area.
+/// The split is found by a sweep from the right and a sweep from the left.
 fn cheapest_bin_split<const BINS: usize>(bins: &[BoundsOfItems; BINS]) -> Option<usize> {
     let mut right = [0.0; BINS];
     let mut extents = BoundsOfItems::EMPTY;

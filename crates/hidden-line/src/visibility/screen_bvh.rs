@@ -389,8 +389,8 @@ impl<'a> ScreenEdge<'a> {
     ///          s₀    s₁
     /// ```
     ///
-    /// This is a slab test in x and y (Kay and Kajiya 1986), followed by one comparison of depth:
-    /// if even the farthest point of the edge is nearer than the nearest point of the box, nothing
+    /// This is a slab test in x and y (Kay and Kajiya 1986), followed by one comparison of depth.
+    /// If even the farthest point of the edge is nearer than the nearest point of the box, nothing
     /// in the box can hide it. Depth is linear in s, so its extremes are at the ends. The margin of
     /// the boxes is far larger than the rounding errors here.
     fn interval_behind(&self, bounds: &DepthBox) -> Option<[f64; 2]> {

@@ -1,8 +1,9 @@
 //! A parser for material libraries (MTL).
 //!
-//! Sources: Alias|Wavefront, *MTL material format*, Advanced Visualizer manual; for `Pr`, `Pm`,
-//! `Ps`, `Pc`, `Pcr`, `aniso`, `anisor` and `norm`: *Extending Wavefront MTL for Physically-Based
-//! Rendering*, Exocortex 2012.
+//! Sources:
+//! - Alias|Wavefront, *MTL material format*, Advanced Visualizer manual;
+//! - *Extending Wavefront MTL for Physically-Based Rendering*, Exocortex 2012, for `Pr`, `Pm`,
+//!   `Ps`, `Pc`, `Pcr`, `aniso`, `anisor` and `norm`.
 
 use super::statements::StatementReader;
 use crate::text::{LineCounter, Token, parse_f32};

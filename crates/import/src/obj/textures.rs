@@ -204,8 +204,10 @@ fn combine_all(
     model.images = Arc::from(all);
 }
 
-/// Reads an image file: below the library's folder, else below the OBJ file's folder, else next to
-/// the OBJ file by file name only, because many libraries contain paths from the computer they were
+/// Reads an image file below the library's folder, else below the OBJ file's folder, else next to
+/// the OBJ file by file name only.
+///
+/// The last search is necessary because many libraries contain paths from the computer they were
 /// made on.
 fn read_image<'a>(
     folder: &str,

@@ -11,9 +11,9 @@ fn vertex(x: i32, y: i32) -> ScreenVertex {
     ScreenVertex::new(x, y, 0.5, 1.0).expect("on the grid")
 }
 
-/// Returns whether the triangle covers a sample, straight from RA-1: the sample is inside, or it is
-/// on the border, and a step to the right and an infinitely smaller step down (y down) take it
-/// inside.
+/// Returns whether the triangle covers a sample, straight from RA-1. Samples inside are covered. A
+/// sample on the border is covered if a step to the right and an infinitely smaller step down (y
+/// down) take it inside.
 fn covers(triangle: [ScreenVertex; 3], x: i64, y: i64) -> bool {
     let side = |a: ScreenVertex, b: ScreenVertex| {
         let (dx, dy) = (i64::from(b.x()) - i64::from(a.x()), i64::from(b.y()) - i64::from(a.y()));

@@ -8,24 +8,24 @@ use recognition::{MatrixMeaning, Misprint, Recognition, SuspicionStrength, recog
 /// The expected meaning of a matrix, from its source.
 #[derive(Clone, Debug)]
 pub(crate) enum Expected {
-    /// Convention; left, right, bottom, top; near, far.
+    /// Convention, window (left, right, bottom, top), near, far.
     Frustum(Convention, [f64; 4], f64, f64),
-    /// Convention; vertical field of view in degrees, aspect ratio; near, far.
+    /// Convention, vertical field of view in degrees, aspect ratio, near, far.
     Lens(Convention, f64, f64, f64, f64),
     InverseLens(Convention, f64, f64, f64, f64),
     Moved([f64; 4], f64, f64),
     Box(Convention, [f64; 4], f64, f64),
-    /// Convention; length and φ in degrees; left, right, bottom, top; near, far.
+    /// Convention, length and φ in degrees, window (left, right, bottom, top), near, far.
     Prism(Convention, [f64; 2], [f64; 4], f64, f64),
     /// Length, φ in degrees, plane; whether depth is preserved.
     Oblique(f64, f64, f64, bool),
     /// Eye and gaze.
     Camera([f64; 3], [f64; 3]),
-    /// Eye; convention; vertical field of view, near and far.
+    /// Eye, convention, vertical field of view, near, far.
     CameraLens([f64; 3], Convention, f64, f64, f64),
     P(f64, f64),
     PInverse(f64, f64),
-    /// x, y, width, height; y down; integer centers.
+    /// Rectangle (x, y, width, height), whether y is down, whether centers are integers.
     Viewport([f64; 4], bool, bool),
     Intrinsics([f64; 4]),
     Translation([f64; 3]),

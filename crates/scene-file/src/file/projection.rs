@@ -115,7 +115,7 @@ scene_enum! {
         Dimetric,
         /// Trimetric: orthographic, each axis foreshortened by a different factor.
         Trimetric,
-        /// Orthographic, with the axes foreshortened in the ratio x : y : z.
+        /// Orthographic, with the axes foreshortened in the ratio x:y:z.
         Axonometric {
             /// The foreshortening of the x axis.
             x: Positive,

@@ -23,8 +23,9 @@ scene_struct! {
         /// The scale, paper to object, as in (1, 50). Default: the largest standard scale that
         /// fits.
         pub scale: Option<(u32, u32)> = None,
-        /// The unit of the models. Default: the unit in their files: meters in glTF, millimeters in
-        /// STL. With inches or feet, dimensions are in inches, otherwise in millimeters.
+        /// The unit of the models. Default: the unit in their files, which is meters in glTF and
+        /// millimeters in STL. With inches or feet, dimensions are in inches, otherwise in
+        /// millimeters.
         pub unit: Option<LengthUnit> = None,
         /// The view beside the front view. Default: from the left in first angle, from the right in
         /// third angle; the opposite side if only that view faces a section.
@@ -102,7 +103,7 @@ scene_struct! {
         /// feet, otherwise millimeters.
         pub dimension_unit: Option<DimensionUnit> = None,
         /// The maximum number of decimals in lengths, from 0 to 6; trailing zeros are omitted.
-        /// Default: 2 in millimeters, but 0 from one meter up; 3 in inches; sixteenths of an inch
+        /// Default: 2 in millimeters (0 from one meter up), 3 in inches, and sixteenths of an inch
         /// in feet and inches.
         pub decimals: Option<u32> = None,
         /// The decimal separator. Default: a point.

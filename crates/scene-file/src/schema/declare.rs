@@ -48,8 +48,8 @@ macro_rules! documentation {
 /// Declares a scene file struct. `as "Name"` is its name in scene files; a field with `= value` may
 /// be omitted. If every field has a default, so does the struct.
 ///
-/// The first rule matches structs whose fields all have defaults and adds `impl Default`; the
-/// second matches any other; `@declare` is the common part.
+/// The first rule matches structs whose fields all have defaults and adds `impl Default`. The
+/// second matches any other struct. `@declare` is their common part.
 macro_rules! scene_struct {
     (
         $(#[doc = $doc:literal])*

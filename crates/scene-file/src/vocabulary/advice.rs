@@ -1,7 +1,9 @@
 //! Words for which there is no field, with advice on getting the same effect.
 
-/// The struct, variant or enum around the word; lowercase words without hyphens or underscores,
-/// separated by spaces; and the help.
+/// Words and advice about them. Each row has:
+/// - the struct, variant or enum around the word;
+/// - the words in lowercase, without hyphens or underscores, separated by spaces;
+/// - the help.
 const ADVICE: &[(&str, &str, &str)] = &[
     (
         "Sheet",

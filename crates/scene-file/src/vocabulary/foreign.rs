@@ -1,8 +1,10 @@
 //! Words from three.js, Blender, glTF, f3d and others, each with the field or variant that it means
 //! here.
 
-/// Lowercase words without hyphens or underscores, separated by spaces; the struct, variant or enum
-/// that has the field or variant they mean; and its name there.
+/// Foreign words and their meanings. Each row has:
+/// - the words in lowercase, without hyphens or underscores, separated by spaces;
+/// - the struct, variant or enum that has the field or variant they mean;
+/// - the name of that field or variant.
 ///
 /// If a word has several rows, the row with the struct around the word comes first, then rows in
 /// the same scene field, then the first row.

@@ -46,8 +46,9 @@ pub(super) fn lint_flat_stereo(adviser: &Linter<'_>) -> Option<Lint> {
     Some(Lint { code: "flat-stereo", error })
 }
 
-/// Warns about a stereo pair whose eyes are too far apart for the distance of the models, such as
-/// an eye distance of 65, meant as the 65 millimeters between human eyes, in a scene in meters.
+/// Warns about a stereo pair whose eyes are too far apart for the distance of the models. An
+/// example is an eye distance of 65 in a scene in meters, meant as the 65 millimeters between human
+/// eyes.
 pub(super) fn lint_wide_stereo(adviser: &Linter<'_>) -> Option<Lint> {
     adviser.file.stereo.as_ref()?;
     let [left, right] = adviser.scene.insets.as_slice() else { return None };

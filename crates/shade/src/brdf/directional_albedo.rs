@@ -44,8 +44,8 @@ impl<const N: usize> DirectionalAlbedo<N> {
     ///
     /// The table's columns are equal steps of the square root of the cosine, and its rows are the
     /// midpoints of sixteenths of the roughness. Beyond the first and last rows the value is
-    /// clamped, as in the textures of other renderers. (Rows at the ends, which would be exact,
-    /// push three of the reference pictures beyond their limits.)
+    /// clamped, as in the textures of other renderers. Rows at the ends would be exact, but they
+    /// push three of the reference pictures beyond their limits.
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
     #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(super) fn lookup(roughness: Lanes<N>, n_dot_v: Lanes<N>) -> Self {

@@ -8,9 +8,9 @@
 //!  sheen = color · D · G / (4 n·l n·v)
 //! ```
 //!
-//! Sheen takes its energy from the layers below, which are scaled by `1 − max(color) · E`, where
-//! `E` is the directional albedo of white sheen: the integral of the lobe over the hemisphere
-//! (albedo scaling, as in the extension).
+//! Sheen takes its energy from the layers below, which are scaled by `1 − max(color) · E` (albedo
+//! scaling, as in the extension). `E` is the directional albedo of white sheen: the integral of the
+//! lobe over the hemisphere.
 
 mod table;
 

@@ -8,9 +8,9 @@
 //! ```
 //!
 //! The texture is therefore read at several taps along the longer axis, on the mip level whose
-//! texels are as large as the shorter axis (Heckbert, *Fundamentals of texture mapping and image
-//! warping*, 1989; McCormack and others, *Feline: fast elliptical lines for anisotropic texture
-//! mapping*, 1999).
+//! texels are as large as the shorter axis. Sources:
+//! - Heckbert, *Fundamentals of texture mapping and image warping*, 1989;
+//! - McCormack and others, *Feline: fast elliptical lines for anisotropic texture mapping*, 1999.
 //!
 //! Taps on a line approximate the elliptical weighted average (EWA: Greene and Heckbert 1986),
 //! which weights every texel within the ellipse by a Gaussian.

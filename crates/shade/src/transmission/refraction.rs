@@ -53,7 +53,7 @@ const REFERENCE_LEVELS: f32 = 10.0;
 ///
 /// The Khronos sample viewer uses the level log₂(size) · roughness in a framebuffer of 1024 texels.
 /// At other sizes this would blur by a different fraction of the picture, so the width of the
-/// filter is scaled: at 1024 texels the levels equal the viewer's, and a roughness of 0 is level 0
+/// filter is scaled. At 1024 texels the levels equal the viewer's, and a roughness of 0 is level 0
 /// at any size. Roughness is reduced as the index of refraction approaches 1, which does not
 /// scatter light.
 #[inline(always)]

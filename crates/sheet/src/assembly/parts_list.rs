@@ -78,8 +78,8 @@ impl PartsList {
     /// Creates the list of all parts in models with a given number of millimeters per scene unit.
     ///
     /// Parts share an item if their meshes have the same positions, indices and materials at the
-    /// same size, and if their names differ at most in a trailing number: `bolt.001` and `bolt.002`
-    /// are two bolts.
+    /// same size. Their names may differ only in a trailing number: `bolt.001` and `bolt.002` are
+    /// two bolts.
     #[must_use]
     pub fn new(
         models: &[ModelInstance],

@@ -6,10 +6,13 @@
 //!                                                          from the center of the view, y down)
 //! ```
 //!
-//! A view shows a length at true size if the length is perpendicular to the view direction, a
-//! circle if its axis is parallel to it, and an angle if its plane is perpendicular to it. Nothing
-//! else is dimensioned, because a number that cannot be measured on the paper would mislead anyone
-//! who works from the drawing.
+//! A view shows at true size:
+//! - a length that is perpendicular to the view direction;
+//! - a circle whose axis is parallel to the view direction;
+//! - an angle whose plane is perpendicular to the view direction.
+//!
+//! Nothing else is dimensioned, because a number that cannot be measured on the paper would mislead
+//! anyone who works from the drawing.
 
 use super::sheet_view::{SheetView, ViewName};
 use crate::DimensionFault;

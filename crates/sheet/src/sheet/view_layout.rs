@@ -13,9 +13,9 @@
 //! axonometric view and the section views have no fixed position. Each of them is placed in the
 //! best free rectangle, at a smaller scale if necessary.
 //!
-//! Several arrangements of the grid are tried at each scale: with equal gaps on the whole drawing
-//! area or above the title block, or with the views close together to leave more room beside them.
-//! The largest scale at which all views fit wins.
+//! Several arrangements of the grid are tried at each scale. Some have equal gaps, on the whole
+//! drawing area or above the title block. Others put the views close together to leave more room
+//! beside them. The largest scale at which all views fit wins.
 
 use super::annotation::{Extent, ViewAnnotations, overlap};
 use super::free_area::{best_rectangle, free_rectangles};

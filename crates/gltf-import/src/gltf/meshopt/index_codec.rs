@@ -7,9 +7,11 @@
 //!               table, else from a byte of the data
 //! ```
 //!
-//! The code of a vertex (Y < 15, or half of a table entry) is 0 for a new vertex, 1 to 12 for a
-//! vertex in the vertex FIFO, 13 or 14 for the last explicit index −1 or +1, and 15 for an explicit
-//! index, which is a zigzag-coded difference from the last explicit index.
+//! The code of a vertex (Y < 15, or half of a table entry) is:
+//! - 0 for a new vertex;
+//! - 1 to 12 for a vertex in the vertex FIFO;
+//! - 13 or 14 for the last explicit index −1 or +1;
+//! - 15 for an explicit index, a zigzag-coded difference from the last explicit index.
 
 use super::byte_stream::{ByteStream, StreamError, decode_zigzag, push_index};
 

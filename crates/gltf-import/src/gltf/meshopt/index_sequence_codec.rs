@@ -49,7 +49,7 @@ mod tests {
 
     #[test]
     fn two_baselines_are_decoded() {
-        // +3 and +5 from 0 on baseline 0; −100 from 0 on baseline 1; −1 on baseline 0.
+        // +3 and +5 from 0 on baseline 0, −100 from 0 on baseline 1, then −1 on baseline 0.
         let stream = [0xD1, 6 << 1, 4 << 1, 0x8F, 0x03, 1 << 1, 0, 0, 0, 0];
         let last = |index: u32, stride: usize| index.to_le_bytes()[..stride].to_vec();
         for stride in [2, 4] {

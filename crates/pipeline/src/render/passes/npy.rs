@@ -1,8 +1,11 @@
 //! Passes as NumPy arrays: `numpy.load("picture.depth.npy")`.
 //!
-//! The format is NPY 1.0 (`numpy.lib.format`): a magic string, the header length, a Python literal
-//! that describes the array (padded so that the data begins at a multiple of 64 bytes), and the
-//! values in little-endian order.
+//! The format is NPY 1.0 (`numpy.lib.format`):
+//! - a magic string;
+//! - the header length;
+//! - a Python literal that describes the array, padded so that the data begins at a multiple of 64
+//!   bytes;
+//! - the values in little-endian order.
 
 use super::buffer::{PassBuffer, PassValues};
 use std::fmt::Write;

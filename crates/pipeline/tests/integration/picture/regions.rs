@@ -140,9 +140,9 @@ fn regions_of_a_giant_picture_match_across_image_tiles() {
     }
 }
 
-/// Every feature that depends on more than one pixel, in a tall picture: textures, glass, soft and
-/// sharp shadows, a ground that catches them, occlusion, an environment, an overlay, and a view
-/// with a separate camera.
+/// A tall picture with every feature that depends on more than one pixel. It has textures, glass,
+/// soft and sharp shadows, a ground that catches them, occlusion, an environment, an overlay, and a
+/// view with a separate camera.
 const EVERYTHING_SCENE: &str = r#"Scene(
     models: [
         (path: "models/table.glb"),

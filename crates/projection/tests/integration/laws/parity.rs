@@ -1,8 +1,8 @@
 //! Parity with glam's builders, where they exist (C93).
 //!
 //! Two builders of glam 0.34 are compared only for centered windows. Its left-handed `frustum` uses
-//! the sign of the right-handed offset, and its Vulkan `orthographic` does not flip the y offset,
-//! so corners of off-center windows do not map to corners of the canonical volume. Tests in
+//! the sign of the right-handed offset, and its Vulkan `orthographic` does not flip the y offset.
+//! Corners of off-center windows therefore do not map to corners of the canonical volume. Tests in
 //! `builders` check that ours do.
 
 use super::samples::{self, distance, frustum, orthographic, perspective};
