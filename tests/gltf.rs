@@ -101,9 +101,9 @@ impl Document {
     }
 
     /// Returns a document with everything in [`Self::with_all_members`], and with the rare
-    /// attributes and every extension: tangents, a second set of joints, morph targets for all
-    /// attributes, lights, variants, edge visibility, animation pointers and every KHR_materials
-    /// extension.
+    /// attributes and every extension. These are tangents, a second set of joints, morph targets
+    /// for all attributes, lights, variants, edge visibility, animation pointers and every
+    /// KHR_materials extension.
     #[must_use]
     pub fn with_extensions() -> Self {
         let mut document = Self::with_all_members();

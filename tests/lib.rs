@@ -1,6 +1,10 @@
-//! Code shared by the cross-crate tests: the [harness] of the table-driven programs, a corpus of
-//! [samples] with its [manifest], small [glTF documents](gltf) and [3MF files](threemf), the path
-//! of the program under test, and a PNG reader.
+//! Code shared by the cross-crate tests:
+//!
+//! - the [harness] of the table-driven programs
+//! - a corpus of [samples] with its [manifest]
+//! - small [glTF documents](gltf) and [3MF files](threemf)
+//! - the path of the program under test
+//! - a PNG reader
 
 #![allow(clippy::print_stdout, reason = "the harness prints for test programs")]
 

@@ -2,8 +2,8 @@
 //!
 //! `cargo xtask bench [NAME…]` runs it optimized; arguments select benchmarks whose names contain
 //! them. Every benchmark does one job in several variants, which take turns. The output is the time
-//! of each variant as a multiple of the first variant's time in the same turn: the median of all
-//! turns, and the range that contains 80% of the turns. A busy or slow machine slows all variants
+//! of each variant as a multiple of the first variant's time in the same turn. It is the median of
+//! all turns, with the range that contains 80% of them. A busy or slow machine slows all variants
 //! equally. No result counts as a failure.
 
 #![allow(clippy::print_stdout, reason = "a program writes to standard output")]

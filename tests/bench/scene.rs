@@ -6,9 +6,10 @@ use homog::{Affine, Clip, Model, Point, Projective, Vector, World};
 /// The number of points or triangles that a variant processes in one turn.
 pub const POINT_COUNT: usize = 100_000;
 
-/// The points of a turn, as blocks to process: one small block that is processed repeatedly and
-/// stays in the L1 cache, or a different large block in each turn, which has been evicted from
-/// every cache.
+/// The points of a turn, as blocks to process.
+///
+/// One small block is processed repeatedly and stays in the L1 cache. A large block differs in each
+/// turn and has been evicted from every cache.
 #[derive(Clone, Copy)]
 pub enum Blocks {
     Cached,

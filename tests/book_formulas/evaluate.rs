@@ -175,7 +175,7 @@ mod tests {
     use crate::book_formulas::token::tokenize;
     use crate::book_formulas::value::Value;
 
-    /// a = 2, b = 3 …; vectors p = (1, 2, 3), q = (4, 5, 7); λ0 = 10, λ1 = 20.
+    /// a = 2, b = 3 …, the vectors p = (1, 2, 3) and q = (4, 5, 7), λ0 = 10 and λ1 = 20.
     struct Letters;
 
     impl Scope for Letters {

@@ -47,9 +47,10 @@ const MODELS: [&str; 8] = [
 
 /// The outcome of a scene that was drawn or rejected.
 enum Verdict {
-    /// The fraction of the visible length that is hidden in the z-buffer, the fraction of all lines
-    /// that is drawn as hidden but visible in the z-buffer, and the fraction of the shaded
-    /// picture's outline that has no line.
+    /// Three fractions:
+    /// - - `denied`: of the visible length, the part hidden in the z-buffer
+    /// - - `contradicted`: of all lines, the part drawn as hidden but visible in the z-buffer
+    /// - - `unlined`: of the shaded picture's outline, the part without a line
     Drawn { denied: f64, contradicted: f64, unlined: f64 },
     /// The scene was rejected for this reason.
     Refused(String),

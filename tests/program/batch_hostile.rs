@@ -1,6 +1,9 @@
-//! `alberti batch` on misleading lists and folders: two lines with the same output, pipes instead
-//! of reports, symbolic links that form cycles or lead out of the output folder, and names that are
-//! not UTF-8.
+//! `alberti batch` on misleading lists and folders:
+//!
+//! - two lines with the same output
+//! - pipes instead of reports
+//! - symbolic links that form cycles or lead out of the output folder
+//! - names that are not UTF-8
 
 use crate::sandbox::{RunResult, Sandbox};
 use std::ffi::OsStr;

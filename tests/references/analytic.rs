@@ -2,8 +2,8 @@
 //! intersections and shaded with the formulas of the glTF specification.
 //!
 //! They have the same form as pictures from another renderer, so that both are scored in the same
-//! way: `NAME.json` with the model, camera and lights, `NAME.png`, and the model itself as
-//! triangles.
+//! way. This form is `NAME.json` with the model, camera and lights, `NAME.png`, and the model
+//! itself as triangles.
 
 mod brdf;
 mod tracer;

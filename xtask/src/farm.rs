@@ -29,8 +29,8 @@ const START: Milliseconds = 2_000;
 /// The time from the failure of a node to the restart of its shard, with Slurm's defaults: 300 s
 /// until the node counts as down, and 120 s until a job restarts.
 const LOSS: Milliseconds = 420_000;
-/// File system calls that read a picture's model, as counted with strace: the model is looked up,
-/// opened and closed three times, to compute its key, to load it and to check it.
+/// File system calls that read a picture's model, as counted with strace. The model is looked up,
+/// opened and closed three times: to compute its key, to load it and to check it.
 const REQUESTS_TO_READ: u64 = 9;
 /// File system calls that write a file: folder lookup, create, sync, close and rename.
 const REQUESTS_TO_WRITE: u64 = 6;

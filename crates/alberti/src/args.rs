@@ -143,14 +143,13 @@ pub(crate) struct RenderArgs {
     /// Scenes (.ron) or models (.gltf, .glb, .stl, .obj, .ply, .3mf); `-` is the standard input
     #[arg(required = true, value_name = "INPUT")]
     pub(crate) inputs: Vec<PathBuf>,
-    /// Output file: .png, .jpg or .webp, or .svg, .pdf or .dxf for a line drawing; `-` is the
-    /// standard output
-    /// [default: {stem}.png in the current folder, {stem}_{view}.png for several views]
+    /// Output file (.png, .jpg, .webp, or .svg, .pdf, .dxf for a line drawing); `-` is the standard
+    /// output [default: {stem}.png in the current folder, {stem}_{view}.png for several views]
     ///
-    /// The name may be a template. {stem}, {camera}, {view}, {style}, {projection} and {variant}
-    /// are replaced by values from the input's name and the flags, {frame} by the picture's index
-    /// for its input, {index} by its index among all pictures. Indices start at 0; {index:04} has
-    /// four digits. Write {{ and }} for braces.
+    /// The name may be a template. Values from the input's name and the flags replace {stem},
+    /// {camera}, {view}, {style}, {projection} and {variant}. The picture's index replaces {frame},
+    /// counted per input, and {index}, counted over all pictures. Indices start at 0; {index:04}
+    /// has four digits. Write {{ and }} for braces.
     #[arg(help_heading = "Output", short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
     /// Output format [default: from the file extension; png on the standard output]

@@ -34,9 +34,9 @@ pub(crate) struct BatchArgs {
     inputs: Vec<PathBuf>,
     /// List of jobs, one per line: JSON (.jsonl) or CSV (.csv); `-` is the standard input
     ///
-    /// {"input": "fox.glb", "output": "a.png", "size": "64x64"}: input is relative to the list,
-    /// output to the output folder. Other members are picture flags by name; they are added to the
-    /// flags of the command and override them. "pictures" is a list of such objects, for several
+    /// In `{"input": "fox.glb", "output": "a.png", "size": "64x64"}`, input is relative to the
+    /// list, and output to the output folder. Other members are picture flags by name, which
+    /// override flags of the command. The member "pictures" is a list of such objects, for several
     /// pictures of one input. The columns of a CSV file have the same names. The list is read as
     /// needed and may have any length.
     #[arg(long, value_name = "FILE")]
@@ -46,11 +46,11 @@ pub(crate) struct BatchArgs {
     out_dir: PathBuf,
     /// Picture names, such as {prefix}/{stem}.png
     ///
-    /// {stem} and {name} are the input's name without and with its extension. {folder} is its
-    /// folder, relative to the folder that was searched. {line} is the number of its line or input,
-    /// {picture} the number of the picture within its line, both counted from 1; {line:08} has
-    /// eight digits. {prefix} is two hexadecimal digits of a hash of the name; it spreads the
-    /// pictures over 256 folders.
+    /// The input's name is {stem} without and {name} with its extension. Its folder is {folder},
+    /// relative to the folder that was searched. Counted from 1, {line} is the number of its line
+    /// or input, and {picture} the picture's number within its line; {line:08} has eight digits. To
+    /// spread the pictures over 256 folders, {prefix} is two hexadecimal digits of a hash of the
+    /// name.
     #[arg(long, value_name = "TEMPLATE", value_parser = PictureName::parse)]
     name: Option<PictureName>,
     /// Process part I of N; `auto` takes both from the environment variables of an array job

@@ -15,7 +15,7 @@ use std::path::PathBuf;
 /// Arguments of `alberti compare-projections`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct CompareProjectionsArgs {
-    /// Output file: .svg, .pdf, .dxf, .png or .html
+    /// Output file (.svg, .pdf, .dxf, .png or .html)
     #[arg(short, long, value_name = "FILE", default_value = "projections.svg")]
     output: PathBuf,
     /// Projections to show, in this order [default: all]

@@ -45,8 +45,8 @@ struct DepthArgs {
     /// Spacing of the plot's distance axis
     #[arg(long, value_name = "SPACING", default_value = "logarithmic")]
     axis: AxisArg,
-    /// Output file: .svg, .pdf, .dxf or .png for the plot, .txt, .md, .csv or .json for only the
-    /// table [default: the table on the standard output]
+    /// Output file (.svg, .pdf, .dxf or .png for the plot, .txt, .md, .csv or .json for only the
+    /// table) [default: the table on the standard output]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }

@@ -28,7 +28,7 @@ enum DemoSubject {
 /// Arguments of `alberti demo wrap-around`.
 #[derive(Debug, clap::Args)]
 struct WrapAroundArgs {
-    /// Output file: .svg, .pdf, .dxf, .png or .html
+    /// Output file (.svg, .pdf, .dxf, .png or .html)
     #[arg(short, long, value_name = "FILE", default_value = "wrap-around.svg")]
     output: PathBuf,
 }

@@ -85,8 +85,8 @@ use std::process::ExitCode;
 
 /// Runs the program with its arguments, the first of which is its name; returns the exit code.
 ///
-/// Exit codes: 0 for success, 1 for a failure or errors found by a check, 2 for wrong usage (set by
-/// clap), 3 for a batch that had to stop, and 128 or more if a signal interrupted the program.
+/// The exit code is 0 for success, 1 for a failure or errors found by a check, and 2 for wrong
+/// usage (set by clap). It is 3 for a batch that had to stop, and 128 or more after a signal.
 ///
 /// A failure is printed as `error: MESSAGE` on the standard error stream. Commands whose result is
 /// a verdict return 1 without an error message.

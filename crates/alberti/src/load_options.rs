@@ -1,4 +1,4 @@
-//! Model loading flags: leniency, allowed folders, limits on input size, and values for what a file
+//! Model loading flags: leniency, allowed folders and limits on input size. Others give what a file
 //! may not specify: the up axis, the unit and the crease angle.
 //!
 //! Models are not trusted: without limits, a file of a few kilobytes could demand terabytes. Every
@@ -30,8 +30,9 @@ pub(crate) struct LoadArgs {
     /// mm for STL and 3MF, m for all others]
     #[arg(long, value_parser = option_parser::<LengthUnit>())]
     pub(crate) unit: Option<LengthUnit>,
-    /// Crease angle: faces that meet at up to this angle are smooth; applies to shading if the file
-    /// has no normals, and always to the edges of line drawings [default: 30]
+    /// Crease angle, up to which adjacent faces are smooth [default: 30]
+    ///
+    /// It applies to shading if the file has no normals, and always to the edges of line drawings.
     #[arg(long, value_name = "DEGREES", value_parser = parse_crease_angle)]
     pub(crate) crease: Option<f64>,
     #[command(flatten)]

@@ -58,8 +58,8 @@ pub(crate) struct MatrixArgs {
     /// Sixteen or nine numbers, row by row [default: read from the standard input]
     ///
     /// Brackets and commas between them are ignored, and fractions such as 2/3 are allowed. Source
-    /// code in C, GLSL, Python and Rust is accepted in the form that --code prints: mat
-    /// constructors are read column by column, and other code in the order that its comments state,
+    /// code in C, GLSL, Python and Rust is accepted in the form that --code prints. Its mat
+    /// constructors are read column by column, and other code in the order that the comments state,
     /// by default row by row.
     #[arg(allow_hyphen_values = true)]
     numbers: Vec<String>,

@@ -17,11 +17,12 @@ use std::path::{Path, PathBuf};
 pub(crate) struct PassArgs {
     /// Render passes to write next to the picture, as NAME.PASS.png (or .npy, .exr)
     ///
-    /// Each holds one property of the nearest surface at the center of each pixel: depth along the
-    /// view axis and distance from the eye in scene units; normal (world space) and view-normal;
-    /// position (world space); uv; barycentric coordinates; id of the triangle; index of model,
-    /// node, mesh and material (from 1; 0 is the background). overdraw counts the fragments of the
-    /// pixel, and coverage is the fraction of its samples that are covered.
+    /// Each holds one property of the nearest surface at the center of each pixel. The depth (along
+    /// the view axis) and the distance from the eye are in scene units. The normal and the position
+    /// are in world space, the view-normal in view space. The others are uv, barycentric
+    /// coordinates, the id of the triangle, and the index of model, node, mesh and material (from
+    /// 1; 0 is the background). In addition, overdraw counts the fragments of the pixel, and
+    /// coverage is the fraction of its samples that are covered.
     #[arg(help_heading = "Output", long, value_name = "PASS,…", value_delimiter = ',', value_parser = option_parser::<Pass>())]
     passes: Vec<Pass>,
     /// File format of the passes

@@ -92,9 +92,9 @@ fn render_all(args: &RenderArgs) -> Result<ExitCode, CliError> {
 /// The overrides, the region and the passes are applied to the scene file in this order; then the
 /// scene is resolved and rendered.
 ///
-/// After the progress line is removed, messages come in a fixed order: the results of `--verify`,
-/// `--timings` and `--show`, then the JSON report or the warnings, and the result of `--compare`
-/// last. With `--json`, warnings and comparison are part of the report and are not repeated.
+/// After the progress line is removed, messages come in a fixed order. The results of `--verify`,
+/// `--timings` and `--show` come first, then the JSON report or the warnings, then the result of
+/// `--compare`. With `--json`, warnings and comparison are part of the report and not repeated.
 ///
 /// Times are measured only if they will be printed: the stopwatch is cheap, but not free.
 ///

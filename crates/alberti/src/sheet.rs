@@ -39,7 +39,8 @@ pub(super) const DEFAULT_DPI: u32 = 150;
 pub(crate) struct SheetArgs {
     /// Scene (.ron) or model (.gltf, .glb, .stl, .obj, .ply, .3mf)
     input: PathBuf,
-    /// Output file: .pdf, .svg, .dxf or .png [default: the input's name with .pdf, in the current folder]
+    /// Output file (.pdf, .svg, .dxf or .png) [default: the input's name with .pdf, in the current
+    /// folder]
     ///
     /// A PDF holds all pages. Other formats get one file per page: out.svg becomes out-1.svg,
     /// out-2.svg and so on; {page} in a name is the page number.
@@ -51,8 +52,7 @@ pub(crate) struct SheetArgs {
     /// Page orientation [default: whichever makes the views larger]
     #[arg(long, value_parser = option_parser::<PageOrientation>())]
     orientation: Option<PageOrientation>,
-    /// Arrangement of the views: first-angle or third-angle projection (ISO 5456-2)
-    /// [default: first]
+    /// First-angle or third-angle arrangement of the views (ISO 5456-2) [default: first]
     #[arg(long, value_parser = option_parser::<SheetAngle>())]
     projection_angle: Option<SheetAngle>,
     /// Scale, paper to model, such as 1:50 [default: the largest standard scale that fits]
@@ -65,7 +65,7 @@ pub(crate) struct SheetArgs {
     /// dashed]
     #[arg(long, value_parser = option_parser::<HiddenLines>())]
     hidden_lines: Option<HiddenLines>,
-    /// Fill of the faces under the lines: grays or hatching distinguish parts [default: as in the
+    /// Fill of the faces under the lines; grays or hatching distinguish parts [default: as in the
     /// scene's line style, else none]
     #[arg(long, value_name = "FILL", value_parser = option_parser::<FaceFill>())]
     face_fill: Option<FaceFill>,

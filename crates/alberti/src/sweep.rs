@@ -17,7 +17,7 @@ use std::path::PathBuf;
 /// Arguments of `alberti sweep`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SweepArgs {
-    /// Output file: .svg, .pdf, .dxf, .png or .html
+    /// Output file (.svg, .pdf, .dxf, .png or .html)
     #[arg(short, long, value_name = "FILE", default_value = "sweep.svg")]
     output: PathBuf,
     /// Parameter to vary

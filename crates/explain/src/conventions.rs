@@ -26,8 +26,8 @@ use viewport::{DepthRange, Rectangle, Viewport, ViewportError};
 /// convention of the viewport and its depth range.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum ApiConventions {
-    /// The program's default: the chapter's volume, near at z = +1; pixels as in image files; depth
-    /// 1 at the near plane.
+    /// The program's default: the chapter's volume with near at z = +1, pixels as in image files,
+    /// and depth 1 at the near plane.
     #[default]
     Alberti,
     /// Shirley and others, chapters 7 and 8: near at z = +1, integer pixel centers, y up, z

@@ -89,9 +89,9 @@ fn inverse_step(map: Projective<View, Clip>) -> Step {
     }
 }
 
-/// Returns the rows of an inverse, with 0 for rounding noise: entries below the error bound of
-/// Gaussian elimination, ε |M⁻¹| |M| |M⁻¹| by entries (Higham 2002, chapter 14), or so small that M
-/// M⁻¹ and M⁻¹ M are the identity without them.
+/// Returns the rows of an inverse, with 0 for rounding noise. Entries are noise if they are below
+/// the error bound of Gaussian elimination, ε |M⁻¹| |M| |M⁻¹| by entries (Higham 2002, chapter 14).
+/// So are entries so small that M M⁻¹ and M⁻¹ M are the identity without them.
 #[must_use]
 pub fn without_rounding(matrix: DMat4, inverse: DMat4) -> [[f64; 4]; 4] {
     let size = |m: DMat4| DMat4::from_cols_array(&m.to_cols_array().map(f64::abs));

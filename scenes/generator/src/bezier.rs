@@ -1,8 +1,8 @@
 //! Bicubic Bézier patches: points, and normals from the derivatives.
 //!
 //! `P(u, v) = Σ B_i(v) B_j(u) p_ij` with Bernstein's cubics (Bézier 1968; Foley et al., 2nd ed.,
-//! §11.3.2); `u` runs along a row of control points, `v` from row to row. The normal is
-//! `P_u × P_v`. At a pole, where all control points of a row coincide, `P_u` is zero. Near a pole,
+//! §11.3.2). `u` runs along a row of control points, `v` from row to row. Normals are `P_u × P_v`.
+//! At a pole, where all control points of a row coincide, `P_u` is zero. Near a pole,
 //! `P_u ≈ ±v P_uv`, so the mixed derivative gives the limit of the direction.
 
 use crate::mesh::Mesh;

@@ -1,9 +1,9 @@
 //! The Mexican hat: a height field over a square grid.
 //!
 //! Grid indices map to `[-1, 1]²` by `x = 2i/(rows−1) − 1`, `z = 2j/(columns−1) − 1`. The height is
-//! `sin(R)/R` with `R = 2π√(x² + z²)`: it is 1 in the middle, the first trough is a circle with
-//! radius 0.715, and the second crest is just outside the midpoints of the edges. (Angel's
-//! *Interactive Computer Graphics* draws the same surface.)
+//! `sin(R)/R` with `R = 2π√(x² + z²)`. It is 1 in the middle. The first trough is a circle with
+//! radius 0.715, and the second crest is just outside the midpoints of the edges. Angel's
+//! *Interactive Computer Graphics* draws the same surface.
 
 use crate::document::{Document, PrimitiveMode};
 use crate::mesh::Mesh;

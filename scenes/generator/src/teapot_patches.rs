@@ -1,11 +1,12 @@
-//! The published patches of Martin Newell's teapot (University of Utah, 1975): 32 bicubic Bézier
-//! patches, of which the last four form the bottom that Frank Crow added ("The Origins of the
-//! Teapot", IEEE Computer Graphics and Applications 7(1), 1987). The published table lists 306
-//! control points. All but a few dozen follow from the others. Body, lid and bottom are outlines
-//! swept about the axis in four quarters, with inner control points at 0.56 of the radius, where a
-//! circle would need 0.5523. Handle and spout are halves with their mirror images. This file
-//! contains only the outlines and halves, and builds the 32 patches from them. The test compares
-//! the patches with entries of the table.
+//! The published patches of Martin Newell's teapot (University of Utah, 1975).
+//!
+//! There are 32 bicubic Bézier patches. The last four form the bottom that Frank Crow added ("The
+//! Origins of the Teapot", IEEE Computer Graphics and Applications 7(1), 1987). The published table
+//! lists 306 control points. All but a few dozen follow from the others. Body, lid and bottom are
+//! outlines swept about the axis in four quarters, with inner control points at 0.56 of the radius,
+//! where a circle would need 0.5523. Handle and spout are halves with their mirror images. This
+//! file contains only the outlines and halves, and builds the 32 patches from them. The test
+//! compares the patches with entries of the table.
 //!
 //! z is up, as in the table; the spout points along +x and the handle along −x.
 

@@ -1,5 +1,7 @@
-//! The list of topics to test: the items that the sources teach (C), the misprints found in them
-//! (M), and the exercises of the textbook's chapter, each with the crates responsible for it.
+//! The list of topics to test, each with the crates responsible for it.
+//!
+//! The topics are the items that the sources teach (C), the misprints found in them (M), and the
+//! exercises of the textbook's chapter.
 
 use std::sync::LazyLock;
 

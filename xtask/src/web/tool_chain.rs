@@ -1,7 +1,7 @@
 //! The tool chain that compiles Rust to WebAssembly, with the sources of the standard library.
 //!
 //! The standard library is compiled together with the explorer, which makes the module a sixth
-//! smaller: panics omit their messages, which nobody would see because the page starts another
+//! smaller. Panics omit their messages, which nobody would see because the page starts another
 //! worker, and sorting takes less code. The precompiled WebAssembly library from rustup offers
 //! neither.
 

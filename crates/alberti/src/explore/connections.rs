@@ -2,9 +2,9 @@
 //!
 //! A browser, or any other program on the machine, may open connections and send nothing, or send a
 //! request and not read the answer. When there are too many connections, the one whose request has
-//! been outstanding longest is closed; if all requests have arrived, the one that has been reading
-//! its answer longest is closed. A new connection that sends its request at once is thus answered
-//! no matter how many others are silent or slow.
+//! been outstanding longest is closed. If all requests have arrived, it is the one that has been
+//! reading its answer longest. A new connection that sends its request at once is thus answered no
+//! matter how many others are silent or slow.
 
 use super::CliError;
 use super::request::{parse_request, read_head};

@@ -7,11 +7,11 @@ use page::{DxfOptions, Page};
 /// Arguments of DXF output.
 #[derive(Debug, clap::Args)]
 pub(crate) struct DxfArgs {
-    /// Tolerance for arcs in a DXF, in millimeters on the page: points this close to a circle
-    /// become an arc; 0 writes only straight lines [default: 0.005]
+    /// Tolerance for arcs in a DXF, in millimeters on the page [default: 0.005]
     ///
-    /// An arc needs at least eight evenly spaced points, less than 30 degrees apart, so polygons
-    /// with up to twelve corners remain polygons.
+    /// Points this close to a circle become an arc; 0 writes only straight lines. An arc needs at
+    /// least eight evenly spaced points, less than 30 degrees apart, so polygons with up to twelve
+    /// corners remain polygons.
     #[arg(help_heading = "Lines", long, value_name = "MM", value_parser = parse_tolerance)]
     arc_tolerance: Option<f64>,
 }

@@ -32,8 +32,9 @@ pub(super) fn find_sections(
 }
 
 /// Finds matches for a word that is not a name. These are names in other cases or with more words,
-/// such as `Depth` and `depth_cue_percent` for `depth`, or fields for which other programs use this
-/// word, such as `camera_path` for `turntable`. Otherwise, all entries that mention the word match.
+/// such as `Depth` and `depth_cue_percent` for `depth`. Fields for which other programs use this
+/// word also match, such as `camera_path` for `turntable`. Otherwise, all entries that mention the
+/// word match.
 fn find_related(sections: &[ReferenceSection], word: &str) -> Vec<ReferenceSection> {
     let word = word.to_lowercase();
     let mut found = filter_entries(sections, &|entry| has_in_name(entry, &word));

@@ -17,7 +17,7 @@ pub(crate) struct ColormapArgs {
     /// replace the materials; values that are not finite are gray.
     #[arg(help_heading = "Picture", long, value_name = "NAME")]
     scalars: Option<String>,
-    /// Colors for --scalars [default: viridis] and for --style depth [default: grayscale]
+    /// Colors for --scalars and --style depth [default: viridis for --scalars, else grayscale]
     #[arg(help_heading = "Picture", long, value_parser = option_parser::<Colormap>())]
     colormap: Option<Colormap>,
     /// Values for the first and the last color of --scalars [default: the model's minimum and

@@ -128,8 +128,8 @@ impl DepthTable {
         Ok(DepthRow { distance, depths: [depth(self.curves[0])?, depth(self.curves[1])?], steps })
     }
 
-    /// Returns notes on the whole table: the planes and format, the distance up to which half of
-    /// the range is used, and the distance N + F − NF/D to which the chapter's P moves the midpoint
+    /// Returns notes on the whole table: the planes and format, and two distances. Half of the
+    /// range is used up to one. The chapter's P moves the midpoint to the other, N + F − NF/D
     /// (C48).
     #[must_use]
     pub fn notes(&self) -> Vec<String> {

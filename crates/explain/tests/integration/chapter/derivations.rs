@@ -92,11 +92,11 @@ fn c66_the_lessons_frustum_is_the_product_of_its_five_steps() {
     assert!(close(&numbers(&explained, "view_to_clip"), eq9.as_flattened()));
     let chain = chain_of(&scene, ApiConventions::OpenGl);
     for (x, y, z) in [(1.3, 0.4, -3.7), (-1.0, -1.0, -2.0), (4.0, 5.0, -6.0)] {
-        // 1: the apex to the origin; 2: the divide by the distance; 3: the window to [−1, 1];
+        // Step 1 moves the apex to the origin, 2 divides by the distance, 3 maps to [−1, 1].
         let (x1, y1) = (x - f64::midpoint(l, r), y - f64::midpoint(b, t));
         let (x2, y2) = (near * x1 / -z, near * y1 / -z);
         let (x3, y3) = (2.0 * x2 / (r - l), 2.0 * y2 / (t - b));
-        // 4 and 5: depth as c1/D + c2, which has reversed z.
+        // Steps 4 and 5 compute depth as c1/D + c2, which has reversed z.
         let depth = c1 / -z + c2;
         let clip = chain.world_to_clip().transform_point(Point::new(x, y, z));
         let ndc = clip.divide().expect("ahead");

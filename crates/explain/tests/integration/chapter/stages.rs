@@ -143,7 +143,7 @@ fn c103_each_stage_starts_from_the_result_of_the_previous_stage() {
     // The eye at (1, 3, 11) looks along −z, x to the right.
     let view = [world[0] - 1.0, world[1] - 3.0, world[2] - 11.0];
     assert!(close(&numbers(&explained, "view"), &view));
-    // 90°, 3 : 2, N = 1, F = 21: w = D, z = (F+N)/(F−N) D − 2FN/(F−N).
+    // For 90°, 3 : 2, N = 1 and F = 21, w = D and z = (F+N)/(F−N) D − 2FN/(F−N).
     let distance = -view[2];
     let clip = [view[0] / 1.5, view[1], 22.0 / 20.0 * distance - 42.0 / 20.0, distance];
     assert!(close(&numbers(&explained, "clip"), &clip));
