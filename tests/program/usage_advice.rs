@@ -303,7 +303,7 @@ const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
     (&["--tone", "aces"], "did you mean `--tone-mapping`?"),
     (&["-ss", "1.5"], "use `--time 1.5`"),
     (&["--figsize", "8,6"], "sizes are in pixels"),
-    (&["--camera", "perspective"], "`--projection` for projections"),
+    (&["--camera", "perspective"], "`--projection` for the projection"),
     (&["--up", "0,0,1"], "tip: write `--up z`"),
     (&["--color", "red"], "`--color` sets when messages are colored"),
     (&["--output-dir", "out/"], "as in `-o 'out/{stem}.png'`"),
