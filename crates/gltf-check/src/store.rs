@@ -18,8 +18,9 @@ use std::cell::{Cell, OnceCell};
 
 /// The buffers and decompressed buffer views of a document, and the budget for reading them.
 ///
-/// Time and memory are limited in two ways. The resolver limits reading URIs; decoding and visiting
-/// elements is charged to `budget`, which is proportional to the actual size of the files.
+/// Time and memory are limited in two ways. The resolver limits how many bytes are read from URIs.
+/// Decoding and visiting elements is charged to `budget`, which is proportional to the actual size
+/// of the files.
 pub(super) struct BufferStore<'a> {
     document: &'a CheckedDocument<'a>,
     resolver: &'a UriResolver<'a>,
@@ -46,8 +47,8 @@ enum BufferBytes<'a> {
 impl<'a> BufferStore<'a> {
     /// Reads all buffers; `chunk` is the binary chunk of a GLB.
     ///
-    /// Errors are reported and leave the buffer without bytes. Buffer views are decompressed later,
-    /// on first use, because an unused view need not be valid.
+    /// A buffer that cannot be read is reported and has no bytes. Buffer views are decompressed
+    /// later, on first use, because an unused view need not be valid.
     pub(super) fn load_buffers(
         document: &'a CheckedDocument<'a>,
         resolver: &'a UriResolver<'a>,
@@ -72,8 +73,8 @@ impl<'a> BufferStore<'a> {
 
     /// Reads one buffer from its URI or the binary chunk.
     ///
-    /// The first buffer, if it has no URI, is the binary chunk, which may be up to three bytes
-    /// longer for padding.
+    /// The first buffer, if it has no URI, is the binary chunk. Padding may make the chunk up to
+    /// three bytes longer than the buffer.
     ///
     /// The declared `byteLength` must not be greater than the length of the data. If it is,
     /// `BUFFER_BYTE_LENGTH_MISMATCH` is reported, and the available bytes are still used.
@@ -134,10 +135,9 @@ impl<'a> BufferStore<'a> {
     /// Charges bytes to the budget, and returns whether they may be read.
     ///
     /// Once the budget is exceeded, this is reported and nothing more is read, so that a hostile
-    /// file cannot prolong the validation.
-    ///
-    /// The first refusal is final even if a smaller request would still fit, so that the report
-    /// does not depend on the order of the accessors.
+    /// file cannot prolong the validation. The first refusal is final even if a smaller request
+    /// would still fit, so that the report does not depend on which later requests happen to be
+    /// small.
     pub(super) fn charge_budget(&self, pointer: &str, bytes: u64) -> bool {
         if self.exhausted.get() {
             return false;
@@ -168,8 +168,8 @@ impl<'a> BufferStore<'a> {
     /// Returns the bytes of a buffer view, if all of them are present.
     ///
     /// A view compressed with EXT_meshopt_compression or KHR_meshopt_compression is decompressed on
-    /// first use and stored. Its own `buffer`, a fallback for readers without the extension, may
-    /// have no data.
+    /// first use and stored. The `buffer` of the view itself is a fallback for readers without the
+    /// extension and may have no data.
     pub(super) fn view_bytes(&self, view: usize) -> Option<&[u8]> {
         let json = self.document.root_array("bufferViews").get(view)?;
         let packed = ["KHR_meshopt_compression", "EXT_meshopt_compression"];
@@ -201,8 +201,8 @@ impl<'a> BufferStore<'a> {
     /// Decompresses a meshopt buffer view. Returns `None` if the stream is invalid or the budget is
     /// exceeded.
     ///
-    /// The loader uses the same decoder and reports errors in the stream. The file declares the
-    /// decompressed length, so it is charged before anything is allocated.
+    /// The loader uses the same decoder and reports errors in the stream. The decompressed length
+    /// is an untrusted declaration, so it is charged before anything is allocated.
     fn decompress_view(&self, view: usize, json: &Value) -> Option<Vec<u8>> {
         let pointer = format!("/bufferViews/{view}");
         let packed = CompressedView::from_json(json, &pointer).ok()??;
@@ -213,7 +213,7 @@ impl<'a> BufferStore<'a> {
 
     /// Returns the elements of an accessor, if all their bytes are present.
     ///
-    /// If a part is missing, this has been reported elsewhere, and the data is skipped to avoid
+    /// A missing part has already been reported elsewhere, so the data is skipped to avoid
     /// follow-up diagnostics. The layers of an accessor are resolved in this order:
     ///
     /// ```text
@@ -221,8 +221,8 @@ impl<'a> BufferStore<'a> {
     ///  sparse        some of them replaced: indices and values, tightly packed
     /// ```
     ///
-    /// The last packed element does not need padding after it, which matters for matrices with
-    /// small components.
+    /// The last packed element needs no padding after it, not even if it is a matrix with small
+    /// components.
     pub(super) fn accessor_elements(
         &self,
         accessor: &Value,
@@ -255,8 +255,8 @@ impl<'a> BufferStore<'a> {
     /// Returns the indices of a sparse accessor, if all their bytes are present (glTF 2.0
     /// §3.6.2.3).
     ///
-    /// They are always converted to 32 bits. The conversion is charged to the budget, because the
-    /// declared count is not verified.
+    /// The indices are always converted to 32 bits. The conversion is charged to the budget,
+    /// because many accessors may share the same bytes.
     pub(super) fn sparse_indices(&self, sparse: &Value) -> Option<Vec<u32>> {
         let json = sparse.get("indices")?;
         let component = ComponentType::from_gl_constant(integer_member(json, "componentType")?)?;
@@ -292,7 +292,7 @@ pub(super) fn check_buffer_views(document: &CheckedDocument<'_>) {
 ///
 /// The stride must be a multiple of four, absent for indices, and no greater than the length of the
 /// view. The range is compared with the declared length of the buffer, not with its data, so that a
-/// truncated file gives one diagnostic at the buffer and none at its views.
+/// truncated file yields one diagnostic for the buffer and none for its views.
 fn check_buffer_view(document: &CheckedDocument<'_>, at: usize, view: &Value) {
     let diagnostics = document.diagnostics;
     let offset = integer_member(view, "byteOffset").unwrap_or(0);

@@ -60,7 +60,7 @@ pub(super) fn check_buffer_uri(
 
 /// Reads the bytes that a URI refers to. If this fails, reports a diagnostic and returns `None`.
 ///
-/// Only files below the allowed folders are read, and only within the limits.
+/// Only files inside the allowed folders are read, and only within the limits.
 pub(super) fn read_uri(
     resolver: &UriResolver<'_>,
     uri: &str,
@@ -75,7 +75,7 @@ pub(super) fn read_uri(
     resolver.read_uri(uri, pointer).map_err(|fault| add_read_error(&fault, diagnostics)).ok()
 }
 
-/// Reports why a URI could not be read, with a validator code.
+/// Reports why a URI could not be read, under a code of the validator.
 fn add_read_error(fault: &Diagnostic, diagnostics: &Diagnostics) {
     let code = match fault.code {
         load::INVALID_DATA => &codes::INVALID_URI,

@@ -1,7 +1,7 @@
 //! Uses of accessors and buffer views: each may have only one purpose (glTF 2.0 §3.6.2.1, §5.11.5).
 //!
 //! Graphics APIs upload a buffer view as a whole, for one purpose: in WebGL a vertex buffer cannot
-//! also be an index buffer. Only the first conflicting use of each is reported.
+//! also be an index buffer. Every use that conflicts with the first is reported.
 
 use super::codes;
 use super::document::{CheckedDocument, index_member, integer_member};
@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// The purpose of an accessor.
 ///
-/// Accessors for different purposes have different rules for bounds, strides and formats.
+/// Each purpose has different rules for bounds, strides and formats.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum AccessorUse {
     /// A vertex attribute, or its displacement in a morph target.
@@ -25,7 +25,7 @@ pub(super) enum AccessorUse {
 
 /// The purpose of a buffer view.
 ///
-/// It is determined by the accessors in the view or by the declared `target`.
+/// It is determined by the declared `target`, or else by the first use.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum ViewUse {
     Vertices,
@@ -98,8 +98,8 @@ impl<'a> UsageMap<'a> {
     /// Records the use of an accessor and its buffer view; `pointer` is the member that refers to
     /// the accessor.
     ///
-    /// The first use wins. A later use for another purpose is an `ACCESSOR_USAGE_OVERRIDE` at its
-    /// own pointer, which names both purposes.
+    /// The first use wins. A later use for another purpose is reported as `ACCESSOR_USAGE_OVERRIDE`
+    /// at its pointer, in a message that names both purposes.
     pub(super) fn note_accessor(&self, accessor: usize, new: AccessorUse, pointer: &str) {
         let old = *self.accessors.borrow_mut().entry(accessor).or_insert(new);
         if old != new {
@@ -135,12 +135,12 @@ impl<'a> UsageMap<'a> {
         }
     }
 
-    /// Records an accessor for vertex attributes. If a buffer view has several, it needs a
+    /// Records an accessor of a vertex attribute. A buffer view with several such accessors needs a
     /// `byteStride`.
     ///
     /// Without a stride, interleaved attributes cannot be distinguished from consecutive
-    /// attributes, so the specification requires it for two or more accessors (glTF 2.0 §5.11.4).
-    /// One accessor may be used any number of times.
+    /// attributes, so the specification requires a stride for two or more accessors (glTF 2.0
+    /// §5.11.4). One accessor may be used any number of times.
     pub(super) fn note_vertex_accessor(&self, accessor: usize, pointer: &str) {
         let Some(view) = self.accessor_view(accessor) else { return };
         let json = self.document.root_array("bufferViews").get(view);

@@ -34,8 +34,8 @@ pub(crate) struct EncodedImage<'a> {
     pub(crate) size: (u32, u32),
 }
 
-/// Returns whether images of a media type can be decoded; for KTX2 and WebP this depends on the
-/// features.
+/// Returns whether images of a media type that glTF allows can be decoded; for KTX2 and WebP this
+/// depends on the features.
 #[must_use]
 pub fn is_decoded(media_type: &str) -> bool {
     match media_type {

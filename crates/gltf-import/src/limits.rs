@@ -4,7 +4,7 @@
 //! A glTF file of a few hundred bytes can declare an accessor with 2³² zeros, a chain of a million
 //! nodes, or a mesh that a million nodes draw. A PNG of a few kilobytes can contain a billion black
 //! texels. Each of these is cheap to write and expensive to read. The defaults are far above what
-//! real models need; the program has a `--max-…` flag for each.
+//! real models need; the program has a `--max-…` flag for each limit.
 
 /// The maximum sizes that are accepted. Exceeding one is an error that names the field.
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -18,7 +18,7 @@ const FREE_ARRAY_BYTES: u64 = 16 << 20;
 pub struct MemoryBudget<'a> {
     /// The absolute and relative limits.
     limits: &'a Limits,
-    /// Bytes charged so far for all arrays, as a saturating sum.
+    /// Bytes that have been charged for all arrays, as a saturating sum.
     allocated: Cell<u64>,
 }
 

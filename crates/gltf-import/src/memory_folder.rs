@@ -51,7 +51,7 @@ impl MemoryFolder {
 }
 
 /// Resolves a path relative to `folder` to a path without `.` and `..`. Returns `None` if it leads
-/// out of all folders.
+/// above the top folder.
 pub(super) fn normalize_path(folder: &str, path: &str) -> Option<String> {
     if path.starts_with(['/', '\\']) || path.contains('\0') {
         return None;

@@ -16,7 +16,6 @@ pub struct NormalRepairs {
 /// normal of the triangles around its vertex, or by (0, 0, 1) if that has no direction either.
 ///
 /// Deviations of up to 2%, which quantization to bytes can cause, are corrected but not counted.
-///
 /// The time is linear; the sums over triangles are computed only if a normal has no direction.
 /// Comparing the squared length avoids a square root for normals that are already correct.
 pub fn normalize_normals(primitive: &mut Primitive) -> NormalRepairs {

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 pub struct ImportOptions {
     /// The maximum sizes that are accepted.
     pub limits: Limits,
-    /// The folder that must contain all referenced files. Default: the folder of the file itself.
+    /// The folder to which referenced files are confined. Default: the folder of the file itself.
     pub root: Option<PathBuf>,
     /// Additional folders that may contain referenced files; `..` and symbolic links may lead
     /// there. Default: none.

@@ -2,7 +2,6 @@
 //!
 //! Threads take images from a shared queue and store results by index, so it makes no difference
 //! which thread decodes which image. The thread that reads the geometry helps once it is done.
-//!
 //! Scoped threads borrow the encoded bytes and end with the call. Each thread decodes whole images,
 //! so one large image occupies a single thread.
 
@@ -27,7 +26,7 @@ pub(crate) fn decode_images(encoded: &[EncodedImage<'_>]) -> Vec<DecodeResult> {
 }
 
 /// Runs `work` while other threads decode images, then helps with the rest, which is timed as
-/// `images`. If the work fails, no more images are started.
+/// `images`. If the work fails, no further images are decoded.
 ///
 /// With a single processor no threads are started, and the images are decoded after the work.
 ///
@@ -98,7 +97,7 @@ impl<'a> DecodeQueue<'a> {
     ///
     /// A thread that panics leaves its image without a result, which becomes a message.
     fn into_results(self) -> Vec<DecodeResult> {
-        let given_up = || Err("it was not decoded".to_owned());
+        let given_up = || Err("the image was not decoded".to_owned());
         let results = self.results.into_iter().map(|slot| slot.into_inner().ok().flatten());
         results.map(|result| result.unwrap_or_else(given_up)).collect()
     }

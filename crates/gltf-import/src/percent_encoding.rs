@@ -1,14 +1,14 @@
 //! Percent-encoding of URIs and queries (RFC 3986 §2.1).
 
-/// Decodes `%41` to A. Returns `None` if a `%` is not followed by two hexadecimal digits or the
-/// result is not UTF-8.
+/// Decodes percent-encoded text, such as `%41` for A. Returns `None` if a `%` is not followed by
+/// two hexadecimal digits or the result is not UTF-8.
 #[must_use]
 pub fn percent_decode(text: &str) -> Option<String> {
     String::from_utf8(percent_decode_bytes(text)?).ok()
 }
 
-/// Decodes `%41` to the byte 0x41. Returns `None` if a `%` is not followed by two hexadecimal
-/// digits.
+/// Decodes percent-encoded text to bytes, such as `%41` to 0x41. Returns `None` if a `%` is not
+/// followed by two hexadecimal digits.
 pub(super) fn percent_decode_bytes(text: &str) -> Option<Vec<u8>> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.as_bytes();

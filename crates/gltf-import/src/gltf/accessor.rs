@@ -1,4 +1,4 @@
-//! Accessors: typed views into buffers, checked once so that reading their elements cannot fail.
+//! Accessors: typed views into buffers, checked once so that converting elements cannot fail.
 //!
 //! An accessor declares a byte offset, a number of elements, their type and, through its buffer
 //! view, the stride between them (glTF 2.0 §3.6.2). [`AccessorReader::resolve_accessor`] checks the
@@ -36,11 +36,11 @@ impl<'a> AccessorReader<'a> {
     /// Resolves an accessor to its bytes. `user` is the pointer to the member that refers to it.
     ///
     /// # Errors
-    /// Fails if the accessor does not exist, it has an invalid type, or some of its elements are
-    /// not in the buffer.
+    /// Fails if the accessor does not exist, has an invalid type, or has elements outside its
+    /// buffer view.
     ///
-    /// Nothing is converted or allocated here, except for sparse indices. A view is resolved again
-    /// for each of its users, which costs little because the bytes are borrowed.
+    /// Nothing is converted or allocated here, except for sparse indices. An accessor is resolved
+    /// again for each user; this costs little, because its bytes are borrowed.
     pub(super) fn resolve_accessor(
         &self,
         accessor: usize,
@@ -101,7 +101,7 @@ impl<'a> AccessorReader<'a> {
         Ok(elements.to_floats())
     }
 
-    /// Reads the first `N` components of every element as unsigned shorts, for joint indices.
+    /// Reads the first `N` components of every element as unsigned shorts, such as joint indices.
     ///
     /// # Errors
     /// Fails if the array exceeds the memory budget.
@@ -113,7 +113,7 @@ impl<'a> AccessorReader<'a> {
         Ok(elements.to_u16s())
     }
 
-    /// Reads the elements as vertex indices.
+    /// Reads the elements as 32-bit indices.
     ///
     /// # Errors
     /// Fails if the array exceeds the memory budget.
@@ -144,11 +144,9 @@ impl<'a> AccessorReader<'a> {
     /// Returns the bytes of elements that begin at an offset in a buffer view.
     ///
     /// The last element needs only its own size, not a whole stride (glTF 2.0 §3.6.2.4), because
-    /// interleaved attributes may end before the last stride does. Overflow saturates and exceeds
-    /// any buffer, so it is reported as missing bytes.
-    ///
-    /// A stride smaller than an element would make elements overlap, so it is an error unless there
-    /// is only one element.
+    /// interleaved attributes may end before the last stride does. A length that overflows
+    /// saturates, so it exceeds any buffer and is reported as missing bytes. A stride smaller than
+    /// an element would make elements overlap, so it is an error unless there is only one element.
     fn strided_bytes(
         &self,
         view: usize,
@@ -183,10 +181,9 @@ impl<'a> AccessorReader<'a> {
     /// Resolves a sparse accessor: the indices and values of elements that replace some of the
     /// `base` elements (glTF 2.0 §3.6.2.3).
     ///
-    /// Every index is checked to be less than the number of elements. Whether indices increase is
-    /// left to the validator, because reading does not depend on it.
-    ///
-    /// The values have the accessor's format; both arrays are tightly packed.
+    /// Every index must be less than the number of elements. Only the validator checks that the
+    /// indices increase, because reading does not depend on their order. The values have the
+    /// accessor's format; both arrays are tightly packed.
     ///
     /// # Errors
     /// Fails if the component type of the indices is invalid, an index is out of range, or bytes
@@ -237,7 +234,7 @@ struct ElementLayout<'a> {
     pointer: &'a str,
     /// Number of elements.
     count: usize,
-    /// Size of an element in bytes, with the padding between the columns of matrices.
+    /// Size of an element in bytes, including the padding between the columns of matrices.
     size: usize,
 }
 
@@ -258,7 +255,7 @@ fn accessor_format(json: &Accessor, pointer: &str) -> Result<(ComponentType, Typ
 }
 
 /// Returns the size of an element in bytes. Matrix columns begin at multiples of four (glTF 2.0
-/// §3.6.2.4), which matters for small matrices of small integers.
+/// §3.6.2.4), so small matrices of small integers contain padding.
 ///
 /// ```text
 ///  MAT3 of bytes:  c0 c0 c0 ··  c1 c1 c1 ··  c2 c2 c2 ··     12 bytes, not 9

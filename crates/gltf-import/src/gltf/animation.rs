@@ -1,9 +1,9 @@
 //! Animations: converts channels and samplers to keyframe curves. Invalid channels are skipped with
 //! a warning.
 //!
-//! A sampler has keyframe times (`input`) and values (`output`); a channel selects the node
-//! property that they set. LINEAR means slerp for rotations. Values may be normalized integers,
-//! which become floats here.
+//! A sampler has keyframe times (`input`) and values (`output`); a channel selects the property
+//! that a sampler sets. LINEAR means slerp for rotations. Values may be normalized integers, which
+//! become floats here.
 
 use super::accessor::AccessorReader;
 use super::animation_pointer::{self, ChannelValueKind};
@@ -21,11 +21,11 @@ use model::{
     Material, ModelCamera, Node, NodeProperty, PunctualLight, UvTransform,
 };
 
-/// The objects that channels can animate, and the list of texture transforms that they animate.
+/// The objects that channels can animate, and the texture transforms that they do animate.
 pub(super) struct AnimatedObjects<'a> {
     /// The nodes, for transforms and morph weights.
     pub(super) nodes: &'a [Node],
-    /// The materials; mutable only because the property table provides mutable access.
+    /// The materials; mutable only because the property table provides no shared access.
     pub(super) materials: &'a mut [Material],
     /// Punctual lights.
     pub(super) lights: &'a [PunctualLight],
@@ -37,8 +37,8 @@ pub(super) struct AnimatedObjects<'a> {
 
 /// Reads all animations of a file.
 ///
-/// Channels with a node come first, then channels with a pointer. The duration is the time of the
-/// last keyframe in any channel, in seconds.
+/// Channels that target a node come first, then channels that target a pointer. The duration is the
+/// time of the last keyframe in any channel, in seconds.
 ///
 /// # Errors
 /// Fails if a limit is exceeded or a file cannot be read; errors in channels are only warnings.
@@ -166,8 +166,8 @@ impl AnimationReader<'_> {
 
     /// Reads keyframe times and values, and checks that their counts match.
     ///
-    /// The number of values per keyframe depends on the target: 3 for translation and scale, 4 for
-    /// rotation, and one per target for morph weights. Cubic splines have three times as many:
+    /// The number of values per keyframe depends on the property: 3 for translation and scale, 4
+    /// for rotation, and one per morph target for weights. Cubic splines have three times as many:
     /// in-tangent, value and out-tangent.
     ///
     /// # Errors

@@ -91,14 +91,14 @@ pub(super) fn resolve_pointer(
     }
 }
 
-/// Parses an index in a JSON pointer, which may contain only digits.
+/// Parses a token of a JSON pointer as an index, which may contain only digits.
 ///
-/// `+1` is rejected, although [`str::parse`] would accept it, and so is an empty token.
+/// An empty token is rejected, and so is `+1`, although [`str::parse`] would accept it.
 fn parse_index(step: &str) -> Option<usize> {
     step.bytes().all(|byte| byte.is_ascii_digit()).then(|| step.parse().ok())?
 }
 
-/// Returns a property or a single morph weight of a node.
+/// Returns the target for a property or a single morph weight of a node.
 ///
 /// A node with a matrix has no translation, rotation and scale to animate.
 fn node_target(
@@ -128,11 +128,10 @@ fn node_target(
     ))
 }
 
-/// Returns the morph target index of `weights/N`, or `Some(None)` for `weights`, which means all
-/// targets.
+/// Returns `Some(Some(N))` for `weights/N`, or `Some(None)` for `weights`, which means all targets.
 ///
-/// The number of targets is the largest among the primitives of the mesh. Returns `None` for any
-/// other path, or if the target does not exist.
+/// A mesh has as many targets as the primitive with the most. Returns `None` for any other path, or
+/// if the target does not exist.
 fn morph_target_index(root: &Root, mesh: usize, path: &str) -> Option<Option<usize>> {
     let mesh = root.meshes.get(mesh)?;
     if path == "weights" {
@@ -144,7 +143,7 @@ fn morph_target_index(root: &Root, mesh: usize, path: &str) -> Option<Option<usi
     (target < count).then_some(Some(target))
 }
 
-/// Returns a numeric property of a material.
+/// Returns the target for a numeric property of a material.
 ///
 /// Access through the table reveals whether the material has the extension that defines the
 /// property.
@@ -162,10 +161,10 @@ fn material_target(
     ))
 }
 
-/// Returns a property of a texture transform. The transform is added to the list once for all its
-/// properties.
+/// Returns the target for a property of a texture transform. The transform is added to the list
+/// when one of its properties is first animated.
 ///
-/// The texture must exist in the material. A transform in the file supplies the values of the
+/// The file must contain the texture and its transform. The transform supplies the values of the
 /// properties that are not animated.
 fn texture_transform_target(
     root: &Root,

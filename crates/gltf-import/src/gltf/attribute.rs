@@ -1,7 +1,8 @@
 //! Vertex attributes: their allowed formats, and the reader for optional attributes.
 //!
 //! The formats listed here go beyond core glTF, because some files use quantized formats without
-//! declaring KHR_mesh_quantization, and their meaning is unambiguous. The validator reports them.
+//! declaring KHR_mesh_quantization, and the meaning is unambiguous. The validator reports such
+//! files.
 
 use super::accessor::AccessorReader;
 use super::draco::DracoData;
@@ -12,10 +13,11 @@ use gltf::json::accessor::Type;
 use model::Diagnostic;
 use std::ops::Range;
 
-/// Element and component types allowed for an attribute or for animation values, including
-/// KHR_mesh_quantization.
+/// Element and component types allowed for an attribute or for animation values, including the
+/// types that KHR_mesh_quantization adds.
 ///
-/// Normalization is not restricted; conversion follows the accessor's `normalized` flag.
+/// Normalization is not restricted. Colors and keyframe values are always normalized; other
+/// conversions follow the accessor's `normalized` flag.
 pub(super) struct AllowedFormats {
     /// glTF's `type`.
     element_types: &'static [Type],
@@ -72,8 +74,8 @@ impl AllowedFormats {
     /// Checks that an accessor has one of the formats.
     ///
     /// # Errors
-    /// Fails if it does not. The message lists the allowed types by their JSON names and numbers,
-    /// as they appear in files.
+    /// Fails if the format is not allowed. The message lists the allowed types by the names and
+    /// numbers that files use for them.
     pub(super) fn check_elements(
         &self,
         elements: &ResolvedAccessor<'_>,
@@ -111,9 +113,9 @@ fn type_name(shape: Type) -> &'static str {
     }
 }
 
-/// The range of vertices that a primitive's indices use.
+/// The vertices of a primitive, and the range of them that its indices use.
 ///
-/// Arrays have `used.len()` elements; index 0 is the vertex `used.start` in the file.
+/// Attribute arrays have `used.len()` elements; index 0 is the vertex `used.start` in the file.
 pub(super) struct VertexRange {
     /// Number of vertices in the file.
     pub(super) vertices: usize,
@@ -125,8 +127,8 @@ pub(super) struct VertexRange {
 pub(super) struct AttributeReader<'a, 'w> {
     pub(super) source: &'a AccessorReader<'a>,
     pub(super) range: VertexRange,
-    /// Decoded attributes of a Draco-compressed primitive. An accessor without bytes then means
-    /// that the attribute is absent, not that it is zero.
+    /// Decoded attributes of a Draco-compressed primitive. An attribute that is neither here nor in
+    /// a buffer is then absent, not zero.
     pub(super) draco: Option<&'a DracoData>,
     pub(super) warnings: &'w mut ImportWarnings,
 }
@@ -178,7 +180,7 @@ impl AttributeReader<'_, '_> {
 
     /// Reads a set of texture coordinates. Non-finite coordinates become 0.
     ///
-    /// Without this, a single NaN would spread over the triangle and its mip level selection.
+    /// Otherwise, a single NaN would spread over the triangle and disturb its mip level selection.
     /// Coordinates outside [0, 1] are valid, because the sampler wraps them.
     ///
     /// # Errors
@@ -202,7 +204,7 @@ impl AttributeReader<'_, '_> {
                 if nonfinite == 1 { ("vertex", "has") } else { ("vertices", "have") };
             let message = format!(
                 "{nonfinite} {noun} {verb} texture coordinates that are not finite; \
-                 they are set to 0"
+                 the coordinates are set to 0"
             );
             self.warnings.push_warning(pointer, message);
         }

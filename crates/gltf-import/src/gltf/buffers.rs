@@ -1,4 +1,4 @@
-//! Buffers and buffer views, read and decompressed (meshopt) once, on first use.
+//! Buffers and buffer views, each read and, if it uses meshopt, decompressed once, on first use.
 //!
 //! ```text
 //!  uri ────────────┐
@@ -20,13 +20,13 @@ use std::sync::OnceLock;
 
 /// The buffers of a file, loaded lazily.
 ///
-/// Methods return slices that live as long as the store.
+/// Methods return slices that live as long as the borrow of this struct.
 pub(super) struct Buffers<'a> {
     /// The document, whose indices have not been checked.
     root: &'a Root,
     /// Reads the files and data URIs of buffers.
     pub(super) resolver: &'a UriResolver<'a>,
-    /// The binary chunk of a GLB file, which is buffer 0.
+    /// The binary chunk of a GLB file, which is buffer 0 if that buffer has no URI.
     binary_chunk: Option<&'a [u8]>,
     /// Buffers that have been read from files or data URIs.
     loaded: Vec<OnceLock<Vec<u8>>>,
@@ -110,7 +110,7 @@ impl<'a> Buffers<'a> {
     /// Returns `length` bytes of a buffer, beginning at `start`; `user` is the location that refers
     /// to them.
     ///
-    /// The whole range must exist: a partial view would shift the meaning of later bytes.
+    /// The whole range must exist, because a partial view would lack some of its elements.
     fn buffer_range(
         &self,
         buffer: usize,
@@ -122,7 +122,7 @@ impl<'a> Buffers<'a> {
         checked_slice(bytes, start, length).ok_or_else(|| {
             let available = bytes.len();
             let message = format!(
-                "bytes {start} to {start} + {length} exceed buffer {buffer} of {available} bytes"
+                "{length} bytes from offset {start} exceed buffer {buffer} of {available} bytes"
             );
             Diagnostic::invalid(user, message)
         })

@@ -42,14 +42,16 @@ const DEFAULT_PROJECTION: CameraProjection =
 /// Reads and checks a camera.
 ///
 /// # Errors
-/// Fails if the type is unknown, the object of its type is missing, or a parameter is out of range.
+/// Fails if the type is unknown, or the parameters for it are missing or out of range.
 fn camera_projection(json: &Camera, pointer: &str) -> Result<CameraProjection, Diagnostic> {
     match (json.type_, &json.perspective, &json.orthographic) {
         (Checked::Valid(Type::Perspective), Some(json), _) => perspective_projection(json, pointer),
         (Checked::Valid(Type::Orthographic), _, Some(json)) => {
             orthographic_projection(json, pointer)
         }
-        (Checked::Valid(_), ..) => Err(Diagnostic::invalid(pointer, "its parameters are missing")),
+        (Checked::Valid(_), ..) => {
+            Err(Diagnostic::invalid(pointer, "the parameters for its type are missing"))
+        }
         (Checked::Invalid, ..) => {
             let message = "the type is neither perspective nor orthographic";
             Err(Diagnostic::invalid(&format!("{pointer}/type"), message))
@@ -59,7 +61,7 @@ fn camera_projection(json: &Camera, pointer: &str) -> Result<CameraProjection, D
 
 /// Checks the parameters of a perspective camera.
 ///
-/// All comparisons are written so that they fail for NaN. `zfar` may be infinite.
+/// NaN fails every check. `zfar` may be infinite.
 fn perspective_projection(
     json: &Perspective,
     pointer: &str,
@@ -175,6 +177,6 @@ mod tests {
         }
         assert_eq!(read_camera(json!({"type": "fisheye"})).unwrap_err().0, "/cameras/0/type");
         let lacking = json!({"type": "perspective"});
-        assert_eq!(read_camera(lacking).unwrap_err().1, "its parameters are missing");
+        assert_eq!(read_camera(lacking).unwrap_err().1, "the parameters for its type are missing");
     }
 }

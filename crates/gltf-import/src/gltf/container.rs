@@ -93,8 +93,8 @@ impl Container {
 /// Checks the version and length, and returns the declared end of the file.
 ///
 /// # Errors
-/// Fails if the file is shorter than 12 bytes or than its declared length, or its version is not 2.
-/// In lenient mode, the available part of a truncated file is read.
+/// Fails if the file is shorter than 12 bytes or its declared length, if that length is too small,
+/// or if the version is not 2. In lenient mode, the available part of a truncated file is read.
 fn check_glb_header(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<usize, Diagnostic> {
     let (Some(version), Some(length)) = (read_u32(bytes, 4), read_u32(bytes, 8)) else {
         return Err(format_error(&format!("the file has only {} bytes", bytes.len()), TRUNCATED));
@@ -139,8 +139,8 @@ struct GlbChunks<'a> {
 impl<'a> GlbChunks<'a> {
     /// Returns the next chunk, or `None` at the end.
     ///
-    /// In lenient mode, a chunk that is too long ends at the end of the file, and an incomplete
-    /// header is ignored.
+    /// In lenient mode, a chunk that is too long is cut off at the end of the file, and an
+    /// incomplete header is ignored.
     fn next(&mut self, warnings: &mut ImportWarnings) -> Result<Option<GlbChunk<'a>>, Diagnostic> {
         let rest = &self.bytes[self.offset..];
         if rest.is_empty() {
@@ -167,7 +167,7 @@ impl<'a> GlbChunks<'a> {
     }
 }
 
-/// Reads the little-endian 32-bit integer at an offset. Returns `None` if the bytes end before it.
+/// Reads the little-endian 32-bit integer at an offset. Returns `None` if the bytes end too early.
 fn read_u32(bytes: &[u8], at: usize) -> Option<usize> {
     let number = u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?);
     usize::try_from(number).ok()

@@ -134,11 +134,9 @@ fn end_of_string(text: &[u8], mut at: usize) -> usize {
 
 /// Checks `asset.version` and `asset.minVersion`; only glTF 2.x is read.
 ///
-/// A newer minor version is accepted, as the specification requires, unless `minVersion` requires
-/// it; in lenient mode that is only a warning.
-///
-/// This check runs before the conversion to typed structs, because a glTF 1.0 file would otherwise
-/// fail with a message about an arbitrary member.
+/// A newer minor version is accepted, as the specification requires. A newer `minVersion` is an
+/// error, or a warning in lenient mode. This check runs before the conversion to typed structs,
+/// because a glTF 1.0 file would otherwise fail with a message about an arbitrary member.
 fn check_gltf_version(value: &Value, warnings: &mut ImportWarnings) -> Result<(), Diagnostic> {
     let asset = &value["asset"];
     let Some(version) = asset["version"].as_str() else {
@@ -178,7 +176,7 @@ fn check_gltf_version(value: &Value, warnings: &mut ImportWarnings) -> Result<()
 
 /// Members whose numbers may exceed 32 bits.
 ///
-/// Buffers may exceed 4 GiB; indices must not, because the `gltf` crate stores them in 32 bits.
+/// Buffers may exceed 4 GiB, but the `gltf` crate stores indices in 32 bits.
 const WIDE_MEMBERS: [&str; 3] = ["byteLength", "byteOffset", "count"];
 
 /// Converts numbers such as `1.0` to integers, and removes `extras`.
@@ -206,10 +204,10 @@ fn normalize_members(members: &mut Map<String, Value>) {
     }
 }
 
-/// Converts an integral number to an integer if it fits, and otherwise to floating point. The types
-/// then reject it as an index instead of using its lowest 32 bits.
+/// Converts an integral number to an integer if it fits. Otherwise, it becomes floating point,
+/// which the types reject as an index instead of using its lowest 32 bits.
 ///
-/// `1.0` is a valid integer in JSON schema, and some exporters write all numbers with a fractional
+/// `1.0` is a valid integer in JSON Schema, and some exporters write all numbers with a fractional
 /// part.
 fn normalize_number(number: &Number, wide: bool) -> Number {
     let limit = if wide { u64::MAX } else { u64::from(u32::MAX) };
@@ -231,8 +229,8 @@ fn insert_missing_scene_nodes(value: &mut Value) {
     }
 }
 
-/// Removes animation channels without a target node. They must be ignored (glTF 2.0 §3.11), unless
-/// they use KHR_animation_pointer.
+/// Removes animation channels without a target node. They must be ignored (glTF 2.0 §3.11);
+/// channels that use KHR_animation_pointer have already been collected.
 fn drop_untargeted_channels(value: &mut Value) {
     for animation in objects_in(value, "animations") {
         if let Some(Value::Array(channels)) = animation.get_mut("channels") {

@@ -2,7 +2,8 @@
 //!
 //! The `draco-core` crate decodes the stream, within limits derived from the accessors. Its result
 //! is not trusted: counts are checked against the accessors, and indices against the number of
-//! vertices. The accessors of a compressed primitive have no bytes; [`DracoData`] supplies them.
+//! vertices. The accessors of a compressed primitive usually have no bytes; [`DracoData`] supplies
+//! them.
 //!
 //! ```text
 //!  primitive.attributes  POSITION: accessor 3      count and format
@@ -78,9 +79,10 @@ struct DracoStream<'a> {
     pointer: String,
 }
 
-/// Decodes the stream of a primitive at the location `pointer`. Tangents are decoded only if they
-/// are needed, and custom attributes only if they are in `custom`. Returns `None` if the primitive
-/// is not compressed.
+/// Decodes the stream of a primitive, or returns `None` if the primitive is not compressed.
+///
+/// Tangents are decoded only if `tangents` is true, and no custom attribute except `custom` is
+/// decoded. `pointer` is the location of the primitive.
 ///
 /// # Errors
 /// Fails if a member of the extension is missing, an accessor is invalid, the counts of the
@@ -102,7 +104,7 @@ pub(super) fn decode_draco(
     let view = usize::try_from(view).unwrap_or(usize::MAX);
     let bytes = source.buffers.buffer_view(view, &format!("{pointer}/bufferView"))?.bytes;
     let attributes = stream_attributes(json, ids, tangents, custom, &pointer)?;
-    // Counts are compared before decoding, because they limit its memory.
+    // Counts are compared first, because they limit the memory that decoding takes.
     let mut vertices = None;
     for &(accessor, _) in &attributes {
         let count = source.resolve_accessor(accessor, &pointer)?.count;
@@ -264,7 +266,9 @@ mod decoder {
                     Some(value) => {
                         append_converted(&mut bytes, value, attribute.data_type(), component);
                     }
-                    None => return invalid(format!("attribute {id} lacks vertex {vertex}")),
+                    None => {
+                        return invalid(format!("attribute {id} has no value for vertex {vertex}"));
+                    }
                 }
             }
             Ok(bytes)

@@ -1,9 +1,9 @@
 //! Edges for line drawings: EXT_mesh_primitive_edge_visibility and CESIUM_primitive_outline.
 //!
 //! The first packs two bits per triangle edge, lowest bits first, and may add edges as line
-//! strings. The second lists pairs of vertices. Invalid data is skipped with a warning; drawings
-//! then detect edges from the shape. The silhouette normals of the first extension are not read,
-//! because the triangles have normals.
+//! strings. The second lists pairs of vertices. Invalid data is skipped with a warning; line
+//! drawings then detect edges from the shape. The silhouette normals of the first extension are not
+//! read, because the triangles have normals.
 //!
 //! ```text
 //!  byte    0                 1                 2
@@ -137,7 +137,7 @@ impl EdgeReader<'_, '_> {
     /// 8, rounded up.
     ///
     /// # Errors
-    /// Fails if the accessor is not a SCALAR of unsigned bytes, or has a different number of bytes.
+    /// Fails if the accessor is not a SCALAR of unsigned bytes, or has the wrong number of bytes.
     fn read_visibility_bits(
         &self,
         accessor: usize,
@@ -180,12 +180,12 @@ impl EdgeReader<'_, '_> {
             ComponentType::U16 => u32::from(u16::MAX),
             _ => u32::MAX,
         };
-        // The indices and the pairs built from them take 8 bytes per index in total.
+        // The pairs built from the indices take up to 8 bytes per index.
         self.source.charge_array(accessor, elements.count, 8)?;
         Ok((self.source.read_indices(&elements)?, restart))
     }
 
-    /// Removes edges with a vertex that does not exist, with a warning.
+    /// Removes edges that refer to a missing vertex, and adds a warning.
     fn retain_existing_vertices(&mut self, mut lines: EdgeList, pointer: &str) -> EdgeList {
         let before = lines.vertex_pairs.len();
         lines.vertex_pairs.retain(|ends| ends.iter().all(|&end| (end as usize) < self.vertices));

@@ -32,7 +32,7 @@ pub(super) struct ResolvedAccessor<'a> {
 
 /// Bytes of elements at a constant stride.
 ///
-/// Every element is complete, and only the last may be followed by fewer bytes than the stride.
+/// Every element is complete, but the gap after the last may be missing.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StridedBytes<'a> {
     /// The bytes, starting at the first element.
@@ -93,7 +93,7 @@ impl ResolvedAccessor<'_> {
         }
     }
 
-    /// Returns the elements as indices. They must be unsigned; other types saturate.
+    /// Returns the elements as indices. Types other than unsigned integers saturate.
     pub(super) fn to_indices(&self) -> Vec<u32> {
         let words: Vec<[u32; 1]> = match self.component_type {
             ComponentType::U8 => self.convert_components(|x: u8| u32::from(x)),
@@ -205,7 +205,7 @@ mod tests {
     #[test]
     fn every_component_type_is_converted() {
         use ComponentType::{F32, I8, I16, U8, U16, U32};
-        // The smallest and largest value of each type, or a value close to it.
+        // A small and a large value of each type, in most cases the extremes.
         let table: [(ComponentType, bool, &[u8], [f32; 2]); 10] = [
             (I8, false, &[0x80, 0x7F], [-128.0, 127.0]),
             (I8, true, &[0x80, 0x7F], [-1.0, 1.0]),

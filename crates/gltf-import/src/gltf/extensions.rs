@@ -27,15 +27,15 @@ enum ExtensionSupport {
 
 use ExtensionSupport::{Full, Harmless, None as Never, Partly, Without};
 
-/// Draco is an optional feature of this crate, enabled by default.
+/// Support for Draco, an optional feature of this crate that is enabled by default.
 const DRACO_SUPPORT: ExtensionSupport =
     if cfg!(feature = "draco") { Full } else { Never("Draco compression is not supported") };
 
-/// Basis Universal is an optional feature of this crate, enabled by default.
+/// Support for Basis Universal, an optional feature of this crate that is enabled by default.
 const BASISU_SUPPORT: ExtensionSupport =
     if cfg!(feature = "basisu") { Full } else { Never("KTX2 images are not supported") };
 
-/// WebP is an optional feature of this crate, enabled by default.
+/// Support for WebP, an optional feature of this crate that is enabled by default.
 const WEBP_SUPPORT: ExtensionSupport =
     if cfg!(feature = "webp") { Full } else { Never("WebP images are not supported") };
 
@@ -94,7 +94,7 @@ const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
 /// Checks `extensionsRequired`. Unsupported extensions are an error, or a warning in lenient mode.
 /// Also warns about extensions that are ignored or partly supported.
 ///
-/// Each extension is reported once, where it is first listed.
+/// Such a warning appears once per extension, where it is first listed.
 ///
 /// # Errors
 /// Returns [`UNSUPPORTED_REQUIRED_EXTENSION`](codes::UNSUPPORTED_REQUIRED_EXTENSION) with the

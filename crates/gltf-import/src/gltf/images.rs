@@ -40,11 +40,9 @@ impl<'a> EncodedImages<'a> {
 
 /// Returns the images that the surfaces of the active scene will use, according to the JSON.
 ///
-/// This runs before meshes are read, so that images can be decoded in the meantime.
-///
-/// Materials of the active variant replace the default materials. The result may differ from
-/// [`needed_images`], which takes the imported primitives into account: a primitive without items
-/// needs no images.
+/// This runs before meshes are read, so that images can be decoded at the same time. Materials of
+/// the active variant replace the default materials. The result may differ from [`needed_images`],
+/// which takes the imported primitives into account: a primitive without items needs no images.
 pub(super) fn announced_images(root: &Root, model: &Model, variant: Option<usize>) -> Vec<bool> {
     let mut needed = vec![false; root.images.len()];
     for (mesh, _) in
@@ -104,7 +102,7 @@ fn mark_material_images(material: Option<usize>, model: &Model, needed: &mut [bo
 /// Adds the images to an otherwise complete model.
 ///
 /// The images that were read early and have been `decoded` are used, unless the meshes turn out to
-/// need images that were not expected.
+/// need other images.
 pub(super) fn import_images(
     source: &AccessorReader<'_>,
     model: &mut Model,
@@ -138,7 +136,7 @@ pub(super) fn import_images(
 
 /// Stores decoded images in the model, and adds a warning for each failure.
 ///
-/// A surface whose image failed is drawn without the texture.
+/// A surface whose image cannot be decoded is drawn without the texture.
 fn store_decoded(
     model: &mut Model,
     encoded_images: EncodedImages<'_>,
@@ -160,7 +158,7 @@ fn store_decoded(
     model.images = images.into();
 }
 
-/// Returns the name and URI of an image.
+/// Returns the name and URI of an image; a data URI is reduced to its scheme.
 fn image_info(json: &JsonImage) -> ImageInfo {
     let is_data = |uri: &str| uri.get(..5).is_some_and(|s| s.eq_ignore_ascii_case("data:"));
     let uri = json.uri.as_deref().map(|uri| if is_data(uri) { "data:" } else { uri }.to_owned());
@@ -180,9 +178,8 @@ fn store_headers(encoded: &[EncodedImage<'_>], files: &mut [ImageInfo]) {
 /// Reads the bytes of the needed images; failures are warnings.
 ///
 /// The texel limit is applied here to the sizes in the headers, so that no decoder starts on an
-/// image that would exceed it.
-///
-/// All image bytes are in memory before decoding starts, because decoding runs on other threads.
+/// image that would exceed it. All image bytes are in memory before decoding starts, because
+/// decoding runs on other threads.
 fn read_encoded<'a>(
     needed: &[bool],
     source: &'a AccessorReader<'_>,

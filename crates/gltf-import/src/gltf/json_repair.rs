@@ -13,14 +13,14 @@ use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 /// Total bytes of JSON that may be deserialized again: enough for ten repairs of a six-megabyte
-/// file, or hundreds of a small file.
+/// file, or hundreds of repairs of a small file.
 const REPAIR_BYTE_BUDGET: usize = 64 << 20;
 
 /// Maximum number of repairs in a file of any size.
 const MAX_REPAIRS: usize = 500;
 
 /// Deserializes a document. In lenient mode, skips parts of the wrong type. `length` is the length
-/// of its text.
+/// of the document's text.
 ///
 /// In strict mode, the first mistake is an error. Each pass finds one mistake, so the cost is the
 /// number of mistakes times the length of the text; the budget limits this for hostile files.
@@ -46,7 +46,7 @@ pub(super) fn deserialize_document(
 }
 
 /// Serializes the value and deserializes the text. The text parser is already compiled for the
-/// types of the `gltf` crate, and the column of an error locates the value.
+/// types of the `gltf` crate, and the column of an error locates the offending value.
 ///
 /// # Errors
 /// Returns the first mistake.
@@ -86,7 +86,7 @@ enum Place {
 /// Searches a value, whose text begins at `start`, for a place.
 ///
 /// Returns the end of the value, or `None` if the value is or contains the place; `pointer` then
-/// points to it.
+/// points to the place.
 fn end_unless_found(
     value: &Value,
     start: usize,
@@ -128,9 +128,9 @@ fn end_unless_found(
 /// Removes the member at a pointer, or empties the item that contains it. Returns a description of
 /// the repair, or `None` if no repair is possible.
 ///
-/// The repair depends on the depth of the pointer. An error in a whole collection removes it, and
-/// an error in an item empties the item. An error below an item removes the member, or empties the
-/// item if that does not help.
+/// The repair depends on the depth of the pointer. If a whole collection is wrong, it is removed;
+/// if an item is wrong, it is emptied. If a member inside an item is wrong, the member is removed,
+/// or the item is emptied if that does not help.
 fn repair_at(document: &mut Value, pointer: &str) -> Option<&'static str> {
     let steps: Vec<&str> = pointer.split('/').skip(1).collect();
     match *steps.as_slice() {
@@ -149,10 +149,9 @@ fn repair_at(document: &mut Value, pointer: &str) -> Option<&'static str> {
 /// Lists whose items are not referred to by index, so that a single item can be removed.
 const UNREFERENCED_LISTS: [&str; 4] = ["primitives", "channels", "children", "nodes"];
 
-/// Removes a member of an object or an item of a list. Other arrays are removed as a whole.
-///
-/// Items of other lists are referred to by index or position, as in `joints`, so the whole list is
-/// removed instead.
+/// Removes a member of an object or an item of one of the [`UNREFERENCED_LISTS`]. Items of other
+/// arrays are referred to by index or position, as in `joints`, so the whole array is removed
+/// instead.
 fn remove_member(document: &mut Value, pointer: &str) -> Option<&'static str> {
     let (parent, last) = pointer.rsplit_once('/')?;
     let name = parent.rsplit('/').next()?;
@@ -173,7 +172,7 @@ fn remove_member(document: &mut Value, pointer: &str) -> Option<&'static str> {
 
 /// Replaces an item of a top-level collection by an empty item.
 ///
-/// Empty items have only the members needed to deserialize; references to them are reported as
+/// Empty items have only the members needed for deserialization; references to them are reported as
 /// errors. Returns `None` if the item is already empty, which ends the repair.
 fn replace_with_empty(document: &mut Value, collection: &str, at: &str) -> Option<&'static str> {
     let nothing = match collection {

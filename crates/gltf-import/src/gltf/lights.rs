@@ -99,7 +99,7 @@ fn parse_light(
             let inner = numbers.read_number("innerConeAngle", 0.0, [0.0, FRAC_PI_2]);
             let outer = numbers.read_number("outerConeAngle", FRAC_PI_4, [0.0, FRAC_PI_2]);
             if inner >= outer {
-                let message = "innerConeAngle is not less than outerConeAngle; it is reduced";
+                let message = "innerConeAngle is reduced to be less than outerConeAngle";
                 numbers.warnings.push_warning(pointer, message);
             }
             LightKind::Spot { range, inner_cone_angle: inner, outer_cone_angle: outer }
@@ -134,7 +134,7 @@ struct LightNumbers<'a, 'w> {
 impl LightNumbers<'_, '_> {
     /// Reads a number and clamps it to bounds. Returns `default` if the member is absent.
     ///
-    /// A member that is not a number is replaced by the default, with a warning.
+    /// A member that is clamped, or not a number and replaced by the default, causes a warning.
     fn read_number(&mut self, member: &str, default: f32, [min, max]: [f32; 2]) -> f32 {
         let Some(value) = self.json.get(member) else { return default };
         let given = value.as_f64().map(|x| x as f32);

@@ -31,7 +31,7 @@ pub(super) fn import_materials(root: &Root, warnings: &mut ImportWarnings) -> Ve
         .collect()
 }
 
-/// Returns the texture transform (KHR_texture_transform) in a slot, if the file specifies it.
+/// Returns the texture transform (KHR_texture_transform) of a slot, if the file specifies one.
 ///
 /// The default is the identity: offset 0, rotation 0, scale 1. The rotation is in radians,
 /// counter-clockwise around the origin of the texture coordinates.
@@ -121,10 +121,8 @@ impl<'a> MaterialReader<'a, '_> {
 
     /// Clamps numbers to bounds, with a warning. NaN becomes the minimum.
     ///
-    /// The comparison is written so that it fails for NaN.
-    ///
-    /// The warning lists the numbers before and after the correction. A maximum of `f32::MAX` means
-    /// no maximum.
+    /// The comparison is written so that it fails for NaN. The warning lists the numbers before and
+    /// after the correction. A maximum of `f32::MAX` means no maximum.
     fn clamp_numbers(&mut self, member: &str, numbers: &mut [f32], [min, max]: [f32; 2]) {
         let given = numbers.to_vec();
         for number in &mut *numbers {
@@ -384,7 +382,8 @@ pub(super) fn warn_of_missing_texcoords(model: &Model, warnings: &mut ImportWarn
                 missing.filter(|_| primitive.item_count() > 0)
             {
                 let message = format!(
-                    "its texture needs TEXCOORD_{uv_set}; the primitive is shown without it"
+                    "the primitive lacks TEXCOORD_{uv_set}, which a texture of its material needs; \
+                     it is shown without that texture"
                 );
                 warnings
                     .push_warning(&format!("/meshes/{at}/primitives/{primitive_index}"), message);

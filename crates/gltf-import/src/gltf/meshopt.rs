@@ -10,8 +10,8 @@
 //!
 //! This implementation follows the text of the extensions, whose appendices define the streams byte
 //! by byte. A stream does not contain its length: the JSON declares the length of the result, and a
-//! stream that ends earlier or later is invalid. Both stream versions and all filters are accepted
-//! under either extension name.
+//! stream that is too short or too long for it is invalid. Both stream versions and all filters are
+//! accepted under either extension name.
 
 mod byte_stream;
 mod index_codec;
@@ -107,7 +107,7 @@ impl CompressedView {
             return Err(Diagnostic::invalid(&format!("{pointer}/byteStride"), message));
         }
         if mode == CompressionMode::Triangles && !count.is_multiple_of(3) {
-            let message = format!("{count} indices do not form triangles: not a multiple of 3");
+            let message = format!("the number of indices, {count}, is not a multiple of 3");
             return Err(Diagnostic::invalid(&format!("{pointer}/count"), message));
         }
         Ok(Self { pointer, buffer, offset, length, count, stride, mode })

@@ -28,7 +28,7 @@ use model::{Diagnostic, Model, Node};
 /// The time of each step is added to the timings in the options, as `geometry` or `images`.
 ///
 /// # Errors
-/// Returns the first error that prevents drawing.
+/// Returns the first error that stops the import.
 pub(super) fn build_model(
     document: &GltfDocument,
     source: &AccessorReader<'_>,
@@ -69,7 +69,6 @@ fn collect_announced_images<'a>(
 /// Reads everything except meshes and images.
 ///
 /// References to invalid skins and cameras are cleared, so that every index in the nodes is valid.
-///
 /// The order follows the dependencies: lights are attached to nodes, and animations check their
 /// targets against nodes, materials, lights and cameras.
 fn build_scene_graph(
@@ -106,7 +105,7 @@ fn build_scene_graph(
     Ok(model)
 }
 
-/// Reads the animations. KHR_animation_pointer may add texture transforms to materials.
+/// Reads the animations. KHR_animation_pointer may add texture transforms to the model.
 ///
 /// This borrows disjoint fields of the model, some of them mutably, which a method on the model
 /// could not do.

@@ -10,7 +10,7 @@ use model::{Diagnostic, MorphTarget};
 
 /// Reads one morph target.
 pub(super) struct MorphTargetReader<'r, 'a, 'w> {
-    /// The reader of the primitive's attributes, because deltas cover the same range of vertices.
+    /// The primitive's attribute reader, shared because deltas cover the same range of vertices.
     pub(super) attributes: &'r mut AttributeReader<'a, 'w>,
     /// Location of the morph target.
     pub(super) pointer: String,

@@ -1,8 +1,8 @@
 //! Node transforms, in the double precision of JSON numbers.
 //!
-//! The `gltf` crate stores transforms in single precision, which would lose millimeters in models
-//! far from the origin, as is common in CAD and map data. So the transforms are removed from the
-//! JSON before it is deserialized.
+//! The `gltf` crate stores transforms in single precision, which would cause errors of millimeters
+//! in models far from the origin, as is common in CAD and map data. So the transforms are removed
+//! from the JSON before it is deserialized.
 
 use crate::warnings::ImportWarnings;
 use glam::{DMat4, DVec4};
@@ -99,10 +99,9 @@ impl NodeTransform {
 /// Converts a column-major matrix to an affine map. Returns `None` if its last row is clearly not
 /// (0, 0, 0, 1).
 ///
-/// Exporters that invert a matrix in single precision leave rounding errors in the last row.
-///
-/// A deviation of up to 0.001 is accepted and corrected, because later products rely on an exact
-/// last row.
+/// Exporters that invert a matrix in single precision leave rounding errors in the last row. A
+/// deviation of up to 0.001 is accepted and corrected, because later products rely on an exact last
+/// row.
 pub(super) fn affine_from_columns(columns: &[f64; 16]) -> Option<Affine<Model, Model>> {
     let mut matrix = DMat4::from_cols_array(columns);
     let deviation = (matrix.row(3) - DVec4::W).abs().max_element();

@@ -51,8 +51,7 @@ pub(super) struct PrimitiveContext<'a> {
     pub(super) materials: &'a [Material],
     /// The number of material variants that the file declares (KHR_materials_variants).
     pub(super) variants: usize,
-    /// Members that the `gltf` crate's types do not have, such as further attributes of morph
-    /// targets.
+    /// Members that the `gltf` crate's types lack, such as further attributes of morph targets.
     pub(super) untyped: &'a UntypedMembers,
 }
 
@@ -112,7 +111,7 @@ struct PrimitiveReader<'a, 'w> {
     source: &'a AccessorReader<'a>,
     json: &'a json::mesh::Primitive,
     context: PrimitiveContext<'a>,
-    /// The index of the mesh, and of the primitive in the mesh.
+    /// The index of the mesh, and the index of the primitive in it.
     mesh_and_part: (usize, usize),
     pointer: String,
     scalars: &'w mut CollectedScalars,
@@ -120,8 +119,8 @@ struct PrimitiveReader<'a, 'w> {
 }
 
 impl<'a> PrimitiveReader<'a, '_> {
-    /// Reads the primitive: decompresses it, expands strips and fans, removes invalid items, then
-    /// reads the attributes of the used vertices.
+    /// Reads the primitive: decompresses it, expands strips and fans, removes invalid items, and
+    /// then reads the attributes of the used vertices.
     ///
     /// The order of the steps matters. Invalid indices are removed before the range of used
     /// vertices is determined, because a single wrong index could widen that range to the whole
@@ -214,9 +213,9 @@ impl<'a> PrimitiveReader<'a, '_> {
 
     /// Decodes the data of a Draco-compressed primitive.
     ///
-    /// Returns `None` if it is not compressed. Also returns `None`, with a warning, if the stream
-    /// is broken and the file has uncompressed data as a fallback for readers without the
-    /// extension.
+    /// Returns `None` if the primitive is not compressed. Also returns `None`, with a warning, if
+    /// the stream is broken and the file has uncompressed data as a fallback for readers without
+    /// the extension.
     fn decode_draco_data(&mut self, tangents: bool) -> Result<Option<DracoData>, Diagnostic> {
         let positions = self.attribute_accessor(Semantic::Positions);
         let has_other_data = positions.is_some_and(|accessor| !self.source.has_no_data(accessor));
@@ -276,11 +275,9 @@ impl<'a> PrimitiveReader<'a, '_> {
 
     /// Removes items with an out-of-range index. All remaining indices are valid.
     ///
-    /// Whole points, lines or triangles are removed, never single indices, because that would shift
-    /// all the others.
-    ///
-    /// The highest index is tested first, in one pass that the compiler vectorizes; almost all
-    /// files need only this test.
+    /// Whole points, lines or triangles are removed, never single indices, because removing one
+    /// would shift all the others. The highest index is tested first, in one pass that the compiler
+    /// vectorizes; almost all files need only this test.
     fn drop_items_without_vertices(&mut self, primitive: &mut Primitive, vertices: usize) {
         if used_range(&primitive.indices).end <= vertices {
             return;
@@ -380,7 +377,7 @@ impl<'a> PrimitiveReader<'a, '_> {
 
     /// Normalizes the normals and warns about corrections.
     ///
-    /// Quantized normals rarely have unit length, so warnings are counted and appear once per
+    /// Quantized normals rarely have unit length, so corrections are counted and reported once per
     /// primitive.
     fn repair_normals(&mut self, primitive: &mut Primitive) {
         let normals::NormalRepairs { lengths, replaced } = normals::normalize_normals(primitive);
@@ -414,7 +411,7 @@ impl<'a> PrimitiveReader<'a, '_> {
     }
 }
 
-/// Formats a number of points, lines or triangles with the noun.
+/// Formats a number of points, lines or triangles with its noun.
 fn item_count(primitive: &Primitive, count: usize) -> String {
     let [singular, plural] = match primitive.topology {
         Topology::Points => ["point", "points"],
@@ -426,11 +423,10 @@ fn item_count(primitive: &Primitive, count: usize) -> String {
 
 /// Reads the sets of joints and weights up to the first missing or invalid set.
 ///
-/// `named` returns the accessor of an attribute and its location, if the primitive has it. Joints
-/// without weights are meaningless, as are weights without joints, so both are dropped.
-///
-/// Each set has four influences: `JOINTS_0` with `WEIGHTS_0`, `JOINTS_1` with `WEIGHTS_1`, and so
-/// on (glTF 2.0 §3.7.3.3).
+/// `named` returns the accessor of an attribute, if it exists, and the attribute's location. Joints
+/// without weights are meaningless, as are weights without joints, so both are dropped. Each set
+/// has four influences: `JOINTS_0` with `WEIGHTS_0`, `JOINTS_1` with `WEIGHTS_1`, and so on (glTF
+/// 2.0 §3.7.3.3).
 fn read_joints(
     primitive: &mut Primitive,
     attributes: &mut AttributeReader<'_, '_>,

@@ -70,7 +70,7 @@ impl CollectedScalars {
 
     /// Reads the values of a primitive if it has the attribute.
     ///
-    /// `named` returns the accessor of an attribute and its location, if the primitive has it.
+    /// `named` returns the accessor of an attribute, if it exists, and the attribute's location.
     ///
     /// # Errors
     /// Fails if a limit is exceeded or a file cannot be read. Invalid values are skipped with a
@@ -99,7 +99,7 @@ impl CollectedScalars {
     /// Sets the colors of primitives with values, and gives these primitives a plain white
     /// material.
     ///
-    /// Their material variants and `COLOR_0` morph targets are removed, because these would change
+    /// Their material variants and `COLOR_0` morph deltas are removed, because these would change
     /// the meaning of a color.
     pub(super) fn color_primitives(
         self,

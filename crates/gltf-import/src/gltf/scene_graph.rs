@@ -42,10 +42,9 @@ pub(super) fn import_nodes(
 
 /// Reads a node, without its parent and children.
 ///
-/// Checks that its mesh, skin and camera exist. A skin without a mesh is dropped with a warning.
-///
-/// In lenient mode, a node whose matrix is not finite gets its parent's transform. A node with a
-/// matrix has no `trs` and cannot be animated.
+/// Checks that its mesh, skin and camera exist. A skin without a mesh is dropped with a warning. In
+/// lenient mode, a node with an invalid transform gets its parent's transform. A node with a matrix
+/// has no `trs` and cannot be animated.
 fn read_node(
     document: &GltfDocument,
     at: usize,
@@ -150,8 +149,8 @@ fn link_parents(nodes: &mut [Node], warnings: &mut ImportWarnings) -> Result<(),
 /// Computes global transforms. Because each node has at most one parent, the nodes form a forest if
 /// a traversal from the roots visits them all; nodes that it misses are in or below cycles.
 ///
-/// In lenient mode, the first node that cannot be reached from a root becomes a root itself, which
-/// breaks a cycle that contains it.
+/// In lenient mode, the first node that cannot be reached from a root becomes a root itself; this
+/// breaks any cycle that contains the node.
 ///
 /// # Errors
 /// Fails if a node is its own ancestor, a product of transforms overflows, or the depth limit is
@@ -322,7 +321,7 @@ pub fn check_scene_items(model: &Model, limits: &Limits) -> Result<(), Diagnosti
             }
             None => items[mesh],
         };
-        // Sums saturate, because they are products of numbers from the file.
+        // The arithmetic saturates, because all counts come from the file.
         total = total.saturating_add(shown).saturating_add(bending);
     }
     if total <= limits.scene_items {

@@ -105,8 +105,8 @@ pub(super) fn variant_materials(
 
 /// Returns the material of a primitive in a variant, if the variant changes it.
 ///
-/// This is used to predict images before primitives are imported. It discards warnings, because the
-/// import adds them.
+/// This predicts which images are needed before primitives are imported. Warnings are discarded,
+/// because the import adds them.
 pub(super) fn variant_material(
     root: &Root,
     json: &mesh::Primitive,

@@ -1,7 +1,7 @@
 //! Skins: joints and inverse bind matrices. Invalid skins are skipped with a warning.
 //!
-//! A skin needs at least one joint, every joint must be a node, and there must be a matrix for each
-//! joint. The `skeleton` member is ignored, because it does not affect the joint matrices.
+//! A skin needs at least one joint, every joint must be a node, and any matrices must suffice for
+//! all joints. The `skeleton` member is ignored, because it does not affect the joint matrices.
 
 use super::accessor::AccessorReader;
 use super::node_transform::affine_from_columns;
@@ -31,7 +31,7 @@ pub(super) fn import_skins(
     Ok(skins)
 }
 
-/// Reads and checks one skin. If it has no matrices, they are identities (glTF 2.0 §3.7.3.1).
+/// Reads and checks one skin. Absent matrices are identities (glTF 2.0 §3.7.3.1).
 ///
 /// Extra matrices, beyond the number of joints, are ignored.
 ///

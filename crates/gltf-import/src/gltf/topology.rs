@@ -1,4 +1,4 @@
-//! Primitive modes: expands strips, loops and fans to lists of lines or triangles.
+//! Primitive modes: expands strips, loops and fans into lists of lines or triangles.
 //!
 //! ```text
 //!  line strip      line loop       triangle strip      triangle fan
@@ -14,7 +14,7 @@
 use gltf::json::mesh::Mode;
 use model::Topology;
 
-/// Expands a sequence of vertices to a list. Leftover vertices that do not form another item are
+/// Expands a sequence of vertices into a list. Leftover vertices that do not form another item are
 /// dropped.
 ///
 /// Lists need up to three times as many indices as strips, but later steps then have only one case
@@ -53,8 +53,8 @@ fn line_loop(vertices: &[u32]) -> Vec<u32> {
     lines
 }
 
-/// Returns the triangles of three consecutive vertices; every second triangle is flipped to
-/// preserve the winding.
+/// Returns the triangles that every three consecutive vertices form; every second triangle is
+/// flipped to preserve the winding.
 fn triangle_strip(vertices: &[u32]) -> Vec<u32> {
     let triangle = |(at, &[a, b, c]): (usize, &[u32; 3])| match at % 2 {
         0 => [a, b, c],

@@ -54,7 +54,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
 
 /// Checks that all lossy frames fit in an image of this size.
 ///
-/// A file of a few bytes may contain a frame that takes hundreds of megabytes, and the decoder
+/// A file of a few bytes may declare a frame that takes hundreds of megabytes, and the decoder
 /// allocates before it compares the sizes.
 fn check_frame_sizes(file: &[u8], size: (u32, u32)) -> Result<(), String> {
     let chunks = file.get(12..).unwrap_or_default();

@@ -16,7 +16,7 @@ pub(super) enum StreamError {
     #[error("extra bytes at the end of the stream: {0}")]
     Long(usize),
     /// An element refers to another that has not been decoded yet.
-    #[error("the stream refers to an edge or vertex before the first")]
+    #[error("the stream refers to an edge or vertex that is not yet decoded")]
     Unwritten,
     /// The delta mode of a channel is unknown.
     #[error("a channel of the stream has the unknown mode {0:#04x}")]
@@ -56,7 +56,7 @@ impl<'a> ByteStream<'a> {
         Ok(bytes)
     }
 
-    /// Returns the last `count` bytes, because tables are stored at the end of a stream.
+    /// Takes the last `count` bytes; tables are stored at the end of a stream.
     pub(super) fn take_back(&mut self, count: usize) -> Result<&'a [u8], StreamError> {
         let rest = self.0.len().checked_sub(count).ok_or(StreamError::Short)?;
         let (rest, bytes) = self.0.split_at(rest);
@@ -69,7 +69,7 @@ impl<'a> ByteStream<'a> {
     ///
     /// # Errors
     /// Returns [`StreamError::Number`] if the fifth byte announces a sixth, and
-    /// [`StreamError::Short`] at the end.
+    /// [`StreamError::Short`] if the stream ends first.
     pub(super) fn read_varint(&mut self) -> Result<u32, StreamError> {
         let mut number = 0;
         for shift in [0, 7, 14, 21, 28] {
@@ -93,7 +93,7 @@ impl<'a> ByteStream<'a> {
     }
 }
 
-/// Decodes a zigzag-coded difference, whose sign is its lowest bit: 0, −1, 1, −2, 2, …
+/// Decodes a zigzag-coded difference, whose sign is the lowest bit: 0, 1, 2, 3 mean 0, −1, 1, −2.
 ///
 /// A negative difference is returned as its two's complement, for wrapping addition.
 pub(super) fn decode_zigzag(number: u32) -> u32 {

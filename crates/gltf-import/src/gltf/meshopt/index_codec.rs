@@ -7,11 +7,10 @@
 //!               table, else from a byte of the data
 //! ```
 //!
-//! The code of a vertex (Y < 15, or half of a table entry) is:
-//! - 0 for a new vertex;
-//! - 1 to 12 for a vertex in the vertex FIFO;
-//! - 13 or 14 for the last explicit index −1 or +1;
-//! - 15 for an explicit index, a zigzag-coded difference from the last explicit index.
+//! After an edge, Y is 0 for a new vertex, 1 to 12 for a vertex in the vertex FIFO, 13 or 14 for
+//! the last explicit index −1 or +1, and 15 for an explicit index. Each half of a table entry or
+//! data byte is 0 for a new vertex, 1 to 14 for a vertex in the FIFO, and 15 for an explicit index.
+//! An explicit index is a zigzag-coded difference from the last explicit index.
 
 use super::byte_stream::{ByteStream, StreamError, decode_zigzag, push_index};
 
@@ -20,8 +19,8 @@ use super::byte_stream::{ByteStream, StreamError, decode_zigzag, push_index};
 /// The last 16 bytes are the table of common codes for two vertices. The time is linear in `count`.
 ///
 /// # Errors
-/// Fails if the header or the table is invalid, a code refers to an edge or vertex before the
-/// first, or the stream has the wrong length.
+/// Fails if the header or the table is invalid, a code refers to an edge or vertex that is not yet
+/// decoded, or the stream has the wrong length.
 pub(super) fn decode_triangles(
     stream: &[u8],
     count: usize,
@@ -62,7 +61,7 @@ pub(super) fn decode_triangles(
 /// recent edges and vertices.
 struct TriangleDecoder<'a> {
     data: ByteStream<'a>,
-    /// The next new index, because vertices are numbered in the order of their first use.
+    /// The index of the next new vertex; vertices are numbered in the order of their first use.
     next_index: u32,
     /// The last explicitly stored index, which is the base of the next delta.
     last_index: u32,
@@ -238,7 +237,7 @@ mod tests {
             (&[0xF0, 0x0F, 0x0E, 0x0D], &[20], &[[0, 1, 2], [0, 2, 10], [0, 10, 11], [0, 11, 10]]),
             // From the table, with the newest vertex as the third corner.
             (&[0xF0, 0xFC], &[], &[[0, 1, 2], [3, 4, 2]]),
-            // All vertices explicit, and the numbering restarts.
+            // All vertices are explicit; then the numbering restarts.
             (&[0xFF], &[0xFF, 14, 2, 1], &[[7, 8, 7]]),
             (&[0xF0, 0xFE], &[0], &[[0, 1, 2], [0, 1, 2]]),
         ];

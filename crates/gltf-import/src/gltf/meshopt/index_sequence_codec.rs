@@ -1,8 +1,8 @@
 //! meshopt mode INDICES: each index is stored as its difference from one of two baselines.
 //!
-//! Line lists and strips alternate between distant vertices, and each of the two baselines follows
-//! one of them. The lowest bit of a number selects the baseline; the other bits are a zigzag-coded
-//! difference:
+//! Line lists and strips often alternate between two distant sequences of vertices, each of which
+//! one baseline follows. The lowest bit of a number selects the baseline; the other bits are a
+//! zigzag-coded difference:
 //!
 //! ```text
 //!  varint  d d d d d s b     b: baseline 0 or 1    s: sign    d: difference

@@ -88,7 +88,7 @@ fn truncated_streams_are_rejected() {
         let message = packed.decompress(&longer).unwrap_err().message;
         let expected = [
             "extra bytes at the end of the stream: 1",
-            "the stream refers to an edge or vertex before the first",
+            "the stream refers to an edge or vertex that is not yet decoded",
         ];
         assert!(expected.contains(&&*message), "{message}");
     }
@@ -145,7 +145,7 @@ fn extension_members_are_validated() {
         (
             json!({"mode": "TRIANGLES", "byteStride": 2, "count": 4}),
             8,
-            Some("/count: 4 indices do not form triangles: not a multiple of 3"),
+            Some("/count: the number of indices, 4, is not a multiple of 3"),
         ),
         (
             json!({"mode": "EDGES"}),

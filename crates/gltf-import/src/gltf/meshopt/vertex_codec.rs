@@ -7,14 +7,13 @@
 //!  bytes n: two bits per group │ group of 16 │ group of 16 │ …
 //! ```
 //!
-//! A group stores its differences with 0, 1, 2, 4 or 8 bits each. A difference of all ones is an
-//! escape: its value follows in a byte after the group. Version 1 adds four-byte channels whose
-//! deltas are bytes, 16-bit words or 32-bit XORs, and controls that store bytes uncompressed or
-//! omit them.
-//!
-//! The format is specified in EXT_meshopt_compression (version 0 of the attribute codec) and
-//! KHR_meshopt_compression (version 1). Storing bytes by position, not by element, groups similar
-//! values: high bytes change rarely, so most of their groups take 0 bits per difference.
+//! A group stores its differences with 0, 1, 2, 4 or 8 bits each. Below 8 bits, a difference of all
+//! ones is an escape: its value follows in a byte after the group. Version 1 adds four-byte
+//! channels whose deltas are bytes, 16-bit words or 32-bit XORs, and controls that store bytes
+//! uncompressed or omit them. The format is specified in EXT_meshopt_compression (version 0 of the
+//! attribute codec) and KHR_meshopt_compression (version 1). Storing bytes by position, not by
+//! element, groups similar values: high bytes change rarely, so most of their groups take 0 bits
+//! per difference.
 
 use super::byte_stream::{ByteStream, StreamError};
 
@@ -115,7 +114,7 @@ fn decode_vertex_block(
 ///
 /// `control` is the two-bit control of version 1: 0 and 1 select a set of bit widths, 2 means all
 /// zeros, and 3 means uncompressed bytes. Version 0 has no control and uses another set of widths.
-/// The header has two bits per group, padded to whole bytes.
+/// The data begins with two bits per group, padded to whole bytes.
 fn decode_byte_deltas(
     stream: &mut ByteStream<'_>,
     control: Option<u8>,
@@ -259,8 +258,8 @@ mod tests {
 
     #[test]
     fn version_0_accumulates_byte_deltas() {
-        // In 17 elements, byte 0 is the example plus a group of zeros, byte 1 increases by 1, and
-        // bytes 2 and 3 are constant.
+        // In 17 elements, the deltas of byte 0 are the example and a group of zeros, byte 1
+        // increases by 1, and bytes 2 and 3 are constant.
         let mut stream = vec![0xA0, 0b0010];
         stream.extend(NIBBLES);
         stream.extend([0b0101, 0xAA, 0xAA, 0xAA, 0xAA, 0x80, 0, 0, 0, 0, 0]);
@@ -288,7 +287,7 @@ mod tests {
         // Three channels of two elements: bytes in one-bit groups and uncompressed, words, and
         // XORs rotated by 4.
         let mut stream = vec![0xA1, 0b10_10_11_01, 0b10_10_11_11, 0xFF];
-        stream.extend([0, 0b01, 0, 6]); // byte 0: one group of one bit: 6 → +3, then 0
+        stream.extend([0, 0b01, 0, 6]); // byte 0, one group of one bit: 6 → +3, then 0
         stream.extend([1, 4]); // byte 1: −1, +2
         stream.extend([0x01, 0x02]); // low bytes of words
         stream.extend([0x02, 0x00]); // high bytes: 0x0201 → −257, 0x0002 → +1

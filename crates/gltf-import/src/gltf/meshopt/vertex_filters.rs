@@ -1,11 +1,11 @@
 //! meshopt filters, which expand octahedral vectors, quaternions, exponential floats and YCoCg
 //! colors to full width.
 //!
-//! The specification does not define the result for out-of-range values; here, such
-//! values decode to an arbitrary value of the output type, and never cause a panic.
+//! The specification does not define the result for out-of-range values. Here, they decode to
+//! arbitrary values of the output type and never cause a panic.
 //!
-//! A filter is applied after decompression, and widens quantized values to the component type of
-//! the accessor:
+//! A filter is applied after decompression and widens quantized values to the component type of the
+//! accessor:
 //!
 //! ```text
 //!  Octahedral   x, y, 1 in n bits, free   ──► unit vector of 8 or 16 bits, normalized integers

@@ -202,9 +202,9 @@ impl<'a> Ktx2File<'a> {
     }
 }
 
-/// Channel ids of ETC1S slices and UASTC blocks that need special handling (Khronos data format
-/// specification §5.6).
+/// Channel id of an ETC1S slice for green (Khronos data format specification §5.6).
 const CHANNEL_ETC1S_GREEN: u8 = 4;
+/// Channel id of UASTC blocks for red and green.
 const CHANNEL_UASTC_RED_GREEN: u8 = 5;
 
 /// Rejects volumes, arrays and cube maps, which glTF textures cannot be.
@@ -337,7 +337,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn invalid_header_fields_are_rejected_with_their_values() {
+    fn errors_report_the_invalid_header_values() {
         let usual = HeaderFields { color_model: 166, ..HeaderFields::default() };
         let refused = |fields: &HeaderFields, words: &str| {
             let message = Ktx2File::read(&file_of(fields, &[0; 16])).err().unwrap_or_default();
@@ -359,7 +359,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn level_lengths_must_match_their_blocks() {
+    fn level_length_must_match_the_number_of_blocks() {
         let fields = HeaderFields { color_model: 166, size: [5, 3], ..HeaderFields::default() };
         let length = |level: &[u8]| {
             let file = file_of(&fields, level);

@@ -14,8 +14,7 @@ const STEP_BYTES: usize = 128 << 10;
 /// Decompresses a frame that must contain `length` bytes. The checksum is not verified.
 ///
 /// # Errors
-/// Returns a message if the frame is broken, needs more memory than its data, or has the wrong
-/// length.
+/// Returns a message if the frame is broken, needs too large a window, or has the wrong length.
 pub(super) fn decompress(frame: &[u8], length: usize) -> Result<Vec<u8>, String> {
     let broken = || "the Zstandard data of the KTX2 image is broken".to_owned();
     let (header, _) = read_frame_header(frame).map_err(|_| broken())?;
