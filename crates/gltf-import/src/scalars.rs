@@ -8,10 +8,10 @@ use super::srgb::linear_from_srgb;
 use super::warnings::ImportWarnings;
 use model::{Colormap, Diagnostic, codes};
 
-/// Colors from a scalar vertex attribute, instead of the materials in a file.
+/// Coloring by a scalar vertex attribute, instead of by the materials in a file.
 ///
-/// The attribute is a custom glTF attribute with accessors of type `SCALAR`, such as
-/// `_TEMPERATURE`, or a vertex property in a PLY file that has no other meaning, such as `quality`.
+/// In glTF, the attribute is a custom attribute with accessors of type `SCALAR`, such as
+/// `_TEMPERATURE`. In PLY, it is a vertex property without a predefined meaning, such as `quality`.
 /// Primitives without the attribute keep their materials. Non-finite values are gray, with a
 /// warning.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -21,9 +21,10 @@ pub struct ScalarColors {
     pub attribute: String,
     /// The colormap. Default: Viridis.
     pub colormap: Colormap,
-    /// The values that map to the first and last color; values outside the range also get these
-    /// colors. If the first value is larger, the colors are reversed. Default: the smallest and
-    /// largest finite values in the model. If both are equal, every value has the middle color.
+    /// The values that map to the first and last color; values outside the range get the color of
+    /// the nearer limit. If the first value is larger, the colors are reversed. Default: the
+    /// smallest and largest finite values in the model. If both limits are equal, every finite
+    /// value gets the middle color.
     pub range: Option<[f64; 2]>,
 }
 
@@ -33,8 +34,8 @@ const NOT_FINITE_CODE: f32 = 0.5;
 impl ScalarColors {
     /// Finds the attribute among the names in a file.
     ///
-    /// # Errors
-    /// Returns [`NO_SUCH_ITEM`](codes::NO_SUCH_ITEM) with a list of the existing attributes.
+    /// # Errors Returns [`NO_SUCH_ITEM`](codes::NO_SUCH_ITEM), with a list of the names, if none of
+    /// them matches.
     pub fn find_among(&self, names: &[String], location: &str) -> Result<usize, Diagnostic> {
         let wanted = self.attribute.as_str();
         let bare_wanted = bare_name(wanted);
@@ -64,11 +65,11 @@ impl ScalarColors {
         let attribute = &self.attribute;
         let message =
             format!("vertices in {format} have no scalar attributes such as `{attribute}`");
-        let help = "convert the model to PLY or glTF with the attribute";
+        let help = "convert the model to PLY or glTF, and include the attribute";
         Diagnostic::error(codes::NO_SUCH_ITEM, "", message, help)
     }
 
-    /// Returns the color of each value, linear with alpha 1. All arrays share one range.
+    /// Returns the linear color of each value, with alpha 1. All arrays share one range.
     ///
     /// A warning reports the number of non-finite values.
     pub fn color_arrays<T: Copy + Into<f64>>(
@@ -155,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn names_match_exact_case_first_and_without_underscore() {
+    fn exact_names_take_precedence_over_looser_matches() {
         let names = ["_heat", "_HEAT", "_Load"].map(str::to_owned);
         let find = |attribute: &str| {
             let colors =

@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-/// Converts an sRGB-encoded value to linear; both are in [0, 1].
+/// Converts an sRGB-encoded value to a linear value; both are in [0, 1].
 pub fn linear_from_srgb(encoded: f32) -> f32 {
     if encoded <= 0.04045 {
         encoded / 12.92

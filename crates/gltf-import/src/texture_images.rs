@@ -16,16 +16,16 @@ const SHOWN_WITHOUT_IMAGE: &str = "the surface is shown without it";
 /// An image that a material refers to.
 #[derive(Debug)]
 pub struct TextureImage<'a> {
-    /// The name in the file that refers to it.
+    /// The name of the image in the referring file.
     pub name: String,
-    /// The location of the reference in that file, for messages.
+    /// The location of the reference in the referring file, for messages.
     pub location: String,
     /// The encoded bytes, or the reason why they are missing. `None` if nothing visible uses the
     /// image.
     pub bytes: Option<Result<Cow<'a, [u8]>, Diagnostic>>,
 }
 
-/// Decodes images and stores each in the model at its index.
+/// Decodes images and stores each in the model at its index in `files`.
 pub fn store_images<'a>(
     model: &mut Model,
     files: Vec<TextureImage<'a>>,

@@ -37,7 +37,7 @@ pub struct UriResolver<'a> {
 /// The allowed location of referenced files.
 #[derive(Debug)]
 enum AssetSource<'a> {
-    /// No files are allowed, because the file is in memory without a folder.
+    /// No files are allowed, because the referring file is in memory and has no folder.
     Nowhere,
     /// In folders on disk.
     Disk(AssetSandbox),
@@ -47,8 +47,8 @@ enum AssetSource<'a> {
 
 /// The folders that may contain referenced files.
 ///
-/// Both paths are canonicalized before they are compared, so `..` and symbolic links make no
-/// difference.
+/// The path of a file is canonicalized before it is compared with them, so `..` and symbolic links
+/// make no difference.
 #[derive(Debug)]
 struct AssetSandbox {
     /// The folder that paths are relative to.
@@ -153,9 +153,8 @@ impl<'a> UriResolver<'a> {
     /// Exporters disagree about escaping, and some write Windows paths, so the first existing
     /// candidate is used. Each candidate is checked against the sandbox.
     ///
-    /// # Errors
-    /// Fails if the path leaves the sandbox or has a scheme, no candidate exists, or the file is
-    /// too large.
+    /// # Errors Fails if the URI is empty, if the path leaves the sandbox, if no candidate exists,
+    /// or if the file is too large.
     fn read_asset(&self, uri: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
         if uri.is_empty() {
             return Err(Diagnostic::invalid(pointer, "the URI is empty"));
@@ -179,8 +178,8 @@ impl<'a> UriResolver<'a> {
 
     /// Reads the file at a relative path. Returns `None` if it does not exist.
     ///
-    /// # Errors
-    /// Fails if the path leaves the sandbox, or the file is too large or not a regular file.
+    /// # Errors Fails if the path leaves the sandbox, or if the file is too large or is not a
+    /// regular file.
     fn read_candidate(
         &self,
         path: &str,
@@ -218,10 +217,10 @@ impl AssetSandbox {
         self.roots.iter().any(|root| path.starts_with(root))
     }
 
-    /// Joins a relative path to the folder if its components stay below a root.
+    /// Joins a relative path to the folder if the result is below a root.
     ///
-    /// This is the first of two checks, before any file system access: a file that refers to
-    /// `../../secret` cannot even learn whether that file exists. The second,
+    /// This is the first of two checks, before any file system access: a model that refers to
+    /// `../../secret` cannot even reveal whether that file exists. The second,
     /// [`check_path`](Self::check_path), checks the canonical path and catches symbolic links.
     ///
     /// With a single root, the path never leaves it. With several, `..` must be able to lead from
@@ -265,11 +264,11 @@ impl AssetSandbox {
 /// Reads a whole regular file, up to the limit.
 ///
 /// The size is checked before reading, and the read itself is limited, because a file may grow in
-/// between and special files report a size of 0. To detect an excess, one byte more than the limit
-/// is read.
+/// the meantime and special files report a size of 0. One byte more than the limit is read, to
+/// detect a file that exceeds it.
 ///
-/// # Errors
-/// Fails if the file does not exist, may not be read, is not a regular file, or is too large.
+/// # Errors Fails if the file does not exist, cannot be read, is not a regular file, or is too
+/// large.
 pub fn read_file(path: &Path, limits: &Limits, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
     let to_diagnostic = |error: std::io::Error| unreadable_file(pointer, path, &error);
     let metadata = path.metadata().map_err(to_diagnostic)?;
@@ -316,7 +315,7 @@ fn canonical_folder(folder: &Path) -> Result<PathBuf, Diagnostic> {
 ///
 /// The two common cases, a missing file and denied permission, have specific messages and advice.
 fn unreadable_file(pointer: &str, path: &Path, error: &std::io::Error) -> Diagnostic {
-    // An empty pointer means the glTF file itself, whose path precedes the message.
+    // An empty pointer means the model file itself, whose path precedes the message.
     let name = if pointer.is_empty() { "the file".to_owned() } else { path.display().to_string() };
     let (message, help) = match error.kind() {
         std::io::ErrorKind::NotFound => (format!("{name} does not exist"), "check the name"),
@@ -372,8 +371,7 @@ const LENIENT_BASE64: GeneralPurposeConfig = GeneralPurposeConfig::new()
     .with_decode_allow_trailing_bits(true)
     .with_decode_padding_mode(DecodePaddingMode::Indifferent);
 
-/// Decodes the data of a data URI (RFC 2397) without its scheme. Both base64 alphabets are
-/// accepted.
+/// Decodes a data URI (RFC 2397) whose scheme has been removed. Both base64 alphabets are accepted.
 fn decode_data_uri(data: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
     let Some((kind, data)) = data.split_once(',') else {
         return Err(Diagnostic::invalid(pointer, "the data URI has no comma before its data"));

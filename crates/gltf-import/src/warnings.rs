@@ -41,8 +41,8 @@ impl ImportWarnings {
         }
     }
 
-    /// Adds an error as a warning. `consequence` describes what is skipped or replaced because of
-    /// it.
+    /// Adds an error as a warning. `consequence` names the part that is skipped or replaced because
+    /// of the error.
     pub fn downgrade(&mut self, diagnostic: &Diagnostic, consequence: &str) {
         self.push(warning(
             diagnostic.code,
@@ -75,7 +75,7 @@ impl ImportWarnings {
         self.omitted += left_out;
     }
 
-    /// Returns the stored warnings, plus a warning with the number of omitted warnings.
+    /// Returns the stored warnings and, if others were omitted, a warning with their number.
     pub fn into_list(mut self) -> Vec<Diagnostic> {
         if self.omitted > 0 {
             let message = format!("{} more warnings are not listed", self.omitted);

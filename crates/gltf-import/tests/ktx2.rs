@@ -1,8 +1,8 @@
 //! KTX2 images from real encoders, compared with the texels of the reference transcoder.
 //!
-//! The images in `ktx2/` are 7 x 5 texels: a gradient with a white corner. The Basis Universal 2.50
-//! encoder wrote them, and the transcoder of the same project wrote the RGBA32 texels next to them.
-//! The transcoder's output is specified exactly.
+//! Each image in `ktx2/` has 7 x 5 texels and shows a gradient with a white corner. The Basis
+//! Universal 2.50 encoder wrote them, and the transcoder of the same project wrote the RGBA32
+//! texels next to them. The specification defines the decoded texels exactly.
 
 use import::{ImportOptions, decode_image, load_bytes};
 
@@ -32,7 +32,7 @@ fn images_match_the_reference_transcoder() {
 #[test]
 fn every_truncation_is_an_error() {
     for (name, file, _) in IMAGES {
-        // The levels after the first are stored before it, and are not read.
+        // The smaller mipmap levels are stored before the first level and are not read.
         for end in 0..file.len() {
             assert!(decode_image(&file[..end], 35).is_err(), "{name} truncated at {end}");
         }

@@ -1,11 +1,11 @@
-//! Draws a custom mesh for a pen plotter, with exact hidden lines, as SVG on standard output.
+//! Draws a custom mesh for a pen plotter, with hidden-line removal, as SVG on standard output.
 //!
 //! ```text
 //! cargo run -p alberti-hidden-line --example plotter > house.svg
 //! ```
 //!
-//! A plotter moves a pen along lines and cannot paint over what should not be visible, so lines
-//! must end where faces hide them. Hidden parts go on a separate layer, for a second pen.
+//! A plotter moves a pen along lines and cannot paint over lines that should not be visible, so
+//! lines must end where faces hide them. Hidden parts go on a separate layer, for a second pen.
 
 #![allow(clippy::print_stdout, reason = "examples write to standard output")]
 
@@ -33,7 +33,7 @@ const POSITIONS: [[f32; 3]; 18] = [
     [-2.0, 2.0, 1.5],
     [-2.0, 3.2, 0.0],
     [2.0, 3.2, 0.0],
-    // The chimney, below and above.
+    // The chimney: the lower corners, then the upper corners.
     [0.6, 2.0, 0.3],
     [1.1, 2.0, 0.3],
     [1.1, 2.0, 0.8],
@@ -50,7 +50,7 @@ const INDICES: [u32; 84] = [
     0, 4, 5, 0, 5, 1, 3, 2, 6, 3, 6, 7, // the walls below the eaves
     0, 3, 7, 0, 7, 4, 4, 7, 8, 1, 5, 6, 1, 6, 2, 5, 9, 6, // the gables
     4, 8, 9, 4, 9, 5, 7, 6, 9, 7, 9, 8, // the roof
-    10, 11, 12, 10, 12, 13, 14, 17, 16, 14, 16, 15, // the ends of the chimney
+    10, 11, 12, 10, 12, 13, 14, 17, 16, 14, 16, 15, // the bottom and the top of the chimney
     10, 14, 15, 10, 15, 11, 11, 15, 16, 11, 16, 12, // the sides of the chimney
     12, 16, 17, 12, 17, 13, 13, 17, 14, 13, 14, 10,
 ];
@@ -71,7 +71,7 @@ fn house() -> ModelInstance {
     ModelInstance { model: Arc::new(model), model_to_world: Affine::IDENTITY }
 }
 
-/// Writes the lines of one pen as an SVG path.
+/// Returns the SVG path data for the lines of one pen.
 fn path(segments: &[EdgeSegment], visible: bool) -> String {
     let of_pen = segments.iter().filter(|segment| segment.visible == visible);
     let line = |segment: &EdgeSegment| {

@@ -1,9 +1,9 @@
 //! Circles of models: chains of feature edges that follow a circle or an arc in space.
 //!
-//! Each chain is mapped to its plane, on a grid whose step is a billionth of the chain's size. Arcs
-//! are then recognized as for DXF files: an arc has at least eight equally spaced points, less than
-//! 29.5° apart, all within the tolerance of the plane and the circle. A polygon with twelve sides
-//! or fewer is therefore not a circle.
+//! Each chain is mapped to its plane, on a grid with a billion steps from the chain's centroid to
+//! its farthest point. Arcs are then recognized as for DXF files: an arc has at least eight equally
+//! spaced points, less than 29.5° apart, all within the tolerance of the plane and the circle. A
+//! polygon with twelve sides or fewer is therefore not a circle.
 
 use crate::edges::FeatureChain;
 use arcs::{ArcVertex, Circle, LineShape, recognize_arcs};
@@ -27,7 +27,7 @@ pub struct WorldCircle {
 /// The maximum distance of points from their circle, as a fraction of the models' diagonal.
 pub(crate) const CIRCLE_TOLERANCE: f64 = 5e-5;
 
-/// The number of grid steps in the larger half extent of a chain.
+/// The number of grid steps from the centroid of a chain to its farthest point.
 const GRID_STEPS: f64 = 1e9;
 
 /// The plane of a chain, with a coordinate system in it.
@@ -97,13 +97,13 @@ pub(crate) fn circles_of_chain(chain: &FeatureChain, tolerance: f64) -> Vec<Worl
     }
 }
 
-/// Returns the circle and the angle of an arc of a polyline, or `None` for a straight side.
+/// Returns the circle and the angle of an arc of a polyline, or `None` for a straight segment.
 fn arc_of_bulge(from: &ArcVertex, to: DVec2) -> Option<(Circle, f64)> {
     let (bulge, chord) = (from.bulge, to - from.point);
     if bulge == 0.0 {
         return None;
     }
-    // The height of the center above the chord, to the left for a positive bulge.
+    // The distance of the center to the left of the chord, as a fraction of the chord's length.
     let height = (1.0 - bulge * bulge) / (4.0 * bulge);
     let center = from.point + chord * 0.5 + chord.perp() * height;
     let radius = center.distance(from.point);

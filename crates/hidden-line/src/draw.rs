@@ -1,4 +1,4 @@
-//! Drawing of a subject: candidate edges, hatching, hidden-line removal.
+//! Drawing of a subject: candidate edges, hatching and hidden-line removal.
 //!
 //! ```text
 //!   models, sections ─► WeldedSurface          (once, for every view)
@@ -54,8 +54,7 @@ impl DrawnFaces {
 /// Draws the edges of a subject with hidden-line removal. `workers` is the number of threads,
 /// optionally with a monitor. The number does not change the drawing.
 ///
-/// # Errors
-/// Fails if the image has no pixels, or if the mesh instances have too many triangles.
+/// # Errors Fails if the image has no pixels, if there are too many triangles, or on cancellation.
 pub fn draw<'a>(
     subject: &Subject<'_>,
     options: &DrawOptions,
@@ -104,8 +103,8 @@ pub fn draw_hatched<'a>(
 
 /// Draws a welded surface as seen by one camera, on an image of `size` pixels.
 ///
-/// Use it to draw the same surface from several directions, as on a sheet. It is otherwise like
-/// [`draw_hatched`].
+/// Use this function to draw the same surface from several directions, as on a sheet. Otherwise, it
+/// is like [`draw_hatched`].
 ///
 /// # Errors
 /// See [`draw`].
@@ -124,8 +123,7 @@ pub fn draw_surface<'a>(
     );
     let mut candidates = surface.mesh_edges(&projector, options);
     let cover = view_cover(surface, projector, size, options);
-    // Other views need other intersections, so all of them are found once, unless there are too
-    // many.
+    // Each view shows different intersections, so all are found once, unless the faces are a crowd.
     let crowd = cover.as_ref().and_then(ViewCover::crowd);
     let is_cut_off = surface.add_intersections(&mut candidates, options, crowd, workers);
     let candidates = Candidates { edges: candidates, is_cut_off, cover, face_hatching };
@@ -146,7 +144,7 @@ struct Candidates<'a> {
 }
 
 /// The number of triangles that all mesh instances together may have, in addition to twice the
-/// triangles of the meshes.
+/// number of triangles in the meshes.
 const TRIANGLES_OF_COPIES: u64 = 1 << 20;
 
 /// Rejects too many mesh instances: every triangle costs memory and time, and a small file can
@@ -170,7 +168,7 @@ fn refuse_many_copies(models: &[ModelInstance]) -> Result<(), DrawError> {
     if count > most { Err(DrawError::TooManyCopies { count, distinct, most }) } else { Ok(()) }
 }
 
-/// Draws the candidate edges of a surface with hidden-line removal, and its hatching.
+/// Draws the candidate edges and the hatching of a surface with hidden-line removal.
 fn draw_candidates(
     surface: &WeldedSurface,
     Candidates { mut edges, is_cut_off, cover, face_hatching }: Candidates<'_>,
@@ -257,7 +255,7 @@ fn hatch_surface(
                 .map(|(vertices, object, color)| (vertices, object, luma(vertices, color)));
             hatchings.push(Hatching::hatch_faces_by_luma(faces, projector, spacing));
         }
-        // Hatching marks cuts; hatching on other faces next to them would be misleading.
+        // In a section, hatching marks the cuts; hatching on other faces would be misleading.
         FaceHatching::Parts if !surface.is_cut() => {
             let faces = surface.colored_faces().map(|(vertices, object, _)| (vertices, object));
             let boxes = surface.part_boxes();
@@ -278,8 +276,8 @@ const MIN_COMPARISONS: u64 = 512;
 /// second.
 const ANY_COMPARISONS: u64 = 1 << 26;
 /// The number of comparisons allowed per face, so that a file twice as large takes at most twice
-/// the work. An edge of an ordinary model meets a few hundred faces; in a triangle soup it meets
-/// all of them.
+/// the work. An edge of an ordinary model is compared with a few hundred faces, and an edge of a
+/// triangle soup with all of them.
 const COMPARISONS_PER_FACE: u64 = 4096;
 
 /// Divides edges into visible and hidden segments, using the occluders of one view.
@@ -328,8 +326,7 @@ impl<'a> EdgeDivider<'a> {
         Self { projector, occluders, crowd, hidden_edges, max_comparisons }
     }
 
-    /// Returns the segments of all edges, in the order of the edges, and `false` if the work limit
-    /// was reached.
+    /// Returns the segments of all edges, in edge order, and whether the work limit sufficed.
     ///
     /// The work limit is divided among groups of edges. The groups do not depend on the number of
     /// threads, so neither do the skipped parts.

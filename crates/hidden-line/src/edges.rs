@@ -11,7 +11,7 @@
 //! A file seldom specifies the edges that a draftsman would draw. They follow from the faces at
 //! each edge, once vertices that were split for texture coordinates or normals are welded. An edge
 //! with one face is a boundary. An edge between a front-facing and a back-facing face is a
-//! silhouette. An edge with a sharp angle is a crease.
+//! silhouette. An edge whose faces meet at a sharp angle is a crease.
 
 mod classify;
 mod feature_edges;

@@ -38,7 +38,7 @@ pub struct PickedFeature {
     pub point: Point<World>,
     /// The unit vector along the edge, or perpendicular to the face.
     pub direction: Vector<World>,
-    /// The middle of the edge, or of the triangle.
+    /// The midpoint of the edge, or the centroid of the triangle.
     pub middle: Point<World>,
 }
 
@@ -144,7 +144,7 @@ impl<'a> FeaturePicker<'a> {
 impl WeldedSurface {
     /// Finds the circles and arcs along feature edges, each with its object.
     ///
-    /// Points may be off their circle by 1/20,000 of the models' diagonal.
+    /// Points may be off their circle by up to 1/20,000 of the models' diagonal.
     pub(crate) fn circles(&self, edges: &[FeatureEdge]) -> Vec<(WorldCircle, u32)> {
         let tolerance = CIRCLE_TOLERANCE * self.diagonal();
         let chains = self.feature_chains(edges);

@@ -10,9 +10,10 @@
 //! cuts a face is found in the world, from the signs of a linear function at the vertices. It is
 //! then an edge like any other: clipped, projected, and divided by hidden-line removal.
 //!
-//! Section caps are hatched at 45°. Neighboring parts differ in direction or spacing, and each part
-//! has the same pattern in all its cuts. With [`FaceHatching::Parts`], whole parts have such
-//! patterns. With [`FaceHatching::ByLuma`], darker faces are hatched more densely.
+//! Section caps are hatched at 45°, or at 30° and 60° if many parts touch. Neighboring parts differ
+//! in direction or spacing, and each part has the same pattern in all its cuts. With
+//! [`FaceHatching::Parts`], whole parts have such patterns. With [`FaceHatching::ByLuma`], darker
+//! faces are hatched more densely.
 
 use super::edges::SectionCap;
 use super::projector::Projector;
@@ -33,8 +34,8 @@ const SPACING_FACTORS: [f64; 4] = [1.0, 1.5, 0.75, 2.0];
 /// The cosine of 30°.
 const HALF_SQRT_3: f64 = 0.866_025_403_784_438_6;
 
-/// The maximum number of parts whose patterns are compared with their neighbors': the number of
-/// comparisons grows with the square of the number of parts.
+/// The maximum number of parts that are compared with each other, because the number of comparisons
+/// grows with the square of the number of parts.
 const MAX_COMPARED_PARTS: usize = 1 << 13;
 
 /// The hatch lines on faces, in addition to those on section caps.
@@ -65,7 +66,7 @@ impl fmt::Debug for FaceHatching<'_> {
 /// A family of parallel lines on the screen.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct HatchPattern {
-    /// The unit normal of the lines, in pixels, y down.
+    /// The unit normal of the lines on the screen, y down.
     normal: DVec2,
     /// The distance between lines in pixels.
     spacing: f64,
@@ -99,7 +100,7 @@ impl HatchPattern {
         Self { normal: DVec2::new(x * diagonal.normal.x.signum(), y), spacing }
     }
 
-    /// Returns the pattern in a region of the screen.
+    /// Returns the pattern as the hatching of a region.
     fn region_hatching(&self) -> RegionHatching {
         RegionHatching { direction: -self.normal.perp(), spacing: self.spacing }
     }

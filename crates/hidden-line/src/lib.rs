@@ -9,7 +9,7 @@
 //! | --- | --- |
 //! | `draw` | the drawing itself: candidate edges, divided into visible and hidden segments |
 //! | `edges` | vertex welding, T-junctions, silhouettes and creases, section cuts with caps |
-//! | `visibility` | hidden-line removal by interval arithmetic over a BVH (Roberts, Appel 1967) |
+//! | `visibility` | hidden-line removal by unions of intervals, with a BVH (Roberts, Appel 1967) |
 //! | `view_cover` | occlusion by a crowd of faces as a whole |
 //! | `hatching` | ISO 128-50 hatching of caps and parts, hatching of faces by luma |
 //! | `region` | areas covered by faces on the screen, by winding numbers |

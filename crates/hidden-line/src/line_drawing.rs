@@ -11,23 +11,23 @@ use glam::DVec2;
 /// The reason why an edge is drawn: the first class that applies, in order of importance.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum EdgeClass {
-    /// Between a front-facing and a back-facing face.
+    /// An edge between a front-facing and a back-facing face.
     Silhouette,
     /// The border of a surface: an edge with a single face.
     Boundary,
-    /// Two faces meet at more than the crease angle.
+    /// An edge where two faces meet at more than the crease angle.
     Crease,
-    /// Two faces intersect.
+    /// A segment where two faces intersect.
     Intersection,
     /// The outline of a section through a model.
     Section,
-    /// The file marks it as an edge.
+    /// A side or line that the file marks as an edge.
     Marked,
-    /// Two faces meet smoothly, with different materials or at more than the tangent angle.
+    /// An edge without a crease, between different materials or at more than the tangent angle.
     Tangent,
-    /// A line primitive of the model, or a point primitive: a stroke of two pixels.
+    /// A line primitive, or a point primitive drawn as a stroke of two pixels.
     Line,
-    /// A hatch line, on a section cap or by the luma of a face.
+    /// A hatch line on a section cap or on another face.
     Hatching,
     /// Any other side of a triangle; drawn only in wireframes.
     Facet,
@@ -83,7 +83,7 @@ pub struct EdgeSegment {
     pub edge: u32,
 }
 
-/// All segments of a scene in a fixed order: by object, by edge, along the edge.
+/// All segments of a scene in a fixed order: by object, then by edge, then along the edge.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct LineDrawing {
     /// The width and height of the image in pixels.
@@ -92,7 +92,7 @@ pub struct LineDrawing {
     pub objects: Vec<String>,
     /// The visible segments, and the hidden segments if the options retain them.
     pub segments: Vec<EdgeSegment>,
-    /// The cut faces with their hatch lines, and the outlines if requested in the options.
+    /// The visible section caps with their hatch patterns, and the outlines if requested.
     pub regions: Vec<Region>,
     /// Warnings about the drawing, without duplicates.
     pub warnings: Vec<Warning>,

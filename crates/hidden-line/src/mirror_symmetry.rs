@@ -14,7 +14,7 @@ use crate::visibility::{Aabb, Bvh, TriangleMesh};
 use glam::DVec3;
 use homog::{Point, Vector, World};
 
-/// Two directions are the same if the cosine of the angle between them is within this much of 1.
+/// Directions are the same, up to sign, if the cosine of their angle is within this of ±1.
 const SAME_COSINE: f64 = 1e-12;
 
 /// A search for planes of symmetry.

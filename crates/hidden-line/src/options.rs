@@ -22,8 +22,8 @@ pub struct DrawOptions {
     /// form a tangent edge. With `None`, only a change of material makes a tangent edge. Default:
     /// `None`.
     pub tangent_angle: Option<f64>,
-    /// Whether an edge with the same vertex normals on both sides counts as smooth, however sharp
-    /// it is. Scanned and sculpted surfaces have such edges. Default: true.
+    /// Whether an edge with the same vertex normals on both sides counts as smooth, up to an angle
+    /// of 85 degrees. Scanned and sculpted surfaces have such edges. Default: true.
     pub asks_normals: bool,
     /// The method for silhouettes of smooth surfaces. Default: exact, from the facets.
     pub silhouettes: SilhouetteMethod,
@@ -57,7 +57,7 @@ pub enum HiddenEdges {
     Removed,
     /// Returned as segments that are not visible, usually drawn dashed.
     Retained,
-    /// Like `Retained`, but only behind at most two faces: the two sides of one wall.
+    /// Like `Retained`, but only for parts behind at most two faces: the two sides of one wall.
     FirstLayer,
     /// Not computed: every edge is visible from end to end, as in a wireframe.
     Ignored,
@@ -104,7 +104,7 @@ impl DrawOptions {
         }
     }
 
-    /// Returns options for the same edges, including their hidden parts.
+    /// Returns options for the edges that a draftsman would draw, including their hidden parts.
     #[must_use]
     pub const fn hidden_edges_retained() -> Self {
         Self { hidden_edges: HiddenEdges::Retained, ..Self::hidden_edges_removed() }

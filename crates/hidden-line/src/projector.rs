@@ -5,9 +5,9 @@
 //! ```
 //!
 //! Hidden-line removal does linear algebra on plain vectors; this type keeps the steps between
-//! spaces in one place. The viewer v is a homogeneous point: the eye in perspective, and a point at
-//! infinity in parallel projection, so facing tests are the same in both. The vector from p to the
-//! viewer is v.xyz − p · v.w.
+//! spaces in one place. The viewer v is a homogeneous point: the eye in perspective projection, and
+//! a point at infinity in parallel projection, so facing tests are the same. The vector from p to
+//! the viewer is v.xyz − p · v.w.
 
 use camera::{ViewProjection, ViewTransform};
 use clip::{ClippedSegment, Volume, clip_segment};
@@ -15,7 +15,7 @@ use glam::{DMat4, DVec3};
 use homog::{Clip, HPoint, Point};
 use viewport::Viewport;
 
-/// World → clip → screen, and the viewer, for [`DVec3`] points.
+/// The transforms from world to clip space and screen, and the viewer, for [`DVec3`] points.
 #[derive(Clone, Copy, Debug)]
 pub struct Projector(ViewTransform);
 
@@ -32,8 +32,8 @@ impl Projector {
         self.0.project_to_clip(Point::from_raw(point))
     }
 
-    /// Applies the perspective divide and the viewport transform, or returns `None` if the image is
-    /// not finite.
+    /// Applies the perspective divide and the viewport transform, or returns `None` if the result
+    /// is not finite.
     pub(super) fn project_to_screen(&self, point: HPoint<Clip>) -> Option<DVec3> {
         let screen = self.0.project_to_screen(point)?.raw();
         screen.is_finite().then_some(screen)

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!    ┌─────┐
-//!    │╲    │     the diagonal runs both ways and cancels out; a remaining side
+//!    │╲    │     the diagonal runs both ways and cancels out; a remaining edge
 //!    │  ╲  │     has more faces on one side than on the other
 //!    └─────┘
 //! ```
@@ -17,7 +17,7 @@ use clip::{Volume, clip_triangle};
 use glam::{DVec2, DVec3};
 
 /// A directed side with its multiplicity: the number of faces on its left minus the number on its
-/// right, with x to the right and y up.
+/// right, as if y pointed up.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct RegionEdge {
     /// The ends on the screen, in pixels, y down.
@@ -37,7 +37,7 @@ pub struct Region {
     pub hatching: Option<RegionHatching>,
 }
 
-/// Equally spaced parallel lines, one through the upper left corner of the screen.
+/// Equally spaced parallel lines, one of which passes through the upper left corner of the screen.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct RegionHatching {
     /// The unit vector along the lines, y down.

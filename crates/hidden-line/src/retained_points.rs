@@ -6,7 +6,7 @@ use clip::cut_triangle;
 use homog::{Bounds, Plane, Point, World};
 use model::ModelInstance;
 
-/// The distance, as a fraction of the models' diagonal, up to which points are considered to touch.
+/// The distance, as a fraction of the models' diagonal, within which a point is on a plane.
 const TOUCHING: f64 = 1e-9;
 
 /// Returns the points of the model parts that section planes retain: the corners of the remaining

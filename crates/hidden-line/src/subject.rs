@@ -20,7 +20,7 @@ pub struct Subject<'a> {
     /// The section planes; each retains the side to which its unit normal points.
     pub sections: &'a [Plane<World>],
     /// The objects that the sections do not cut, in ascending order. Objects are the nodes with a
-    /// mesh, counted over all models.
+    /// mesh, numbered across all models.
     pub uncut: &'a [u32],
 }
 

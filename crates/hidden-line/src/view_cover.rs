@@ -1,4 +1,4 @@
-//! Occlusion in a view as a whole, computed before any two faces are compared.
+//! Occlusion in a whole view, computed before any two faces are compared.
 
 use super::edges::WeldedSurface;
 use super::options::{DrawOptions, HiddenEdges};
@@ -9,7 +9,7 @@ use glam::DVec3;
 /// The depths behind which nothing is visible in one view.
 pub(super) struct ViewCover {
     pub(super) cover: DepthCover,
-    /// Whether all faces together form the cover, up to gaps of a few pixels, instead of single
+    /// Whether the cover is formed by all faces together, up to gaps of a few pixels, not by single
     /// faces.
     is_crowd: bool,
 }
@@ -21,8 +21,8 @@ impl ViewCover {
     }
 }
 
-/// Computes the cover of a surface: from all faces together if they are a crowd, otherwise from
-/// single faces, and only if hidden lines are not drawn.
+/// Computes the cover of a surface. All faces form it together if they are a crowd; otherwise
+/// single faces form it, but only if hidden lines are removed.
 pub(super) fn view_cover(
     surface: &WeldedSurface,
     projector: Projector,
@@ -45,7 +45,7 @@ pub(super) fn view_cover(
 #[derive(Clone, Debug)]
 pub(super) struct Occluding<'a> {
     pub(super) surface: &'a WeldedSurface,
-    /// The occluders used instead of the triangles of the surface.
+    /// The occluders used instead of the triangles of the surface if the faces are a crowd.
     pub(super) parts: Option<VisibleParts>,
 }
 

@@ -28,8 +28,8 @@
 //!   visible; [`Tolerance`] defines the distances below which an edge touches a face.
 //! - Two faces that share a side together hide a line exactly behind the side, although each face
 //!   by itself would only touch it. Such intervals are collected separately for faces on the left
-//!   and on the right of the edge, and their intersection is hidden. A crack between two objects,
-//!   narrower than a pen, hides a line along it in the same way.
+//!   and on the right of the edge, and their intersection is hidden. In the same way, two objects
+//!   hide a line that runs along a crack between them if the crack is narrower than a pen.
 
 mod bounds;
 mod bvh;

@@ -66,7 +66,7 @@ impl fmt::Display for Warning {
         match self {
             Self::SectionOpen { object } => write!(
                 f,
-                "the cut through `{}` is not closed, because its surface is open: the section has \
+                "the cut through `{}` is not closed, because the surface is open: the section has \
                  no cap and no hatching there",
                 visible_excerpt(object)
             ),
@@ -97,7 +97,7 @@ impl fmt::Display for Warning {
                  some intersection edges may be missing",
             ),
             Self::HatchingIncomplete => f.write_str(
-                "there are too many hatch lines, so some are missing: increase their spacing",
+                "there are too many hatch lines, so some are missing: increase the spacing",
             ),
             Self::VisibilityIncomplete => f.write_str(
                 "too many faces overlap to compare every line with every face, so some hidden \

@@ -33,13 +33,13 @@ const SEARCH_RADIUS: f64 = 0.5;
 pub struct Agreement {
     /// The length of all visible segments of the drawing.
     pub visible_length: f64,
-    /// The length of the visible segments that the z-buffer hides.
+    /// The length of the parts of visible segments that the z-buffer hides.
     pub denied_length: f64,
     /// The length of all hidden segments of the drawing.
     pub hidden_length: f64,
-    /// The length of the hidden segments that the z-buffer shows.
+    /// The length of the parts of hidden segments that the z-buffer shows.
     pub contradicted_length: f64,
-    /// The visible segments with a denied part: their indices, and the length of the denied part.
+    /// The index of each visible segment with denied parts, and the length of these parts.
     pub denied_segments: Vec<(usize, f64)>,
 }
 
@@ -123,7 +123,7 @@ impl FacePlane {
     /// The viewer's side is the side where depth increases. It is derived from the matrix rather
     /// than from the projector's viewer, which hidden-line removal uses, so that a wrong viewer is
     /// detected. The row vector (n, −offset) in the world becomes (n, −offset) · M⁻¹ on the screen;
-    /// its third component is the change with depth.
+    /// its third component is the rate of change with depth.
     fn from_triangle([a, b, c]: [DVec3; 3], screen_to_world: &DMat4) -> Self {
         let normal = (b - a).cross(c - a).normalize_or_zero();
         let offset = normal.dot(a);

@@ -17,7 +17,7 @@ fn main() {
     println!("The map, {}:\n{}\n", view_to_clip.classify(), view_to_clip.display());
 
     let rail = |x: f64, distance: f64| Point::<View>::new(x, -1.5, -distance);
-    println!("Ties, evenly spaced on the ground:");
+    println!("Ties, each twice as far away as the one before:");
     for distance in [2.0, 4.0, 8.0, 16.0, 32.0] {
         let ends = [rail(-0.75, distance), rail(0.75, distance)];
         let [left, right] = ends.map(|end| view_to_clip.transform_point(end).divide());

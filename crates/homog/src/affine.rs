@@ -48,20 +48,20 @@ impl<A: Space, B: Space> Affine<A, B> {
         ))
     }
 
-    /// Moves points by `by` and leaves vectors unchanged (HO-4).
+    /// Creates the map that moves points by `by` and leaves vectors unchanged (HO-4).
     #[must_use]
     pub fn translation(by: Vector<B>) -> Self {
         Self::tagged(DMat4::from_translation(by.raw))
     }
 
-    /// Scales each coordinate by its factor. A factor of 0 flattens; a negative factor mirrors.
+    /// Creates a scaling of each coordinate. A factor of 0 flattens; a negative factor mirrors.
     #[must_use]
     pub fn scale(x: f64, y: f64, z: f64) -> Self {
         Self::tagged(DMat4::from_scale(DVec3::new(x, y, z)))
     }
 
-    /// Rotates about `axis` by `angle` radians by the right-hand rule: counterclockwise when the
-    /// axis points at the viewer. Returns `None` if the axis is zero or not finite.
+    /// Creates the rotation about `axis` by `angle` radians: counterclockwise when the axis points
+    /// at the viewer (right-hand rule). Returns `None` if the axis is zero or not finite.
     #[must_use]
     pub fn rotation(axis: Vector<B>, angle: f64) -> Option<Self> {
         let [x, y, z] = axis.normalized()?.raw.to_array();
@@ -69,21 +69,21 @@ impl<A: Space, B: Space> Affine<A, B> {
         Self::from_quaternion([x * s, y * s, z * s, c])
     }
 
-    /// Rotates about the x axis by `angle` radians: y toward z.
+    /// Creates the rotation about the x axis by `angle` radians: y turns toward z.
     #[must_use]
     pub fn rotation_x(angle: f64) -> Self {
         let (s, c) = libm::sincos(angle);
         Self::from_linear(DVec3::X, DVec3::new(0.0, c, s), DVec3::new(0.0, -s, c))
     }
 
-    /// Rotates about the y axis by `angle` radians: z toward x.
+    /// Creates the rotation about the y axis by `angle` radians: z turns toward x.
     #[must_use]
     pub fn rotation_y(angle: f64) -> Self {
         let (s, c) = libm::sincos(angle);
         Self::from_linear(DVec3::new(c, 0.0, -s), DVec3::Y, DVec3::new(s, 0.0, c))
     }
 
-    /// Rotates about the z axis by `angle` radians: x toward y.
+    /// Creates the rotation about the z axis by `angle` radians: x turns toward y.
     #[must_use]
     pub fn rotation_z(angle: f64) -> Self {
         let (s, c) = libm::sincos(angle);
@@ -135,8 +135,8 @@ impl<A: Space, B: Space> Affine<A, B> {
     }
 
     /// Returns the image of a normal, computed with the cofactors of the linear part. The cofactor
-    /// matrix is the inverse transpose times the determinant, so it also exists for flattening maps
-    /// and keeps the normal of a mirrored surface on the same side.
+    /// matrix is the inverse transpose times the determinant, so it also exists for flattening
+    /// maps. If the map mirrors, it is negated to keep the normal on its side.
     #[must_use]
     pub fn transform_normal(self, normal: Normal<A>) -> Normal<B> {
         let [x, y, z] = self.linear_columns();
@@ -185,8 +185,8 @@ impl<A: Space, B: Space> Affine<A, B> {
         if !self.is_finite() {
             return None;
         }
-        // Columns of length near 1 keep the determinant from overflowing or underflowing; powers of
-        // two are exact.
+        // Columns of length near 1 keep the determinant in range; scaling by powers of two is
+        // exact.
         let columns = self.linear_columns();
         let exponents = columns.map(|column| match column.abs().max_element() {
             0.0 => 0,

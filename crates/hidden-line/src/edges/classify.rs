@@ -8,8 +8,8 @@
 //!          │ m
 //! ```
 //!
-//! The test for silhouettes is the sign of n·v in object space, which is exact for both perspective
-//! and parallel projection. On the screen it would be the sign of a difference of rounded products.
+//! Silhouettes are found from the sign of n·v in world space, in perspective and parallel
+//! projection alike. On the screen, the sign would depend on rounded coordinates.
 
 use super::half_edges::HalfEdge;
 use super::world_mesh::{Face, WorldMesh};
@@ -18,7 +18,7 @@ use crate::{DrawOptions, EdgeClass};
 use glam::DVec3;
 use model::EdgeVisibility;
 
-/// The unit normal of each face, and whether it is front-facing.
+/// The unit normal of each face, and whether the face is front-facing.
 #[derive(Clone, Debug)]
 struct FaceNormals {
     normals: Vec<DVec3>,
@@ -72,7 +72,7 @@ pub(super) struct EdgeClassifier<'a> {
 const MIN_SMOOTH_COSINE: f64 = 0.0872;
 
 impl<'a> EdgeClassifier<'a> {
-    /// Creates a classifier of a mesh's edges for a viewer and a crease angle.
+    /// Creates a classifier of a mesh's edges for a viewer and drawing options.
     pub(super) fn new(mesh: &'a WorldMesh, projector: &Projector, options: &DrawOptions) -> Self {
         let normals = FaceNormals::new(mesh, projector);
         Self {
@@ -96,7 +96,7 @@ impl<'a> EdgeClassifier<'a> {
         sides.iter().map(|&side| self.face_of_half_edge(side).object).min().unwrap_or(0)
     }
 
-    /// Returns the class of an edge: section first, then marks in the file, then the geometry.
+    /// Returns the class of an edge: section edges first, then marks in the file, then geometry.
     pub(super) fn classify_edge(&self, ends: [u32; 2], sides: &[HalfEdge]) -> EdgeClass {
         if self.section_edges.binary_search(&ends).is_ok() {
             return EdgeClass::Section;
@@ -156,8 +156,8 @@ impl<'a> EdgeClassifier<'a> {
         if !self.asks_normals || cosine < MIN_SMOOTH_COSINE || faces[0].object != faces[1].object {
             return false;
         }
-        // The ends of each side, with the lower vertex first; parts of one edge can have different
-        // ends.
+        // The ends of a side, lower vertex first. Sides that share only a part of an edge have
+        // different ends.
         let ends = |face: &Face, side: HalfEdge| {
             let (from, to) = (usize::from(side.side()), usize::from(side.side() + 1) % 3);
             let ends = [from, to].map(|k| (face.vertices[k], face.normals[k]));
@@ -172,7 +172,7 @@ impl<'a> EdgeClassifier<'a> {
         cosine < self.crease_cosine && !self.is_smooth_by_normals(one, other, cosine)
     }
 
-    /// Whether two faces of one object, with the same orientation, meet without a crease.
+    /// Whether two consistently oriented faces of one object meet without a crease.
     pub(super) fn is_smooth_between(&self, one: HalfEdge, other: HalfEdge) -> bool {
         let [n, m] = [one, other].map(|side| self.normals.normal_along(side).0);
         let objects = [one, other].map(|side| self.face_of_half_edge(side).object);
@@ -181,7 +181,7 @@ impl<'a> EdgeClassifier<'a> {
             && !self.is_crease(one, other, n.dot(-m))
     }
 
-    /// Whether an edge is a silhouette of a smooth surface, which an interpolated contour replaces.
+    /// Whether an edge is a smooth surface's silhouette, to be replaced by an interpolated contour.
     pub(super) fn is_smooth_silhouette(&self, sides: &[HalfEdge]) -> bool {
         let &[one, other] = sides else { return false };
         self.class_between(one, other) == EdgeClass::Silhouette
@@ -191,12 +191,11 @@ impl<'a> EdgeClassifier<'a> {
     /// Returns the class of the edge between two faces: silhouette, crease, tangent (materials
     /// differ, or the angle exceeds the tangent angle) or facet.
     ///
-    /// Both normals are taken along the edge, so on a smooth surface they are opposite. The cosine
-    /// of the dihedral angle is therefore n·(−m), and facing flags that *agree* mark a silhouette.
+    /// Faces are oriented along the edge, so normals are opposite on a smooth surface. The cosine
+    /// of the dihedral angle is thus n·(−m), and facing flags that *agree* mark a silhouette.
     fn class_between(&self, one: HalfEdge, other: HalfEdge) -> EdgeClass {
         let ((n, is_front), (m, other_is_front)) =
             (self.normals.normal_along(one), self.normals.normal_along(other));
-        // Both normals are taken along the rising edge: on a smooth surface they are opposite.
         let cosine = n.dot(-m);
         if is_front == other_is_front {
             EdgeClass::Silhouette

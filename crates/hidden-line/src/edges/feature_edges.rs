@@ -8,7 +8,7 @@ use super::welded_surface::WeldedSurface;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-/// The cosine of the maximum turn within a chain, 30 degrees. A sharper corner is the corner of a
+/// The cosine of 30 degrees, the maximum turn within a chain. A sharper corner is the corner of a
 /// polygon, not part of a circle.
 const CHAIN_COSINE: f64 = 0.866;
 
@@ -31,7 +31,7 @@ pub(crate) struct FeatureChain {
 impl WeldedSurface {
     /// Returns the creases sharper than `crease_angle`, in radians, and the boundaries, by object.
     ///
-    /// An edge where several objects touch is returned for each of them.
+    /// An edge where several objects touch is tested for each of them.
     pub(crate) fn feature_edges(&self, crease_angle: f64) -> Vec<FeatureEdge> {
         let mesh = self.mesh();
         let normals: Vec<DVec3> = mesh

@@ -45,7 +45,7 @@ impl HalfEdge {
 pub(super) struct HalfEdges {
     /// The index in `half_edges` of the first half-edge with each vertex as its lower end.
     starts: Vec<u32>,
-    /// Sorted by lower end, higher end, face and side.
+    /// The half-edges, sorted by lower end, higher end, face and side.
     half_edges: Vec<HalfEdge>,
 }
 

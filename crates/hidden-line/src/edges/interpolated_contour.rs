@@ -10,16 +10,16 @@
 //!
 //! The method follows Hertzmann and Zorin, *Illustrating smooth surfaces* (2000). The silhouette of
 //! the mesh consists of triangle sides, so it zigzags near the silhouette of the surface that the
-//! mesh approximates. Vertex normals are averages over the faces around a vertex, across smooth
-//! edges. Where the surface is convex, Phong tessellation (Boubekeur and Alexa 2008) lifts points
-//! from the triangles toward the curved surface; otherwise faces of the mesh would hide them.
+//! mesh approximates. A vertex normal is the average over the faces that smooth edges join there.
+//! Where the surface is convex, Phong tessellation (Boubekeur and Alexa 2008) lifts points from the
+//! triangles toward the curved surface; otherwise faces of the mesh would hide them.
 //!
 //! This is an approximation that fails in known ways. A contour can have gaps or loose ends at
-//! cusps, where the surface turns along the line of sight, because visibility is computed from the
-//! mesh. The contour is not the border of the area that the mesh covers: with large triangles, it
-//! runs beside that border. Where it ends at a crease, it misses the crease by the height of the
-//! lift. Averaged normals round off edges that are slightly too blunt to be creases, so their
-//! silhouettes can be missing.
+//! cusps, where it runs along the line of sight, because visibility is computed from the mesh. The
+//! contour is not the border of the area that the mesh covers: with large triangles, it runs beside
+//! that border. Where it ends at a crease, it misses the crease by the height of the lift. Averaged
+//! normals round off edges that are slightly too blunt to be creases, so their silhouettes can be
+//! missing.
 
 use super::classify::EdgeClassifier;
 use super::half_edges::{HalfEdge, HalfEdges};
@@ -27,8 +27,8 @@ use super::world_mesh::{Face, WorldMesh};
 use crate::projector::Projector;
 use glam::DVec3;
 
-/// The weight of Phong tessellation in the lift. It is the authors' value, which raises the middle
-/// of an arc slightly above the circle.
+/// The weight of Phong tessellation in the lift. The authors' value raises the middle of an arc
+/// slightly above the circle.
 const LIFT: f64 = 0.75;
 
 /// Returns the contours of all smooth faces for one viewer, face by face, with their objects.
@@ -65,7 +65,7 @@ struct Corner {
 /// Returns the lifted point of a side where n·v is zero, or `None` if n·v has the same sign at both
 /// ends.
 ///
-/// It is computed from the lower vertex to the higher, so both faces get identical bits.
+/// The point is computed from the lower vertex to the higher, so both faces get identical bits.
 fn crossing(one: Corner, other: Corner) -> Option<DVec3> {
     let [a, b] = if one.vertex < other.vertex { [one, other] } else { [other, one] };
     if (a.facing > 0.0) == (b.facing > 0.0) {

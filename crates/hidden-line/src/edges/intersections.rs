@@ -27,10 +27,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// other triangle's plane.
 const COPLANAR_FACTOR: f64 = 512.0;
 
-/// The minimum sine of the angle between planes that intersect: about one degree.
+/// The minimum sine of the angle between the planes of intersecting faces, for about one degree.
 const MIN_PLANE_SINE: f64 = 1.0 / 64.0;
 
-/// An intersection edge: its ends in the world and the lower index of the two objects.
+/// An intersection edge: its ends in the world and the lower of the two object indices.
 pub(super) type IntersectionSegment = ([DVec3; 2], u32);
 
 /// The intersection edges of a mesh.
@@ -51,7 +51,7 @@ const INTERSECTIONS_PER_FACE: usize = 64;
 /// The limits of a search for intersections.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SearchBounds<'a> {
-    /// The distance below which faces only touch.
+    /// The distance within which faces are considered only to touch.
     pub(super) touching: f64,
     /// The cover of a view; intersections that it hides are skipped.
     pub(super) cover: Option<&'a DepthCover>,
@@ -59,7 +59,7 @@ pub(super) struct SearchBounds<'a> {
     pub(super) is_unlimited: bool,
 }
 
-/// Two intersecting faces, with the face from the searching leaf first, and their common segment.
+/// Two intersecting faces, with the smaller face first, and their common segment.
 type IntersectingPair = ([u32; 2], IntersectionSegment);
 
 /// Finds all intersection edges of a mesh's faces, on several threads.
@@ -138,7 +138,7 @@ fn shares_edge([one, other]: [&Face; 2]) -> bool {
 struct LeafMemory {
     /// Hierarchy nodes still to visit.
     stack: Vec<u32>,
-    /// The triangles of the leaf, and their bounding box.
+    /// The triangles of the leaf; `bounds` is their bounding box.
     own: Vec<IntersectionTriangle>,
     bounds: Option<Aabb>,
 }
@@ -194,7 +194,7 @@ impl<'a> FacesInSight<'a> {
         part.map_or_else(|| mesh.triangle(face), |part| self.parts[part as usize])
     }
 
-    /// Whether the common part of two triangles is hidden.
+    /// Whether the overlap of two triangles on the screen is hidden.
     fn hide_pair(&self, pair: [&IntersectionTriangle; 2]) -> bool {
         let image = |triangle: &IntersectionTriangle| {
             let part = triangle.part.map(|part| &self.parts[part as usize]);
@@ -207,8 +207,8 @@ impl<'a> FacesInSight<'a> {
 }
 
 impl IntersectionSearch<'_> {
-    /// Returns the faces in a leaf, without its fillings. If a box is passed, returns only the
-    /// faces whose boxes overlap it.
+    /// Returns the faces in a leaf, without its fillings. If `within` is specified, returns only
+    /// the faces whose boxes overlap it.
     fn leaf_triangles(
         &self,
         items: &[u32],
@@ -274,7 +274,8 @@ impl IntersectionSearch<'_> {
         };
         let (one, other) = if size(a) < size(b) { (a, b) } else { (b, a) };
         let ends = one.intersect_triangle(other, self.touching)?;
-        // In a triangle soup, most pairs intersect where they are hidden. Such pairs do not count.
+        // In a triangle soup, most pairs intersect where they are hidden. Such pairs are not
+        // counted.
         if self.in_sight.as_ref().is_some_and(|in_sight| in_sight.cover.hides_segment(ends)) {
             return None;
         }
@@ -314,7 +315,7 @@ impl FaceBorders {
         let first = self.0.partition_point(|border| border.face < triangle.face);
         let here = &self.0[first..];
         let count = here.iter().take_while(|border| border.face == triangle.face).count();
-        // All sides use one distance, taken from the last part.
+        // All sides of a triangle use one distance, taken from its last part.
         let distance = here[..count].last().map_or(0.0, |border| border.distance);
         here[..count].iter().any(|border| {
             let k = usize::from(border.side);
@@ -383,8 +384,8 @@ impl IntersectionTriangle {
         is_long.then_some([from.1, to.1])
     }
 
-    /// Returns the signed distances of the vertices from another triangle's plane, set to zero
-    /// below `touching`.
+    /// Returns the signed distances of the vertices from another triangle's plane; distances up to
+    /// `touching` become zero.
     fn distances_to_plane(&self, other: &Self, touching: f64) -> [f64; 3] {
         self.vertices.map(|vertex| {
             let height = other.normal.dot(vertex - other.vertices[0]);

@@ -53,7 +53,7 @@ impl WeldRadii {
         Self(radii)
     }
 
-    /// Returns the smaller radius of the two ends of an edge.
+    /// Returns the smaller of the radii at the two ends of an edge.
     pub(super) fn edge_radius(&self, [a, b]: [u32; 2]) -> f64 {
         self.0[a as usize].min(self.0[b as usize])
     }
@@ -67,9 +67,9 @@ pub(super) fn border_edges(sides: &HalfEdges) -> Vec<BorderEdge> {
 
 /// Welds boundary vertices within each other's weld radius, and returns whether any were welded.
 ///
-/// Vertices are visited by index. Each vertex absorbs its unwelded neighbors, found with a BVH over
-/// the points. A chain of nearby vertices does not collapse into one vertex, because an absorbed
-/// vertex does not search again.
+/// Vertices are visited in the order of their indices. Each vertex absorbs its unwelded neighbors,
+/// found with a BVH over the points. A chain of nearby vertices does not collapse into one vertex,
+/// because an absorbed vertex does not search again.
 pub(super) fn weld_near_borders(
     mesh: &mut WorldMesh,
     borders: &[BorderEdge],
@@ -116,8 +116,8 @@ pub(super) fn weld_near_borders(
 ///                 p
 /// ```
 ///
-/// The edge a–b passes within the weld radius of p: its parts are a–p and p–b. The sliver a, p, b
-/// closes the gap caused by rounding. It hides lines and is cut by sections, but is never drawn.
+/// The edge a–b passes within the weld radius of p, so its parts are a–p and p–b. The sliver a, p,
+/// b closes the gap caused by rounding. It hides lines and is cut by sections, but is never drawn.
 ///
 /// Parts are sorted by their ends, so coincident parts of both sides of a seam are neighbors.
 pub(super) fn split_at_t_junctions(

@@ -1,4 +1,4 @@
-//! Section caps: nesting of the loops of a cut into outlines and holes, and their triangulation.
+//! Section caps: grouping of the loops of a cut into outlines with holes, and triangulation.
 //!
 //! ```text
 //!   ┌──────────────┐ ↺ outline, area > 0
@@ -22,10 +22,10 @@ use homog::{Plane, Point, World};
 /// A closed loop in the section plane; the last point is joined to the first.
 pub(super) type SectionLoop = Vec<Point<World>>;
 
-/// The maximum number of points in a cap: triangulation time is quadratic in it.
+/// The maximum number of points in the loops of one object: triangulation takes quadratic time.
 const MAX_CAP_POINTS: usize = 1 << 14;
 
-/// Triangulates the caps of one object's loops, or returns `None` if there are more than
+/// Triangulates the caps that one object's loops enclose, or returns `None` if there are more than
 /// [`MAX_CAP_POINTS`] points.
 pub(super) fn triangulate_caps(
     loops: Vec<SectionLoop>,
@@ -74,17 +74,17 @@ fn group_holes_with_outlines(
     outer.into_iter().map(|(_, region)| region).collect()
 }
 
-/// Two-dimensional coordinates of a plane, along the two axes in which it extends the most.
+/// Two-dimensional coordinates in a plane, along the two axes most nearly parallel to it.
 ///
-/// The axis nearest to the normal is dropped. The other two are ordered so that areas are positive
-/// when seen from the side to which the normal points. Unlike a rotation, dropping an axis
-/// preserves the coordinates bit for bit.
+/// The axis nearest to the normal is dropped. The other two are ordered so that loops have positive
+/// areas if they run counterclockwise as seen from the tip of the normal. Unlike a rotation,
+/// dropping an axis preserves the coordinates bit for bit.
 struct PlaneAxes {
     axes: [usize; 2],
 }
 
 impl PlaneAxes {
-    /// Chooses the axes for a plane: all except the dominant component of its normal.
+    /// Chooses the axes for a plane by dropping the axis of the largest component of its normal.
     fn dominant(plane: Plane<World>) -> Self {
         let normal = plane.normal().raw().to_array();
         let size = normal.map(f64::abs);
@@ -113,8 +113,8 @@ impl PlaneAxes {
         points.windows(2).map(turn).sum()
     }
 
-    /// Whether a ray from the point along the first axis crosses the loop an odd number of times
-    /// (Jordan curve theorem).
+    /// Whether a loop contains a point: a ray from the point along the first axis crosses the loop
+    /// an odd number of times (Jordan curve theorem).
     fn loop_contains_point(&self, points: &[Point<World>], point: Point<World>) -> bool {
         let [x, y] = self.plane_coordinates(point);
         let ends = points.iter().zip(points.iter().cycle().skip(1));

@@ -27,12 +27,12 @@ use std::collections::BTreeMap;
 /// The edge along which the plane cuts a face, and the object of the face.
 type CutEdge = ([Point<World>; 2], u32);
 
-/// Cuts a mesh by a plane, retains its positive side, and caps the openings.
+/// Cuts a mesh with a plane, retains the part on the positive side, and caps the openings.
 ///
 /// 1. Each face is clipped by the plane; the edge on the plane becomes a cut edge.
 /// 2. The slivers at T-junctions (`fillings`) are also clipped, so that loops close; their
 ///    remaining parts are dropped.
-/// 3. Lines are clipped.
+/// 3. Lines are clipped, and points on the negative side are removed.
 /// 4. Cut edges are joined into loops. The loops are nested and triangulated, and the triangles
 ///    become faces with a `cap_section`.
 ///
@@ -145,7 +145,7 @@ fn cut_face(
     }
 }
 
-/// Interpolates the normal at a point of a face by barycentric weights.
+/// Interpolates the normal at a point of a face with barycentric weights.
 fn cut_normal(face: &Face, weights: [f64; 3]) -> VertexNormal {
     if let Some(corner) = weights.iter().position(|weight| *weight == 1.0) {
         return face.normals[corner];
@@ -212,7 +212,7 @@ fn remove_dots(mesh: &mut WorldMesh, plane: Plane<World>) {
 ///
 /// The section of a body modeled as several objects closes only across all of them. A loop across
 /// several objects is assigned to the first object that contributed to it. Each object with a curve
-/// that stays open adds a warning.
+/// that stays open causes a warning.
 fn close_loops(
     mesh: &WorldMesh,
     openings: &[CutEdge],
@@ -308,7 +308,7 @@ mod tests {
         mesh
     }
 
-    /// Returns the area of the cap that a plane creates; the cap must close.
+    /// Returns the area of the cap that a plane creates; the section must be closed.
     fn closed_cap_area(mut mesh: WorldMesh, point: [f64; 3], normal: [f64; 3]) -> f64 {
         let [x, y, z] = normal;
         let normal = Normal::new(x, y, z).normalized().expect("a direction");

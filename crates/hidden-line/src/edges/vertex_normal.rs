@@ -4,9 +4,9 @@
 //! it smooth. A machined part has an edge wherever the normals on the two sides differ. The angle
 //! between faces cannot distinguish the two cases.
 //!
-//! A normal is stored as a point of an octahedron whose lower half is unfolded to form a square
-//! (Meyer et al., *On Floating-Point Normal Vectors*, 2010). Each coordinate has 16 bits, and the
-//! error is at most 0.004°.
+//! A normal is stored as a point on an octahedron whose lower half is unfolded to form a square,
+//! with 16 bits per coordinate and an error of at most 0.004° (Meyer et al., *On Floating-Point
+//! Normal Vectors*, 2010).
 
 use glam::{DVec2, DVec3};
 
@@ -14,18 +14,18 @@ use glam::{DVec2, DVec3};
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub(crate) struct VertexNormal(u32);
 
-/// Normals agree if the cosine of the angle between them is greater than this. It corresponds to
-/// 2.5°, which is so large because files store normals with few bits.
+/// Normals agree if the cosine of the angle between them is greater than this. This is 2.5°, a wide
+/// tolerance, because files store normals with few bits.
 const AGREEMENT_COSINE: f64 = 0.999;
 
-/// The largest 16-bit value that encodes a normal; 0 means no normal.
+/// The number of steps of a coordinate, encoded as 1 to 65,535; 0 means no normal.
 const STEPS: f64 = 65_534.0;
 
 impl VertexNormal {
     /// No normal.
     pub(crate) const NONE: Self = Self(0);
 
-    /// Packs the direction of a vector; `NONE` if it has no direction.
+    /// Packs the direction of a vector, or returns `NONE` if it has no direction.
     pub(crate) fn pack(vector: DVec3) -> Self {
         let size = vector.abs().element_sum();
         if !(size > 0.0 && size.is_finite()) {

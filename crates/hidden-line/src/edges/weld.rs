@@ -9,7 +9,7 @@
 use super::world_mesh::{Face, WorldMesh};
 use glam::DVec3;
 
-/// Replaces the index of each point by the index of the first point with equal coordinates.
+/// Replaces the index of each point with the index of the first point with equal coordinates.
 ///
 /// ```text
 ///   points   0 A   1 B   2 A   3 C   4 B         representative  0  1  0  3  1
@@ -59,7 +59,7 @@ fn equal_points(points: &[DVec3]) -> Vec<u32> {
     representative
 }
 
-/// Returns a hash that equal points share, and that other points seldom share.
+/// Returns a hash that is the same for equal points, and seldom for other points.
 fn mix_coordinates(point: DVec3) -> u32 {
     // Adding zero removes negative zeros.
     let bits = (point + DVec3::ZERO).to_array().map(f64::to_bits);
@@ -69,7 +69,8 @@ fn mix_coordinates(point: DVec3) -> u32 {
     ((mixed ^ mixed >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 32) as u32
 }
 
-/// Replaces each vertex index `v` by `same[v]`, and removes faces and lines that become degenerate.
+/// Replaces each vertex index `v` with `same[v]`, and removes faces and lines that become
+/// degenerate.
 pub(super) fn remap_vertices(mesh: &mut WorldMesh, same: &[u32]) {
     for face in &mut mesh.faces {
         face.vertices = face.vertices.map(|vertex| same[vertex as usize]);

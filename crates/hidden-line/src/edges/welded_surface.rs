@@ -49,7 +49,7 @@ pub(crate) struct SectionCap {
 }
 
 impl SectionCap {
-    /// Whether the viewer is on the removed side. Such a cap is fully visible, because nothing
+    /// Whether the viewer is on the removed side. The cap is then fully visible, because nothing
     /// remains in front of it.
     pub(crate) fn faces_viewer(&self, projector: &Projector) -> bool {
         let normal = self.plane.normal().raw();
@@ -72,7 +72,7 @@ pub struct WeldedSurface {
     /// The weld radius of each point of `mesh`.
     weld_radii: WeldRadii,
     /// The diagonal of the models' bounding box before sections, so that tolerances do not depend
-    /// on them.
+    /// on sections.
     diagonal: f64,
     /// The planes that cut the surface.
     sections: Vec<Plane<World>>,
@@ -96,7 +96,7 @@ impl WeldedSurface {
         Self::from_mesh(WorldMesh::from_models(models), sections, uncut)
     }
 
-    /// Like [`new`](Self::new), for a mesh that is not welded yet.
+    /// Like [`new`](Self::new), but for a mesh that has not been welded yet.
     pub(crate) fn from_mesh(mut mesh: WorldMesh, sections: &[Plane<World>], uncut: &[u32]) -> Self {
         mesh.uncut = uncut.to_vec();
         mesh.keeps_duplicates = !sections.is_empty();
@@ -153,7 +153,7 @@ impl WeldedSurface {
         boxes
     }
 
-    /// Cuts the mesh by a section plane, caps it, and welds it again.
+    /// Cuts the mesh with a section plane, caps it, and welds it again.
     fn cut_by_plane(&mut self, plane: Plane<World>, index: u16) {
         let Self { mesh, fillings, warnings, .. } = self;
         cut_mesh(mesh, fillings, plane, index, warnings);
@@ -191,7 +191,7 @@ impl WeldedSurface {
         !self.sections.is_empty()
     }
 
-    /// Returns the tolerances of hidden-line removal for the size of this scene.
+    /// Returns the tolerances of hidden-line removal for a scene of this size.
     pub fn touch_tolerance(&self) -> Tolerance {
         Tolerance::for_scene(self.diagonal)
     }
@@ -248,7 +248,7 @@ impl WeldedSurface {
         })
     }
 
-    /// Returns the faces without section caps, which have their own hatching.
+    /// Returns the faces other than section caps, which have their own hatching.
     pub(crate) fn colored_faces_without_caps(
         &self,
     ) -> impl Iterator<Item = ([DVec3; 3], u32, [f32; 3])> {
@@ -256,13 +256,13 @@ impl WeldedSurface {
         faces.filter(|(_, face)| face.cap_section.is_none()).map(|(colored, _)| colored)
     }
 
-    /// Drops the half-edges, which only [`Self::mesh_edges`] needs.
+    /// Frees the half-edges, which are needed only to find edges.
     pub(crate) fn forget_half_edges(&mut self) {
         self.half_edges = HalfEdges::default();
     }
 
-    /// Returns the edges of the requested classes for one viewer that are sides of faces or
-    /// separate lines.
+    /// Returns the candidate edges of the requested classes for one viewer, except intersections
+    /// and hatching.
     ///
     /// The viewer affects only silhouettes, but their test runs over all faces: O(faces + edges).
     pub(crate) fn mesh_edges(
@@ -289,7 +289,7 @@ impl WeldedSurface {
                 classify(ends, sides);
             }
         });
-        // Without faces, only lines and points can be drawn.
+        // Without faces, only lines and points can be drawn, so their classes are always drawn.
         let is_bare = mesh.faces.is_empty();
         let classes = if is_bare { EdgeClasses::ALL } else { options.classes };
         for line in &mesh.line_edges {
@@ -314,8 +314,8 @@ impl WeldedSurface {
     /// Adds the edges where faces intersect, if requested, and returns `true` if some are missing
     /// because there are too many.
     ///
-    /// If the cover of a view is passed, intersections that it hides are skipped. In a single view
-    /// with hidden lines removed, these make no difference.
+    /// If the cover of a view is passed, intersections that it hides are skipped. They make no
+    /// difference in a single view with hidden lines removed.
     pub(crate) fn add_intersections(
         &self,
         candidates: &mut Vec<CandidateEdge>,

@@ -25,13 +25,13 @@ pub(crate) struct Face {
     pub(crate) normals: [VertexNormal; 3],
     /// The index of the section plane, if the face is part of a section cap.
     pub(crate) cap_section: Option<u16>,
-    /// The visibility of its three sides in the file (`EXT_mesh_primitive_edge_visibility`),
+    /// The visibility of the face's three sides in the file (`EXT_mesh_primitive_edge_visibility`),
     /// starting with the side from the first vertex to the second, or `None` if the file does not
     /// specify it.
     pub(crate) edge_visibility: Option<[EdgeVisibility; 3]>,
 }
 
-/// A separate line, not the side of a face.
+/// A separate line, not a side of a face.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct LineEdge {
     /// Indices into [`WorldMesh::points`].
@@ -69,8 +69,8 @@ pub(crate) struct WorldMesh {
     pub(crate) colors: Vec<[f32; 3]>,
     /// Whether the textures of the materials have cut-outs, by index.
     pub(crate) cut_outs: Vec<bool>,
-    /// Whether to retain all coincident faces of several objects. This is true until the sections
-    /// are cut, because each body must be closed by its own faces.
+    /// Whether to retain coincident faces of different objects. This is true until the sections are
+    /// cut, because each body must be closed by its own faces.
     pub(crate) keeps_duplicates: bool,
     /// The object names.
     pub(crate) objects: Vec<String>,
@@ -207,7 +207,7 @@ fn are_finite(points: &[DVec3], vertices: &[u32]) -> bool {
     vertices.iter().all(|&vertex| points[vertex as usize].is_finite())
 }
 
-/// Whether the base color texture of a material cuts out parts of its faces, such as leaves on
+/// Whether the base color texture of a material cuts out parts of its faces, as for leaves on
 /// rectangles. Masks without a decoded image are assumed to have cut-outs.
 fn has_holes(model: &Model, material: &Material) -> bool {
     let Some(used) = material.base_color_texture else { return false };

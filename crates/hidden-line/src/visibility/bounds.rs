@@ -1,4 +1,4 @@
-//! Hierarchy boxes, stored in single precision and rounded outward.
+//! Boxes of a hierarchy, stored in single precision and rounded outward.
 
 use super::bvh::Aabb;
 use glam::DVec3;
@@ -13,7 +13,7 @@ pub(super) struct Bounds {
 impl Bounds {
     pub(super) const EMPTY: Self = Self { min: [f32::INFINITY; 3], max: [f32::NEG_INFINITY; 3] };
 
-    /// Returns a box relative to an origin, rounded outward.
+    /// Converts a box to coordinates relative to an origin, rounded outward.
     pub(super) fn around(area: &Aabb, origin: DVec3) -> Self {
         Self {
             min: (area.min - origin).to_array().map(round_down),

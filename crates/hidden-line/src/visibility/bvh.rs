@@ -1,10 +1,9 @@
 //! Bounding-volume hierarchy over axis-aligned boxes, built by the binned surface-area heuristic.
 //!
 //! The construction follows Wald, *On fast construction of SAH-based bounding volume hierarchies*
-//! (2007). Each node is split along its longest axis, at the boundary between bins where the
-//! expected cost of its children is lowest. One hierarchy in world space serves both the search for
-//! intersections and all views, each of which projects the boxes of its nodes onto the screen
-//! (`screen_bvh`).
+//! (2007): each node is split along its longest axis, at the bin boundary where the expected cost
+//! of its children is lowest. One hierarchy in world space serves both the search for intersections
+//! and all views, which compute screen boxes for its nodes (`screen_bvh`).
 //!
 //! ```text
 //!   nodes   0 ─┬─ 1 ─┬─ 2 leaf        depth first: the first child follows its parent,
@@ -14,7 +13,7 @@
 //! ```
 //!
 //! Boxes are stored in single precision, relative to the overall center and rounded outward: a
-//! query may report a box that it just misses, but never misses a box that it meets.
+//! query may report a box just outside its range, but never omits a box inside it.
 
 use super::bounds::Bounds;
 use glam::DVec3;
@@ -71,7 +70,8 @@ impl Aabb {
             && other.min.z <= self.max.z
     }
 
-    /// Returns half the surface area, to which the probability of meeting the box is proportional.
+    /// Returns half the surface area, to which the probability that a ray meets the box is
+    /// proportional.
     pub(crate) fn half_surface_area(&self) -> f64 {
         let size = self.max - self.min;
         size.x * size.y + size.y * size.z + size.z * size.x
@@ -123,9 +123,9 @@ const MAX_LEAF_ITEMS: usize = 6;
 const BIN_COUNT: usize = 16;
 /// The number of bins of nodes with few items.
 const FEW_BINS: usize = 6;
-/// The maximum number of items for which nodes have few bins.
+/// The maximum number of items of a node with few bins.
 const FEW_ITEMS: usize = 48;
-/// Below this depth, nodes are split at the median, which bounds the depth of any tree.
+/// From this depth on, nodes are split at the median, which bounds the depth of any tree.
 const MAX_BINNED_DEPTH: u32 = 48;
 
 impl Bvh {
@@ -172,8 +172,8 @@ impl Bvh {
         }
     }
 
-    /// Calls `visit` with every item whose box may overlap `area`; stops after `most` items and
-    /// returns `false`.
+    /// Calls `visit` with every item whose box may overlap `area`, or stops before exceeding `most`
+    /// items and returns `false`.
     ///
     /// `open` is the traversal stack, provided by the caller so that its memory can be reused.
     /// Whole leaves are visited: the boxes of individual items are not tested.
@@ -216,9 +216,9 @@ impl Bvh {
         true
     }
 
-    /// Like [`for_each_overlapping`](Self::for_each_overlapping), for every item whose box may be
-    /// within `radius` of a segment. For a long segment, these are far fewer items than the items
-    /// that overlap its box.
+    /// Like [`for_each_overlapping`](Self::for_each_overlapping), but for every item whose box may
+    /// be within `radius` of a segment. For a long segment, these are far fewer than the items that
+    /// overlap its box.
     pub(crate) fn for_each_near_segment(
         &self,
         [from, to]: [DVec3; 2],
@@ -238,9 +238,9 @@ impl Bvh {
     }
 
     /// Calls `visit` with the items of a leaf and `true`, then with the items of each later leaf
-    /// with an overlapping box; stops after `most` items and returns `false`.
+    /// whose box overlaps and `false`. Stops before exceeding `most` items and returns `false`.
     ///
-    /// Calling it for every leaf visits each pair of overlapping leaves once.
+    /// Calling this function for every leaf visits each pair of overlapping leaves once.
     pub(crate) fn for_each_later_leaf(
         &self,
         leaf: u32,

@@ -26,7 +26,7 @@ struct FaceCount {
 }
 
 impl FaceCount {
-    /// Counts one face.
+    /// Adds the occlusion by one face.
     fn insert(&mut self, occlusion: Occlusion) {
         let (interval, halves) = match occlusion {
             Occlusion::Interior(interval) => (interval, 2),

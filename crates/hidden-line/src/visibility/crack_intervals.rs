@@ -32,7 +32,7 @@ impl SideIntervals {
     }
 }
 
-/// The parts of an edge near the sides of faces, by the object of the face.
+/// The parts of an edge near the sides of faces, each with the object of the face.
 #[derive(Clone, Debug, Default)]
 pub(super) struct CrackIntervals(Vec<SideInterval>);
 
@@ -79,7 +79,7 @@ impl CrackIntervals {
     }
 }
 
-/// The end of an interval on one side of an object.
+/// The start or the end of an interval, on one side of the edge.
 #[derive(Clone, Copy, Debug)]
 struct SweepEnd {
     at: f64,
@@ -101,7 +101,7 @@ struct Sweep {
 }
 
 impl Sweep {
-    /// Moves past the end of an interval.
+    /// Moves past the start or the end of an interval.
     fn pass(&mut self, end: &SweepEnd) {
         let side = usize::from(end.is_left);
         let open = &mut self.open[end.object];

@@ -40,11 +40,11 @@ const CROWD: f64 = 32.0;
 const MAX_SAMPLES: f64 = 134_217_728.0;
 /// The maximum number of cells along the longer side of the screen in the cover of a crowd.
 const MAX_CROWD_CELLS: f64 = 1024.0;
-/// The number of times that a segment or a triangle is divided before it counts as visible.
+/// The number of times that a segment is halved before it counts as visible.
 const DIVISIONS: u32 = 6;
 /// The number of times that a triangle is divided to skip its hidden parts.
 const PART_DIVISIONS: u32 = 4;
-/// Parts with fewer cells along both sides are not divided further.
+/// Parts whose boxes are smaller than this many cells in both directions are not divided further.
 const SMALL_PART: f64 = 16.0;
 
 /// The depths behind which nothing is visible, as a pyramid of grids.
@@ -77,7 +77,7 @@ impl ScreenBox {
         Some(all)
     }
 
-    /// Returns the box around points of the screen.
+    /// Returns the box around points on the screen.
     fn around_images(images: &[DVec3]) -> Self {
         let mut all =
             Self { min: DVec2::INFINITY, max: DVec2::NEG_INFINITY, nearest: f64::NEG_INFINITY };
@@ -85,7 +85,7 @@ impl ScreenBox {
         all
     }
 
-    /// Extends the box to contain a point of the screen.
+    /// Extends the box to contain a point on the screen.
     fn extend(&mut self, image: DVec3) {
         self.min = self.min.min(image.truncate());
         self.max = self.max.max(image.truncate());
@@ -121,7 +121,8 @@ impl DepthCover {
         cover
     }
 
-    /// Creates the cover formed by a crowd of faces, or returns `None` if they are not a crowd.
+    /// Creates the cover formed by a crowd of faces, or returns `None` if the faces are not a
+    /// crowd.
     pub(crate) fn of_crowd<I: Iterator<Item = [DVec3; 3]>>(
         faces: impl Fn() -> I,
         projector: Projector,
@@ -190,7 +191,7 @@ impl DepthCover {
         self.divide_hidden(ends, [0.0, 1.0], DIVISIONS, parts);
     }
 
-    /// Adds the hidden parts of a screen segment, which is an interval of a longer segment.
+    /// Adds the hidden parts of a screen segment: the interval [from, to] of a longer segment.
     fn divide_hidden(
         &self,
         [a, b]: [DVec3; 2],
@@ -219,7 +220,7 @@ impl DepthCover {
         self.divide_visible(corners, PART_DIVISIONS, parts);
     }
 
-    /// Adds the parts that are not hidden, and returns whether that is the whole triangle.
+    /// Adds the parts that are not hidden, and returns whether they are the whole triangle.
     fn divide_visible(
         &self,
         corners: [DVec3; 3],
@@ -246,7 +247,7 @@ impl DepthCover {
         is_whole
     }
 
-    /// Whether a segment of the screen is hidden: by its box, or by the boxes of its halves.
+    /// Whether a segment on the screen is hidden, tested by its box or by the boxes of its halves.
     fn hides_image(&self, [a, b]: [DVec3; 2], divisions: u32) -> bool {
         if self.hides(&ScreenBox::around_images(&[a, b])) {
             return true;
@@ -269,7 +270,7 @@ impl DepthCover {
         self.levels[0].depths.iter().all(|depth| *depth == 0.0)
     }
 
-    /// Adds a face, moved away from the viewer by a distance.
+    /// Adds a face, moved away from the viewer by `setback`.
     fn add_face(&mut self, corners: [DVec3; 3], setback: f64) {
         // Most faces of a fine mesh are smaller than a cell.
         let image = self.image_of(&corners);
@@ -292,13 +293,13 @@ impl DepthCover {
     }
 }
 
-/// Returns the four parts of a triangle between the middles of its sides.
+/// Divides a triangle into four at the midpoints of its sides.
 fn quarters([a, b, c]: [DVec3; 3]) -> [[DVec3; 3]; 4] {
     let [ab, bc, ca] = [0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)];
     [[ab, bc, ca], [a, ab, ca], [ab, b, bc], [ca, bc, c]]
 }
 
-/// Returns the image of a point within the depths of the view volume.
+/// Returns the image of a point, or `None` if it is outside the depths of the view volume.
 fn image_of(point: DVec3, projector: &Projector) -> Option<DVec3> {
     let clip = projector.world_to_clip_point(point);
     if clip.w() <= 0.0 {
@@ -308,7 +309,7 @@ fn image_of(point: DVec3, projector: &Projector) -> Option<DVec3> {
     (0.0..=1.0).contains(&image.z).then_some(image)
 }
 
-/// Returns the images of points within the depths of the view volume.
+/// Returns the images of points, or `None` if one is outside the depths of the view volume.
 fn images_of<const N: usize>(points: &[DVec3; N], projector: &Projector) -> Option<[DVec3; N]> {
     let mut images = [DVec3::ZERO; N];
     for (image, point) in images.iter_mut().zip(points) {
@@ -317,7 +318,7 @@ fn images_of<const N: usize>(points: &[DVec3; N], projector: &Projector) -> Opti
     Some(images)
 }
 
-/// Returns the area in pixels that a triangle covers on a screen of a given size.
+/// Returns an upper bound on the area in pixels that a triangle covers on a screen.
 fn area_within(images: [DVec3; 3], size: DVec2) -> f64 {
     let around = ScreenBox::around_images(&images);
     let visible = (around.max.min(size) - around.min.max(DVec2::ZERO)).max(DVec2::ZERO);
@@ -388,7 +389,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_of_a_triangle_exclude_only_hidden_parts() {
+    fn visible_parts_contain_every_point_that_is_not_hidden() {
         for is_parallel in [true, false] {
             let cover = DepthCover::new(
                 [triangle(0.0, 1.5)].into_iter(),
@@ -403,7 +404,7 @@ mod tests {
             };
             assert!(parts_of(triangle(-1.0, 0.5)).is_empty(), "behind: {is_parallel}");
             let before = triangle(0.5, 1.9);
-            assert_eq!(parts_of(before), [before], "before: {is_parallel}");
+            assert_eq!(parts_of(before), [before], "in front: {is_parallel}");
             // The triangle extends beyond all sides of the face that hides its middle.
             let larger = triangle(-0.5, 1.9);
             let area = |[a, b, c]: [DVec3; 3]| 0.5 * (b - a).cross(c - a).length();

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-/// The depth tolerance: the depth of a point on a surface is at least its sample minus this value.
+/// The depth tolerance: the depth of a point on a surface is at least the sampled depth minus this.
 const ROUNDING: f64 = 1e-9;
 
 /// One level of the pyramid.
@@ -85,8 +85,8 @@ impl Level {
         }
     }
 
-    /// Returns the minimum depth of each cell and its neighbors, because the surface sampled by a
-    /// cell extends between their centers.
+    /// Returns the minimum depth of each cell and its neighbors, because surfaces are not sampled
+    /// between the centers of cells.
     pub(super) fn eroded(&self) -> Self {
         let [width, height] = self.size;
         // The surface is not sampled between the outermost centers and the border of the screen.
@@ -116,8 +116,8 @@ impl Level {
             [f64::min, f64::max].map(|pick| pick(pick(corners[0].y, corners[1].y), corners[2].y));
         let rows = whole_cells([low + margin, high - margin], self.size[1]);
         for row in rows {
-            // A triangle is convex, so the cells that are between its sides at both borders of a
-            // row are covered.
+            // A triangle is convex, so it covers the cells that are between its sides at both the
+            // top and the bottom of a row.
             let [above, below] = [0, 1].map(|side| span_at(corners, (row + side) as f64));
             let span = [above[0].max(below[0]) + margin, above[1].min(below[1]) - margin];
             let columns = whole_cells(span, self.size[0]);
@@ -146,8 +146,8 @@ fn centers([from, to]: [f64; 2], count: usize) -> std::ops::Range<usize> {
     if first < last { first as usize..last as usize } else { 0..0 }
 }
 
-/// Returns the interval of x where a triangle meets a horizontal line. If it does not meet the
-/// line, the ends are reversed.
+/// Returns the interval of x where a triangle meets a horizontal line. If they do not meet, the
+/// interval is reversed.
 fn span_at(corners: [DVec2; 3], y: f64) -> [f64; 2] {
     let mut span = [f64::INFINITY, f64::NEG_INFINITY];
     for k in 0..3 {

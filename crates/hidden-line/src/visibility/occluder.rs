@@ -2,15 +2,15 @@
 //!
 //! ```text
 //!              ╱╲            screen: inside where three linear functions of s are positive
-//!    a ───────╱██╲─── b      world:  behind the plane where its height, linear in u, is negative
-//!            ╱    ╲          each leaves a half-line; they intersect in one interval, █
+//!    a ───────╱██╲─── b      world:  behind the plane where the height, linear in u, is negative
+//!            ╱    ╲          each leaves a half-line; the four intersect in one interval, █
 //!           ╱──────╲
 //! ```
 //!
 //! Distances from sides are measured in pixels, heights over planes in world units. In these units,
 //! the meaning of a tolerance does not depend on the projection or on the slope of the face. An
-//! edge a tiny fraction of a pixel inside a side runs along the side, and an edge a tiny fraction
-//! of the model behind a plane is in the plane.
+//! edge a tiny fraction of a pixel inside a side counts as running along it, and an edge a tiny
+//! fraction of the model behind a plane counts as being in it.
 //!
 //! [`Occluder::overlap`] finds where the edge and the face overlap on the screen, and
 //! [`OccluderInWorld::interval_behind`] finds the part of the overlap where the edge is behind the
@@ -50,15 +50,15 @@ pub(super) enum Occlusion {
     Beside(SideInterval),
 }
 
-/// The part of an edge behind a side of a face.
+/// The part of an edge behind or beside a side of a face.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct SideInterval {
     /// The interval of s.
     pub(super) interval: [f64; 2],
     /// Whether the face is on the left of the edge, on a screen with y up.
     pub(super) is_left: bool,
-    /// Whether the face is wider than a crack, measured from the side. Behind a narrower face,
-    /// lines beyond it stay visible.
+    /// Whether the face is wider than two cracks, measured from the side. A narrower face does not
+    /// bound a crack, because lines beyond it stay visible.
     pub(super) is_wide: bool,
     /// The object of the face.
     pub(super) object: u32,
@@ -84,7 +84,7 @@ pub(super) struct SideOverlap {
     pub(super) is_along: bool,
     /// Whether the face is on the left of the edge.
     pub(super) is_left: bool,
-    /// Whether the face is wider than a crack.
+    /// Whether the face is wider than two cracks.
     pub(super) is_wide: bool,
 }
 
@@ -169,7 +169,7 @@ pub(super) struct OccluderInWorld<'a> {
 }
 
 impl OccluderInWorld<'_> {
-    /// Returns the part of an interval of an edge behind the plane of the triangle.
+    /// Returns the part of an interval of an edge that is behind the plane of the triangle.
     ///
     /// Returns `None` if there is no such part, or if the triangle is seen edge-on.
     pub(super) fn interval_behind(
@@ -183,7 +183,8 @@ impl OccluderInWorld<'_> {
         interval_behind_plane(plane, edge, interval, tolerance)
     }
 
-    /// Returns the part of an interval of an edge beside a side that is behind the side.
+    /// Returns the part of an interval that is behind a side, for an edge that runs beside the
+    /// side.
     ///
     /// The plane of the triangle is not meaningful for points outside the triangle, especially if
     /// it is tilted. Of all planes through the side, the one that faces the viewer most is used
@@ -229,7 +230,7 @@ impl TriangleSides {
     }
 
     /// Whether the edge is nearly parallel to each side, at an angle whose sine is less than a
-    /// quarter. Otherwise, it is not near the side for long enough.
+    /// quarter. Otherwise, too little of the edge is near the side.
     fn parallel_sides(&self, edge: &ProjectedEdge) -> [bool; 3] {
         let length = (edge.screen[1] - edge.screen[0]).length_squared();
         [0, 1, 2].map(|k| {
@@ -239,11 +240,11 @@ impl TriangleSides {
         })
     }
 
-    /// Returns the first side that the edge runs along, that is, within `distance` pixels of it
-    /// while inside the two others.
+    /// Returns the first side that the edge runs along, that is, from which it stays within
+    /// `distance` pixels while inside the other two.
     ///
-    /// This interval must be longer than eight times the distance. Shorter intervals occur where
-    /// the edge crosses a vertex, and are independent of its direction.
+    /// The interval inside the other two must be longer than eight times the distance. Shorter
+    /// intervals occur wherever an edge crosses a vertex, in any direction.
     fn side_along(
         &self,
         edge: &ProjectedEdge,
@@ -303,7 +304,7 @@ impl TriangleSides {
         })
     }
 
-    /// Returns the open interval of s where the edge is inside all sides except one.
+    /// Returns the open interval of s where the edge is inside all sides, ignoring the side `but`.
     fn interval_inside(&self, but: Option<usize>) -> Option<[f64; 2]> {
         positive_interval((0..3).filter(|&k| Some(k) != but).map(|k| self.values[k]))
     }
@@ -320,8 +321,8 @@ impl TriangleSides {
 /// ```
 ///
 /// The height is linear in u, not in s, so its zero is found in the world and mapped to the screen
-/// by IN-1. An edge that is nowhere farther behind the plane than `tolerance.world` is in the plane
-/// and is not hidden.
+/// by IN-1. An edge that is nowhere farther behind the plane than `tolerance.world` counts as in
+/// the plane and is not hidden.
 fn interval_behind_plane(
     plane: OrientedPlane,
     edge: &ProjectedEdge,
@@ -347,9 +348,8 @@ fn interval_behind_plane(
 /// Returns twice the signed area between a side and each end of the edge; positive where the edge
 /// is to the left of the side.
 ///
-/// It is always computed from the same end of the side. The two faces at a side therefore get
-/// values with identical bits and opposite signs, so there is no gap or overlap between the parts
-/// that they hide.
+/// The area is always computed from the same end of the side. The two faces at a side therefore get
+/// values that differ only in sign, so there is no gap or overlap between the parts that they hide.
 fn side_function([from, to]: [DVec2; 2], edge: &ProjectedEdge) -> LinearFunction {
     let is_reversed = (to.x, to.y) < (from.x, from.y);
     let [p, q] = if is_reversed { [to, from] } else { [from, to] };

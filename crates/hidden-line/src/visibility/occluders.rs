@@ -17,7 +17,7 @@ use crate::projector::Projector;
 use glam::DVec3;
 use homog::{Point, World};
 
-/// The distances below which an edge touches a face. A touching face does not hide the edge (HL-1).
+/// The tolerances of hidden-line removal. A face that an edge only touches does not hide it (HL-1).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Tolerance {
     /// The distance from a side of a face, in pixels. An edge that stays closer than this runs
@@ -167,7 +167,7 @@ pub(crate) fn mesh_bvh(mesh: &impl TriangleMesh) -> Bvh {
 #[derive(Clone, Debug)]
 pub(crate) struct MeshOccluders<M> {
     mesh: M,
-    /// The projection of the faces; edges must be projected with the same projector.
+    /// The projector of the faces, which must also project the edges.
     projector: Projector,
     pub(super) tolerance: Tolerance,
     pub(super) screen: ScreenBvh,
@@ -191,7 +191,7 @@ pub(crate) struct OcclusionScratch {
 }
 
 impl OcclusionScratch {
-    /// Deducts from the remaining work, and returns `false` if not enough is left.
+    /// Deducts `count` from the remaining work, and returns `false` if not enough is left.
     pub(super) fn take_work(&mut self, count: usize) -> bool {
         let Some(left) = &mut self.work_left else { return true };
         let is_left = *left >= count as u64;
@@ -268,8 +268,8 @@ impl<M: TriangleMesh> MeshOccluders<M> {
         self.hidden_intervals_but(edge, &[], scratch)
     }
 
-    /// Like [`hidden_intervals`](Self::hidden_intervals), for an edge with parts that are known to
-    /// be hidden and need no comparison.
+    /// Like [`hidden_intervals`](Self::hidden_intervals), but for an edge with parts that are known
+    /// to be hidden and need no comparison.
     pub(crate) fn hidden_intervals_but<'a>(
         &self,
         edge: &ProjectedEdge,

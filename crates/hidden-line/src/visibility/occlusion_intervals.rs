@@ -47,7 +47,7 @@ impl OcclusionIntervals {
 
     /// Whether a single interval of the set contains an interval.
     ///
-    /// The BVH traversal skips subtrees over a part of the edge that is already hidden.
+    /// With this test, the BVH traversal skips subtrees over a hidden part of the edge.
     pub(crate) fn contains_interval(&self, [start, end]: [f64; 2]) -> bool {
         let at = self.0.partition_point(|interval| interval[1] < end);
         self.0.get(at).is_some_and(|interval| interval[0] <= start && end <= interval[1])
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn only_parts_of_one_interval_are_covered() {
+    fn only_parts_of_a_single_interval_are_contained() {
         let intervals = interval_set(&[[0.1, 0.4], [0.5, 0.9]]);
         assert!(intervals.contains_interval([0.1, 0.4]) && intervals.contains_interval([0.6, 0.6]));
         assert!(
@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_outside_a_set_end_where_it_begins() {
+    fn parts_outside_a_set_are_its_gaps_within_the_interval() {
         let intervals = interval_set(&[[0.1, 0.3], [0.5, 0.6]]);
         assert_eq!(intervals.parts_outside([0.0, 1.0]), [[0.0, 0.1], [0.3, 0.5], [0.6, 1.0]]);
         assert_eq!(intervals.parts_outside([0.2, 0.4]), [[0.3, 0.4]]);

@@ -11,8 +11,8 @@
 //! on the screen, and boxes at different depths remain separate.
 //!
 //! A triangle is stored here as an index and a box; its vertices are in the mesh. When an edge
-//! meets a leaf, most of the leaf's triangles are beside or behind the edge. Their boxes, which are
-//! consecutive in memory, prove this without looking up the vertices.
+//! meets a leaf, most of the leaf's triangles are beside or behind the edge. The boxes, which are
+//! consecutive in memory, show this without access to the vertices.
 
 use super::bounds::{greatest, least, round_down, round_up};
 use super::bvh::{Bvh, NodeContents};
@@ -46,12 +46,12 @@ pub(crate) trait TriangleMesh: Sync {
 enum ScreenTriangle {
     /// A whole triangle of the mesh.
     Whole {
-        /// Its index.
+        /// The index of the triangle.
         triangle: u32,
         /// Whether its last two vertices are swapped.
         is_reversed: bool,
     },
-    /// A piece, by its index.
+    /// A piece that remains after clipping, by its index.
     Clipped(u32),
 }
 
@@ -77,7 +77,7 @@ impl ScreenTriangle {
 struct ClippedPiece {
     triangle: u32,
     vertices: [DVec2; 3],
-    /// The weights of the triangle's vertices in each of these vertices.
+    /// The barycentric weights of each of these vertices in the triangle.
     weights: [[f64; 3]; 3],
 }
 
@@ -108,11 +108,11 @@ impl DepthBox {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LeafTriangle {
     bounds: DepthBox,
-    /// A [`ScreenTriangle`].
+    /// The packed [`ScreenTriangle`].
     packed: u32,
 }
 
-/// A node.
+/// A node of the screen hierarchy.
 #[derive(Clone, Copy, Debug)]
 struct ScreenNode {
     bounds: DepthBox,
@@ -132,7 +132,7 @@ pub(super) struct ScreenBvh {
     /// The triangles in the order of the leaves.
     triangles: Vec<LeafTriangle>,
     pieces: Vec<ClippedPiece>,
-    /// The vertices on the screen in pixels, if they have an image.
+    /// The vertices on the screen in pixels, or NaN for vertices without an image.
     vertices: Vec<DVec2>,
 }
 
@@ -164,7 +164,7 @@ impl ProjectedVertices {
 struct LeafView<'a> {
     projector: &'a Projector,
     projected: &'a ProjectedVertices,
-    /// The maximum height in pixels of a triangle that hides nothing.
+    /// The height in pixels up to which a triangle hides nothing.
     thinnest: f64,
     /// The margin of boxes in pixels.
     margin: f64,
@@ -173,7 +173,7 @@ struct LeafView<'a> {
 impl ScreenBvh {
     /// Projects a mesh and computes the boxes of its hierarchy on the screen, in O(n).
     ///
-    /// `thinnest` is the maximum height in pixels of a triangle that hides nothing; `margin` is the
+    /// `thinnest` is the height in pixels up to which a triangle hides nothing; `margin` is the
     /// margin of the boxes.
     pub(super) fn new(
         mesh: &impl TriangleMesh,
@@ -333,8 +333,8 @@ fn reverse_if<T>(is_reversed: bool, [a, b, c]: [T; 3]) -> [T; 3] {
     if is_reversed { [a, c, b] } else { [a, b, c] }
 }
 
-/// Whether two vertices must be swapped so that the signed area of a triangle is positive, or
-/// `None` if the triangle is thinner than `thinnest` pixels, or has no image.
+/// Returns whether two vertices must be swapped so that the signed area of a triangle is positive.
+/// Returns `None` if the triangle is thinner than `thinnest` pixels or has no image.
 fn orientation([a, b, c]: [DVec2; 3], thinnest: f64) -> Option<bool> {
     let area = (b - a).perp_dot(c - a);
     let sides = [b - a, c - b, a - c];
@@ -350,7 +350,7 @@ fn orientation([a, b, c]: [DVec2; 3], thinnest: f64) -> Option<bool> {
 /// An edge, prepared for comparison with boxes.
 pub(super) struct ScreenEdge<'a> {
     edge: &'a ProjectedEdge,
-    /// The box around the edge.
+    /// The lower corner of the box around the edge; `high` is the opposite corner.
     low: DVec2,
     high: DVec2,
     /// The change of s per pixel along x and y; 0 along an axis perpendicular to the edge.

@@ -47,7 +47,7 @@ fn two_squares(gap: f32, fall: f32) -> Primitive {
 }
 
 #[test]
-fn tangent_edges_are_between_the_tangent_angle_and_the_crease_angle() {
+fn edges_between_the_tangent_angle_and_the_crease_angle_are_tangent() {
     // A strip of three squares, bent by 10 and by 20 degrees. The crease angle is 15 degrees.
     let mut corners = vec![[-1.0, 0.0, 0.0], [-1.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     for degrees in [10.0_f64, 30.0] {
@@ -97,7 +97,7 @@ fn a_dihedral_angle_above_the_limit_is_a_crease() {
 
 #[test]
 fn a_fold_is_a_silhouette() {
-    // The second square is folded back below the first.
+    // The second triangle is folded back behind the first.
     let fold = triangle_mesh(
         &[[-1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, -1.0]],
         &[0, 1, 2, 1, 3, 2],

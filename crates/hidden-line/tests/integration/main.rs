@@ -1,4 +1,4 @@
-//! Line drawings of scenes with lines that can be computed by hand.
+//! Line drawings of scenes whose lines can be computed by hand.
 //!
 //! All pictures are 800 × 800 pixels. In picture units of 100 pixels, the origin is in the middle
 //! and y points up; X and Y in the comments are in these units.

@@ -7,8 +7,8 @@
 //! ```
 //!
 //! Boxes, plates and prisms are placed face to face along the axes of an assembly, which is
-//! rotated, scaled and moved. It is seen in perspective and parallel projection, from any direction
-//! and straight from the front. The scene number determines everything.
+//! rotated, scaled and moved. It is seen in perspective or parallel projection, along a random
+//! direction, an axis or a diagonal. The scene number determines everything.
 
 use super::stage::*;
 use camera::{Basis, Slopes, ViewProjection, frame_oblique, frame_perspective};
@@ -22,7 +22,7 @@ use std::sync::Arc;
 /// The fraction of the visible length that the z-buffer may hide.
 const MAX_DISAGREEMENT: f64 = 0.002;
 
-/// The seeds for the tested scenes.
+/// The numbers of the tested scenes.
 const SCENES: Range<u64> = 0..60;
 
 /// The worst scenes found in a search of many scenes.
@@ -56,8 +56,8 @@ impl Random {
     }
 }
 
-/// Returns a part in the unit cube: a box, or a prism that touches the sides of the cube, with one
-/// of the coordinate axes as its axis.
+/// Returns a part in the unit cube: a box, or a prism that touches the sides of the cube, with its
+/// axis parallel to a coordinate axis.
 fn unit_part(random: &mut Random) -> Primitive {
     if random.below(3) > 0 {
         return cuboid_mesh([0.0; 3], [1.0; 3]);
@@ -116,8 +116,8 @@ fn stack_boxes(random: &mut Random) -> Vec<[[f64; 3]; 2]> {
     boxes
 }
 
-/// Returns the parts of a scene, placed by f64 matrices or, in every other scene, with vertices
-/// rounded to single precision.
+/// Returns the parts of a scene. At random, either f64 matrices place the parts, or their vertices
+/// are rounded to single precision.
 fn assembly(random: &mut Random) -> Vec<ModelInstance> {
     let scale = random.choose(&[1e-3, 1.0, 1.0, 25.4, 1e3]);
     let shift = random.choose(&[0.0, 0.0, 1.0, 30.0]) * scale;
@@ -144,8 +144,8 @@ fn assembly(random: &mut Random) -> Vec<ModelInstance> {
     stack_boxes(random).into_iter().map(|corners| part(corners, unit_part(random))).collect()
 }
 
-/// Returns a view of all models that fills the picture: from any direction, or along one of the
-/// axes.
+/// Returns a view of all models that fills the picture, along a random direction, an axis or a
+/// diagonal.
 fn random_view(models: &[ModelInstance], random: &mut Random) -> ViewProjection {
     let points = model::world_points(models);
     let along = [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [-1.0, -1.0, -1.0]];
@@ -187,8 +187,8 @@ fn measure(number: u64) -> (LineDrawing, Agreement) {
     (drawing, agreement)
 }
 
-/// Returns the largest disagreement among some scenes, and a report on that scene with its denied
-/// segments.
+/// Returns the largest disagreement among some scenes, and a report on the worst scene with its
+/// denied segments.
 fn worst_scene(scenes: impl Iterator<Item = u64>) -> (f64, String) {
     let ratio = |number| (measure(number).1.disagreement_ratio(), number);
     let worst = scenes.map(ratio).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
@@ -201,7 +201,7 @@ fn worst_scene(scenes: impl Iterator<Item = u64>) -> (f64, String) {
 }
 
 #[test]
-fn assemblies_that_nearly_touch_agree_with_the_z_buffer() {
+fn drawings_of_nearly_touching_parts_agree_with_the_z_buffer() {
     let scenes = match std::env::var("NEARLY_TOUCHING_SCENES") {
         // Set this variable to search other scenes, such as 1000..3000.
         Ok(range) => {

@@ -171,7 +171,7 @@ fn adjacent_parts_have_different_hatching() {
         cuboid_mesh([-1.0, y, -1.0], [1.0, y + 0.5, 1.0])
     });
     let drawing = draw_scene_lines(&cut_scene(build_model(boxes.collect()), &[plane_x(0.0)]));
-    // For each object, the direction and the spacing in hundredths of a unit.
+    // For each object, the direction and the offset of each hatch line.
     let mut hatch_lines: BTreeMap<u32, Vec<(bool, f64)>> = BTreeMap::new();
     for line in drawing.segments.iter().filter(|line| line.class == Hatching) {
         let [a, b] = line.ends;
@@ -237,7 +237,7 @@ fn assert_closed_outlines(drawing: &LineDrawing) {
     }
 }
 
-/// For example, some vertices of a sphere may be on the plane except for rounding errors.
+/// Vertices may be on the plane except for rounding errors, for example in a section of a sphere.
 #[test]
 fn a_section_through_vertices_nearly_on_the_plane_closes() {
     for nudge in [0.0_f32, 1e-7, -1e-7, 3e-8] {

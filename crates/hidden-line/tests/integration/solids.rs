@@ -4,7 +4,7 @@ use super::stage::*;
 use hidden_line::EdgeClass::{Boundary, Crease, Intersection, Line, Silhouette};
 use hidden_line::{DrawOptions, HiddenEdges, draw};
 
-/// The outline of the cube [−1, 1]³ in the oblique picture, and the three edges inside it.
+/// The outline of the cube [−1, 1]³ in the oblique picture; the inner edges follow.
 const OUTLINE: [Segment; 6] = [
     [[-1.5, -1.5], [0.5, -1.5]],
     [[0.5, -1.5], [1.5, -0.5]],
@@ -62,8 +62,8 @@ fn the_first_layer_has_only_lines_behind_one_wall() {
         &segments_where(&drawing, |line| line.class == Line && !line.visible),
         &[[[-2.0, 0.25], [0.25, 0.25]]],
     );
-    // The edges of the second wall are behind the first one, and its rear edges are behind three
-    // faces.
+    // The second wall's front edges are behind the two faces of the first wall, and its rear edges
+    // behind three faces.
     let of_second = segments_where(&drawing, |line| line.object == 1 && !line.visible);
     assert!(!of_second.is_empty());
 }
@@ -111,8 +111,8 @@ fn a_bar_through_the_side_of_a_cube() {
     assert_segments_cover(&segments_where(&drawing, |line| line.visible && line.object == 1), &bar);
 }
 
-/// A column is in front of the left side of the cube. Its outline passes through the corners with
-/// the smallest and the largest x − z/2.
+/// A column is in front of the left side of the cube. The column's outline passes through the
+/// corners with the smallest and the largest x − z/2.
 #[test]
 fn a_cylinder_in_front_of_a_box() {
     let sides = 48;
@@ -168,7 +168,7 @@ fn a_cycle_of_three() {
         strip([[-2.0, -0.25], [3.0, -0.25], [3.0, 0.25], [-2.0, 0.25]], |[x, _]| (x - 1.0) / 2.0),
         // Along x + y = 2, rising to the upper left.
         strip([[3.5, -2.0], [4.0, -1.5], [-1.5, 4.0], [-2.0, 3.5]], |[_, y]| (y - 1.0) / 2.0),
-        // Along the y axis, falling upward.
+        // Along the y axis, falling as y increases.
         strip([[-0.25, -2.0], [0.25, -2.0], [0.25, 3.0], [-0.25, 3.0]], |[_, y]| (1.0 - y) / 2.0),
     ];
     let drawing =
@@ -217,7 +217,7 @@ fn a_floor_cut_by_the_near_plane() {
     let floor =
         quad_mesh([[-1.0, -1.0, 5.0], [1.0, -1.0, 5.0], [1.0, -1.0, -10.0], [-1.0, -1.0, -10.0]]);
     let line = line_mesh(&[[0.0, -2.0, -1.5], [0.0, -2.0, -15.0]]);
-    // Half the picture is 4 units wide, which is 2 at distance 1, so X = 2 x/−z.
+    // Half the picture is 4 units wide and shows 2 world units at distance 1, so X = 2 x/−z.
     let lens = projection::Frustum::new(-2.0, 2.0, -2.0, 2.0, 1.0, 100.0).unwrap();
     let lens = lens.view_to_clip(projection::Convention::CHAPTER);
     let drawing =

@@ -7,7 +7,7 @@ use model::{Model, ModelInstance};
 use std::sync::Arc;
 
 /// Returns sheets one behind another, each a little larger than the previous one. All borders are
-/// visible, and each border passes over the boxes of all nearer sheets.
+/// visible, and each border passes behind the boxes of all nearer sheets.
 fn stack_of_sheets(count: u16) -> Model {
     let sheet = |at: u16| {
         let (size, z) = (2.0 + f32::from(at) / f32::from(count), -f32::from(at) / 1024.0);
@@ -36,8 +36,7 @@ fn draw_model(model: Model, options: &DrawOptions, threads: usize) -> LineDrawin
     draw(&scene.drawing_subject(), options, threads).unwrap()
 }
 
-/// Returns triangles of all sizes at random positions in front of each other, the same on each
-/// call.
+/// Returns triangles of random sizes at random positions, the same on each call.
 fn soup(count: usize) -> Model {
     let mut state = 1_u32;
     let mut random = || {
@@ -77,7 +76,7 @@ fn a_crowd_is_drawn_nearly_the_same_as_without_limits() {
 }
 
 #[test]
-fn too_much_work_is_reported_and_does_not_depend_on_threads() {
+fn the_effect_of_the_work_limit_is_reported_and_does_not_depend_on_threads() {
     let complete = draw_stack(3000, DrawOptions::default().max_comparisons, 2);
     assert_eq!(complete.warnings, []);
     let cut_off = draw_stack(3000, 0, 1);
