@@ -5,7 +5,7 @@
 //!         └─ ascii ──┘
 //! ```
 //!
-//! Files of either form may begin with `solid`, so they are distinguished by the file length. By
+//! Files of either form may begin with `solid`, so the file length distinguishes them. By
 //! convention z points up and lengths are in millimeters. The normals in the file are not read,
 //! because they are flat face normals, and often 0 or wrong.
 //!
@@ -131,7 +131,8 @@ const TRIANGLE_BYTES: usize = 50;
 /// Number of bytes at the start of a file that are searched for signs of the text form.
 const PREFIX_BYTES: usize = 4 << 10;
 
-/// Returns whether the content of a file is certainly STL. `text` is its beginning as UTF-8.
+/// Returns whether the content of a file is certainly STL. `text` is the beginning of the file as
+/// UTF-8.
 pub(super) fn is_stl(bytes: &[u8], text: &[u8]) -> bool {
     has_binary_length(bytes) || starts_with(text.trim_ascii_start(), b"solid") && has_facets(text)
 }
@@ -150,8 +151,8 @@ fn has_binary_length(bytes: &[u8]) -> bool {
     binary_length(bytes) == Some(bytes.len())
 }
 
-/// Returns the length of a binary file that begins with these bytes, or `None` if there are too
-/// few.
+/// Returns the length of a binary file that begins with these bytes, or `None` if there are too few
+/// bytes.
 fn binary_length(bytes: &[u8]) -> Option<usize> {
     declared_triangles(bytes)?.checked_mul(TRIANGLE_BYTES)?.checked_add(HEADER_BYTES)
 }

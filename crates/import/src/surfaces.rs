@@ -1,8 +1,8 @@
 //! Surfaces of mesh formats: converts triangles with corner attributes to primitives, one per
 //! material, each with its own normals and vertices.
 //!
-//! Missing normals are computed with the crease angle over all triangles of the surface, so that a
-//! border between two colors does not become a crease.
+//! Missing normals are computed by crease angle from all triangles of the surface, so that a border
+//! between two colors does not become a crease.
 
 use super::corner_vertices::{CornerAttributes, CornerVertices};
 use super::polygons::{CreaseNormals, Smoothing, VertexWelder};
@@ -32,7 +32,7 @@ pub(super) struct Surface<'a> {
 /// if any.
 ///
 /// The material of each primitive is an index into the surface's materials. The second result is
-/// the number of normals without a direction.
+/// the number of normals that had no direction and were replaced.
 pub(super) fn build_primitives(
     surface: Surface<'_>,
     crease_angle: f64,
@@ -98,8 +98,8 @@ fn surface_primitive(
     }
 }
 
-/// Computes normals by crease angle, and returns the positions and normals of the resulting
-/// vertices.
+/// Computes normals by crease angle, updates the triangles, and returns the positions and normals
+/// of the resulting vertices.
 fn compute_normals(
     positions: &[[f32; 3]],
     triangles: &mut Vec<[u32; 3]>,
@@ -119,7 +119,7 @@ fn compute_normals(
     (welded, computed.normals)
 }
 
-/// Returns the triangles of each material that has any, with materials and triangles in order.
+/// Returns each material that has triangles, with a list of these, both in ascending order.
 fn triangles_by_material(surface: &Surface<'_>) -> Vec<(usize, Vec<u32>)> {
     let count = surface.triangles.len() as u32;
     if surface.materials.is_empty() {

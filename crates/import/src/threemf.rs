@@ -8,8 +8,8 @@
 //!                                                                        nodes, meshes
 //! ```
 //!
-//! Our own code reads zip and XML, and supports only what 3MF needs, without encryption, custom
-//! entities or file paths. The core specification and the extensions for materials and production
+//! Our own zip and XML readers support only what 3MF needs, which excludes encryption, custom
+//! entities and file paths. The core specification and the extensions for materials and production
 //! are supported; `namespaces` lists the extensions that are skipped.
 
 mod archive;
@@ -123,7 +123,7 @@ fn read_parts(
             part.items.iter().chain(components)
         };
         for reference in references() {
-            // Components in the same part are usually adjacent; a part is read only once in any
+            // References to the same part are usually adjacent; each part is read only once in any
             // case.
             if let Some(path) = &reference.path
                 && queue.last().is_none_or(|(last, _)| last != path)
@@ -141,7 +141,7 @@ fn read_parts(
     Ok(parts)
 }
 
-/// Resolves the references between objects. The second result lists the built objects.
+/// Resolves the references between objects. The second result lists the items to build.
 fn assemble(
     package: &Package<'_>,
     parts: &Parts,
@@ -205,7 +205,7 @@ fn store_palette(
     store_images(model, images, options, warnings);
     let Model { materials, textures, image_infos, .. } = model;
     for material in materials {
-        // A material without a texture is white, like a texture without an image.
+        // Textures without a readable image are removed, which leaves their materials white.
         let is_readable = |info: &TextureInfo| {
             let image = textures[info.texture].image.and_then(|image| image_infos.get(image));
             image.is_some_and(|image| image.header.is_some())

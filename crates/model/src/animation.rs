@@ -34,7 +34,7 @@ pub struct AnimationChannel {
 /// The target of an animation channel. All indices are in range.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum AnimationTarget {
-    /// A TRS property or the morph weights of a node.
+    /// The translation, rotation, scale or morph weights of a node.
     Node {
         /// Index of the node.
         node: usize,

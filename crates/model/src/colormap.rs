@@ -39,8 +39,8 @@ struct ControlPoint {
 }
 
 impl Colormap {
-    /// Returns the color of a number as red, green and blue in fractions of the maximum sRGB code:
-    /// encoded, not linear.
+    /// Returns the color of a number as red, green and blue: sRGB-encoded values from 0 to 1, not
+    /// linear ones.
     ///
     /// `t` is clamped to [0, 1]; NaN becomes 0.
     #[must_use]
@@ -160,7 +160,7 @@ const COOL_WARM: [ControlPoint; 17] = [
     point(255, [180, 4, 38]),
 ];
 
-/// Black and white.
+/// Grayscale, from black to white.
 const GRAYSCALE: [ControlPoint; 2] = [point(0, [0; 3]), point(255, [255; 3])];
 
 #[cfg(test)]
@@ -175,8 +175,8 @@ mod tests {
         Colormap::CoolWarm,
     ];
 
-    /// Compares published colors that are not control points; each has an index in the table of 256
-    /// colors, and its codes.
+    /// Compares published colors that are not control points, each given by its index in the table
+    /// of 256 colors and its codes.
     #[test]
     fn interpolated_colors_match_the_published_colors() {
         let table = [
@@ -218,7 +218,7 @@ mod tests {
         }
     }
 
-    /// Checks that the perceptually uniform maps and gray get brighter throughout.
+    /// Checks that the perceptually uniform maps and the grayscale become brighter throughout.
     #[test]
     fn sequential_maps_become_brighter() {
         for colormap in [Colormap::Viridis, Colormap::Inferno, Colormap::Grayscale] {

@@ -6,10 +6,10 @@
 //!  error[ACCESSOR_INDEX_OOB] /meshes/0/primitives/0/indices: 3 indices lack a vertex; export again
 //! ```
 //!
-//! It is used for the importer's warnings ([`Model::warnings`](crate::Model::warnings)), for the
-//! reason why a file could not be loaded ([`ImportError`](import::ImportError)) and for validation
-//! results. Severities match the Khronos glTF validator, and so do codes for issues that it
-//! defines.
+//! Diagnostics are used for the importer's warnings ([`Model::warnings`](crate::Model::warnings)),
+//! for the reason why a file could not be loaded ([`ImportError`](import::ImportError)) and for
+//! validation results. Severities match the Khronos glTF validator, and so do codes for issues that
+//! it defines.
 //!
 //! Locations in glTF are JSON pointers (RFC 6901): the path of keys and indices from the root of
 //! the document, with `~1` for `/` and `~0` for `~` inside a key. In other formats, a location is
@@ -145,7 +145,7 @@ impl Diagnostic {
         Self::error(codes::INVALID_DATA, pointer, message.into(), "export the file again")
     }
 
-    /// Creates the error for an index out of range; `what` names the collection in the singular.
+    /// Creates the error for an index out of range; `what` is the kind of item in the singular.
     #[must_use]
     pub fn unresolved_index(pointer: &str, what: &str, index: usize, count: usize) -> Self {
         let message = match count {
@@ -164,7 +164,7 @@ impl Diagnostic {
         Self::error(codes::LIMIT_EXCEEDED, pointer, message, &help)
     }
 
-    /// Returns the remedy for an exceeded limit, with its name and command-line flag.
+    /// Returns the remedy for an exceeded limit, with the limit's name and command-line flag.
     #[must_use]
     pub fn raise_limit_help(limit: &str) -> String {
         let flag = limit.replace('_', "-");
@@ -213,7 +213,7 @@ impl Diagnostic {
 
 impl fmt::Display for Diagnostic {
     /// Formats the diagnostic as `error[ACCESSOR_INDEX_OOB] /meshes/0/primitives/0/indices: 3
-    /// indices have no vertex; export again`.
+    /// indices lack a vertex; export again`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}[{}] {}", self.severity.name(), self.code, self.sentence())
     }

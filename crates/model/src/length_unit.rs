@@ -5,7 +5,7 @@
 pub enum LengthUnit {
     /// 0.001 mm.
     Micrometer,
-    /// 1 mm: the default unit of 3MF files, and by convention of STL files.
+    /// 1 mm: the default unit of 3MF files and, by convention, the unit of STL files.
     Millimeter,
     /// 10 mm.
     Centimeter,

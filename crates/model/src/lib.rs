@@ -1,6 +1,6 @@
 //! Models as plain arrays, with every index checked and every default applied.
 //!
-//! The `import` crate reads a [`Model`] from a file, or a program builds it.
+//! A [`Model`] is read from a file by the `import` crate, or built by a program.
 //! [`Model::apply_animation`] poses it, and [`Model::skin_primitive`] deforms its vertices. Nothing
 //! here reads a file or decodes an image.
 //!

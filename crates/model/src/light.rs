@@ -1,7 +1,7 @@
 //! Punctual lights from a file (KHR_lights_punctual): directional, point and spot lights.
 //!
-//! They have no size. The node that a light is attached to sets its position, and its direction
-//! along −z. Lights added by scene files have a separate type, in the `shade` crate.
+//! They have no size. The node that a light is attached to sets its position, and the node's −z is
+//! its direction. Lights added by scene files have a separate type, in the `shade` crate.
 
 use super::{MeshInstance, Model};
 

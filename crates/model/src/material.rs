@@ -189,8 +189,8 @@ pub enum AlphaMode {
 impl Material {
     /// Returns the material for formats without materials: light gray, matte and double-sided.
     ///
-    /// The glTF default is a metal, which mirrors its surroundings. Both sides are drawn because
-    /// many files in these formats have triangles with inconsistent winding.
+    /// Unlike the glTF default, it is not a metal, which would mirror its surroundings. Both sides
+    /// are drawn because many files in these formats have triangles with inconsistent winding.
     #[must_use]
     pub fn plain() -> Self {
         Self {

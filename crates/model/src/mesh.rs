@@ -30,8 +30,8 @@ pub struct Mesh {
 pub struct Primitive {
     /// Whether the indices form points, lines or triangles.
     pub topology: Topology,
-    /// Vertex indices: one per point, two per line, three per triangle. Vertices are in
-    /// counter-clockwise order as seen from the front.
+    /// Vertex indices: one per point, two per line, three per triangle. Triangles are
+    /// counter-clockwise as seen from the front.
     pub indices: Vec<u32>,
     /// Positions in mesh coordinates.
     pub positions: Vec<[f32; 3]>,

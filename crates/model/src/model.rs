@@ -17,8 +17,8 @@ use crate::{
 pub struct Model {
     /// The file name without folder and extension, for messages.
     pub name: String,
-    /// Unit of all lengths: declared in the file, by convention of its format, or set in the
-    /// options. Coordinates are not converted.
+    /// Unit of all lengths, from the file, from the convention of its format, or from the options.
+    /// Coordinates are not converted.
     pub length_unit: LengthUnit,
     /// The axis that points up in the file's coordinates. If that is not y, the root nodes have
     /// been rotated so that y points up in model space.

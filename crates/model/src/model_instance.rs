@@ -1,4 +1,4 @@
-//! Model instances in the world: a shared model with a transform.
+//! Model instances in the world: each is a shared model with a transform.
 
 use crate::Model;
 use homog::{Affine, Model as ModelSpace, Point, World};

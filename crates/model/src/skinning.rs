@@ -317,7 +317,7 @@ mod tests {
         Affine::translation(Vector::new(x, y, z))
     }
 
-    /// Returns a mesh with three vertices on node 0, which is at x = 100; node 1 is its joint.
+    /// Returns a model and its mesh instance: node 0, at x = 100. The first joint is node 1.
     fn model_with_joint(
         primitive: Primitive,
         joint: Affine<ModelSpace, ModelSpace>,
@@ -381,7 +381,7 @@ mod tests {
             nearly_equal(posed.positions[1], [0.0, 1.0, 0.0]),
             "the elbow itself does not move"
         );
-        assert!(nearly_equal(posed.positions[2], [-1.0, 1.0, 0.0]), "blended in proportion");
+        assert!(nearly_equal(posed.positions[2], [-1.0, 1.0, 0.0]), "a missing joint is ignored");
         let normals = posed.normals.unwrap();
         assert!(nearly_equal(normals[0], [1.0, 0.0, 0.0]));
         assert!(nearly_equal(normals[2], [0.0, 1.0, 0.0]));

@@ -66,8 +66,8 @@ pub fn picture_to_pixmap(picture: Picture) -> Option<Pixmap> {
     Pixmap::from_vec(pixels.into_flattened(), size)
 }
 
-/// Converts a tiny-skia pixmap to a picture. The colors of translucent pixels are divided by their
-/// alpha, which rounds them.
+/// Converts a tiny-skia pixmap to a picture. The colors of translucent pixels are divided by alpha
+/// and rounded.
 #[must_use]
 pub fn pixmap_to_picture(pixmap: &Pixmap) -> Picture {
     let (width, height) = (pixmap.width(), pixmap.height());
@@ -79,7 +79,7 @@ pub fn pixmap_to_picture(pixmap: &Pixmap) -> Picture {
 }
 
 impl<W> Page<W> {
-    /// Renders the page as a picture of the given size in pixels, stretched to fill it, and
+    /// Renders the page, stretched to a picture of the given size in pixels. The background is
     /// transparent if the page has no paper. For a resolution in dots per inch, multiply each side
     /// of the page in millimeters by the resolution and divide by 25.4.
     ///
@@ -181,7 +181,7 @@ impl<C: Channel> RegionCanvas<'_, C> {
         });
     }
 
-    /// Calls `each` with the pixels shared by the region and a canvas, row by row.
+    /// Calls `each` with each pair of pixels shared by the region and a canvas, row by row.
     fn for_each_shared_pixel(
         &mut self,
         shown: PixelRect,
@@ -287,7 +287,7 @@ impl Canvas {
     /// ```
     ///
     /// The mean is weighted by area and alpha and composited over the canvas, so the edges of the
-    /// fill are anti-aliased.
+    /// image are anti-aliased.
     fn draw_image(&mut self, pasted: &PlacedImage, scale: [f64; 2]) {
         let PlacedImage { corner, size, picture, .. } = pasted;
         let (width, height) = (self.pixmap.width(), self.pixmap.height());

@@ -11,7 +11,7 @@
 //!
 //! | on the page | in the file |
 //! | --- | --- |
-//! | layer and object | a layer, `visible-crease.shaft`, with the pen color, width and line type |
+//! | layer and object | a layer (`visible-crease.shaft`) with the pen color, width and line type |
 //! | polyline | LWPOLYLINE or LINE; arcs become bulges, ARC or CIRCLE: see `arcs` |
 //! | text | TEXT in the font `txt`, fitted to its width in the other formats |
 //! | hatching | HATCH with its pattern and outlines |
@@ -64,15 +64,15 @@ pub enum DxfUnit {
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct DxfOptions {
-    /// The unit of the drawing, or `None` if unknown.
+    /// The unit of the drawing, or `None` if it is unknown.
     pub unit: Option<DxfUnit>,
     /// Drawing units per millimeter of the page, greater than 0.
     pub units_per_millimeter: f64,
     /// The page point that becomes (0, 0), in millimeters from the upper left corner of the page.
     /// In the file, y points up.
     pub origin: DVec2,
-    /// The tolerance for arcs, in millimeters on the page. Points this close to a circle become an
-    /// arc; 0 writes only straight lines.
+    /// The tolerance for arcs, in millimeters on the page. Points within this distance of a circle
+    /// become an arc. With 0, all lines are straight.
     pub arc_tolerance: f64,
 }
 

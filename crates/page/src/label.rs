@@ -65,7 +65,7 @@ impl<'a> Label<'a> {
         Self { direction: along, ..self }
     }
 
-    /// Returns the label, with its height reduced if it would be wider than `width`, in
+    /// Returns the label, with its height reduced if the text would be wider than `width`, in
     /// millimeters.
     #[must_use]
     pub fn fit_to_width(self, width: f64) -> Self {

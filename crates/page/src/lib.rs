@@ -13,7 +13,7 @@
 //! | `svg`, `pdf`, `dxf`, `canvas` | the four formats |
 //! | `line_type`, `dash_pattern` | line types and widths of ISO 128, and dashes fitted to a line |
 //! | `label`, `stroke_font` | text as pen strokes: Latin, Greek and some Chinese |
-//! | `page_clip` | removes strokes inside a rectangle or beyond the border |
+//! | `page_clip` | removes strokes inside a rectangle or beyond the page border |
 //! | [`palette`] | ink colors |
 //!
 //! This crate does not depend on models or views. Identical pages give identical bytes.
@@ -44,7 +44,7 @@ pub use page::{
 pub use pdf::to_pdf;
 pub use stroke_font::missing_glyphs;
 
-/// The library that defines the pixmaps [`picture_to_pixmap`] returns.
+/// The library that defines the pixmaps that [`picture_to_pixmap`] returns.
 pub use tiny_skia;
 
 /// The README example, compiled as a documentation test.

@@ -55,7 +55,7 @@ impl IsoLineGroup {
         WIDTH_SERIES[self.wide_index]
     }
 
-    /// Returns the stroke width of lettering in millimeters, which is between wide and narrow.
+    /// Returns the stroke width of lettering in millimeters, between the wide and narrow widths.
     #[must_use]
     pub fn lettering_width(self) -> f64 {
         WIDTH_SERIES[self.wide_index - 1]
@@ -96,7 +96,7 @@ impl LineType {
     }
 
     /// Creates a pen of this type. Dashes get butt caps, because round caps would make them longer
-    /// than the pattern.
+    /// than in the pattern.
     #[must_use]
     pub fn to_pen(self, width: f64, ink: Ink, cap: Cap, join: Join) -> Pen {
         let cap = if self == Self::Continuous { cap } else { Cap::Butt };

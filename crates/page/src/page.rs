@@ -127,7 +127,7 @@ pub struct HatchArea {
 }
 
 impl GroupContent {
-    /// Moves the content along with its strokes, in micrometers.
+    /// Moves the content by a distance in micrometers, as its strokes are moved.
     pub(crate) fn move_by(&mut self, by: PagePoint) {
         let move_point = |point: &mut PagePoint| {
             *point = [point[0].saturating_add(by[0]), point[1].saturating_add(by[1])];

@@ -67,7 +67,7 @@ impl<W> Page<W> {
     }
 }
 
-/// Whether a filled area is kept: with `Inside`, if it is entirely in the rectangle; with
+/// Returns whether a filled area is kept: with `Inside`, if it is entirely in the rectangle; with
 /// `Outside`, if it is entirely outside.
 fn keeps_area(area: &Polyline, [low, high]: PageRect, keep: Keep) -> bool {
     let on_axis = |axis: usize| {
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn both_sides_keep_the_border() {
+    fn both_modes_keep_lines_on_the_border() {
         let border =
             Polyline { points: vec![[10, 10], [30, 10], [30, 20], [10, 20]], closed: true };
         for keep in [Keep::Inside, Keep::Outside] {

@@ -26,22 +26,22 @@ pub const LIGHT_INK: Ink = [240, 243, 246];
 /// The ink of outlines over shaded surfaces.
 pub const OUTLINE: Ink = [20, 24, 30];
 
-/// The x axis, errors and failures.
+/// The ink of the x axis, errors and failures.
 pub const RED: Ink = [179, 38, 30];
 
-/// The y axis.
+/// The ink of the y axis.
 pub const GREEN: Ink = [30, 122, 52];
 
-/// The z axis, view volumes and correct results.
+/// The ink of the z axis, view volumes and correct results.
 pub const BLUE: Ink = [26, 86, 176];
 
-/// The horizon.
+/// The ink of the horizon.
 pub const BROWN: Ink = [140, 90, 20];
 
-/// Frames and ground grids.
+/// The ink of frames and ground grids.
 pub const GRAY: Ink = [150, 156, 163];
 
-/// Grid lines of charts.
+/// The ink of grid lines in charts.
 pub const LIGHT_GRAY: Ink = [222, 225, 229];
 
 /// Returns an ink that contrasts with the paper: light ink on dark paper, dark ink otherwise.

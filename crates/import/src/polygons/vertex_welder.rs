@@ -10,19 +10,19 @@ use std::collections::BTreeMap;
 pub(crate) struct VertexWelder {
     /// Positions of the vertices.
     positions: Vec<[f32; 3]>,
-    /// The slots: vertices by hash, or [`EMPTY`]. Their number is a power of two, and at most half
-    /// are used.
+    /// The hash table: a vertex or [`EMPTY`] in each slot. The number of slots is a power of two,
+    /// and at most half of them are used.
     slots: Vec<u32>,
-    /// Vertices for which all probed slots were full.
+    /// Vertices for which all probed slots were full, by the bits of their positions.
     crowded: BTreeMap<[u32; 3], u32>,
 }
 
-/// A slot without a vertex.
+/// The value of a slot without a vertex.
 const EMPTY: u32 = u32::MAX;
-/// Number of slots to probe before the search tree is used. With this limit, contrived collisions
+/// Number of slots to probe before the ordered map is used. With this limit, contrived collisions
 /// cost a logarithmic factor instead of quadratic time.
 const PROBES: usize = 32;
-/// Number of positions whose slots are read ahead of use.
+/// Number of positions in a batch, whose slots are read ahead of use.
 const BATCH: usize = 192;
 /// Number of slots in the smallest table.
 const LEAST_SLOTS: usize = 64;
@@ -41,8 +41,8 @@ impl VertexWelder {
     /// Returns the vertices at some positions, adding new vertices for new positions. There must be
     /// fewer than 2³² − 1 vertices.
     ///
-    /// The slots and vertices of a batch are read before they are needed, because most of the time
-    /// is memory latency, and independent reads overlap.
+    /// The slots and vertices of a batch are read before they are needed, because memory latency
+    /// takes most of the time, and independent reads overlap.
     pub(crate) fn weld_all(&mut self, positions: &[[f32; 3]]) -> Vec<u32> {
         let mut vertices = Vec::with_capacity(positions.len());
         let mut hashes = [0; BATCH];
@@ -65,7 +65,7 @@ impl VertexWelder {
     }
 
     /// Reads the first slot of each hash, then the vertices in these slots, to load them into the
-    /// cache. The result has no meaning.
+    /// cache. The result only keeps the reads from being optimized away.
     #[inline]
     fn read_ahead(&self, hashes: &[usize]) -> u32 {
         let mask = self.slots.len().wrapping_sub(1);
@@ -75,7 +75,7 @@ impl VertexWelder {
         vertices.fold(first, |sum, place| sum.wrapping_add(place[0].to_bits()))
     }
 
-    /// Returns the vertex at a position with this hash.
+    /// Returns the vertex at a position with this hash, adding it if necessary.
     #[inline]
     fn weld_hashed(&mut self, position: [f32; 3], start: usize) -> u32 {
         let position = canonical(position);
@@ -110,7 +110,7 @@ impl VertexWelder {
         self.positions
     }
 
-    /// Adds a vertex.
+    /// Adds a vertex and returns its index.
     fn push(&mut self, position: [f32; 3]) -> u32 {
         self.positions.push(position);
         (self.positions.len() - 1) as u32
@@ -143,7 +143,7 @@ fn canonical(position: [f32; 3]) -> [f32; 3] {
     position.map(|x| x + 0.0)
 }
 
-/// Hashes three words by multiplication with odd constants, which mixes the upper bits well.
+/// Hashes three words by multiplying by odd constants, which mixes the upper bits well.
 #[inline]
 fn hash_bits([x, y, z]: [u32; 3]) -> usize {
     let pair = u64::from(x) | u64::from(y) << 32;

@@ -12,7 +12,7 @@
 //!  endsolid NAME
 //! ```
 //!
-//! Keywords may be in upper or lower case, separated by any white space.
+//! Keywords may be in upper or lower case, and any white space may separate them.
 
 use super::solid::Solid;
 use super::truncated;
@@ -25,7 +25,8 @@ use model::{Diagnostic, codes};
 ///
 /// # Errors
 /// Fails if the text has unexpected words or facets that are not triangles, or ends within a facet;
-/// in lenient mode these are skipped. Also fails if there are more solids than nodes allowed.
+/// in lenient mode such statements are skipped. Also fails if there are more solids than the limit
+/// on nodes allows.
 pub(super) fn read_solids(
     text: &[u8],
     limits: &Limits,
@@ -48,7 +49,7 @@ pub(super) fn read_solids(
         }
     }
     if reader.is_open {
-        let message = "the last solid has no end; the file may be truncated";
+        let message = "the last solid lacks endsolid; the file may be truncated";
         let location = reader.lines.locate(text.len());
         reader.warnings.push_warning(&location, message);
     }
@@ -67,7 +68,7 @@ struct SolidReader<'a, 'w> {
     solids: Vec<Solid>,
     /// The solid being read.
     current: Solid,
-    /// Whether the end of this solid has not been read yet.
+    /// Whether its `solid` has been read but not yet its `endsolid`.
     is_open: bool,
 }
 
@@ -92,8 +93,8 @@ impl<'a> SolidReader<'a, '_> {
         Err(self.unexpected(keyword, "facet"))
     }
 
-    /// Reads a name: the rest of the line, up to any facet on it, because some files have no line
-    /// ends.
+    /// Reads a name: the rest of the line, up to any facet or `endsolid`, because some files have
+    /// no line ends.
     fn read_name(&mut self) -> String {
         let mut rest = self.scanner.clone();
         let Some(line) = rest.next_line() else { return String::new() };
@@ -114,8 +115,7 @@ impl<'a> SolidReader<'a, '_> {
 
     /// Reads a facet from its normal to its end, and adds its triangle.
     ///
-    /// After an error, the rest of the facet is skipped, up to the next facet or the end of a
-    /// solid.
+    /// After an error, skips to the next facet or to the beginning or end of a solid.
     fn read_facet(&mut self, keyword: Token<'a>) -> Result<(), Diagnostic> {
         if let Some(corners) = self.read_usual_corners() {
             let lines = &mut self.lines;
@@ -191,7 +191,7 @@ impl<'a> SolidReader<'a, '_> {
         })
     }
 
-    /// Skips a keyword.
+    /// Reads the next token, which must be this keyword.
     fn expect_keyword(&mut self, wanted: &str) -> Result<(), Diagnostic> {
         let token = self.require(wanted)?;
         self.check_keyword(token, wanted)

@@ -16,8 +16,8 @@ use gltf_import::MemoryBudget;
 use model::{Diagnostic, codes};
 use std::io::Read;
 
-/// Maximum number of array bytes per triangle, which is reached while normals are computed without
-/// shared vertices.
+/// Maximum number of array bytes per triangle, reached while normals are computed for triangles
+/// that share no vertices.
 const ARRAY_BYTES: u64 = 140;
 
 /// Number of bytes to read at a time: 1,024 triangles.
@@ -35,12 +35,12 @@ pub(super) struct BinaryFile<'a> {
 
 /// Reads a binary file.
 ///
-/// The header declares the number of triangles, which is limited by the available bytes. Programs
-/// that cannot seek back to write it leave 0; all triangles are then read.
+/// The header declares the number of triangles, which must fit in the available bytes. Programs
+/// that cannot seek back to write this number leave it at 0; all triangles are then read.
 ///
 /// # Errors
-/// Fails if the file is too short for its triangles, too large for the budget, or cannot be read to
-/// its end.
+/// Fails if the file is too short for its triangles or too large for the budget, or if it cannot be
+/// read to its end.
 pub(super) fn read_solid(
     file: BinaryFile<'_>,
     budget: &MemoryBudget<'_>,
@@ -81,14 +81,14 @@ fn corners(facet: &[u8; TRIANGLE_BYTES]) -> [[f32; 3]; 3] {
     })
 }
 
-/// Returns the error for a file that ends or fails while it is read.
+/// Returns the error for a file that cannot be read to its end.
 fn unreadable_body(triangle: usize, error: &std::io::Error) -> Diagnostic {
     let location = format!("byte {}", HEADER_BYTES + triangle * TRIANGLE_BYTES);
     let message = format!("cannot read the rest of the file: {error}");
     Diagnostic::error(codes::IO_ERROR, &location, message, "copy or export it again")
 }
 
-/// Returns the number of triangles to read: the number in the header, compared with the file
+/// Returns the number of triangles to read, after comparing the number in the header with the file
 /// length.
 fn count_triangles(
     header: &[u8; HEADER_BYTES],
@@ -117,7 +117,7 @@ fn count_triangles(
     Ok(declared)
 }
 
-/// Returns the error for a file that is not text and too short to be binary.
+/// Returns the error for a file that is neither text nor long enough to be binary.
 pub(super) fn no_stl(bytes: &[u8]) -> Diagnostic {
     let message = match bytes.len() {
         0 => "the file is empty".to_owned(),

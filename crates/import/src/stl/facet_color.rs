@@ -23,7 +23,7 @@ pub(super) struct FacetColors {
     /// The color of each triangle, with red in the upper bits, or [`DEFAULT_CODE`]. Triangles after
     /// the last colored triangle are not listed.
     codes: Vec<u16>,
-    /// Whether any facet has bits other than 0.
+    /// Whether any facet has a nonzero attribute.
     has_attributes: bool,
 }
 
@@ -37,7 +37,7 @@ impl FacetColors {
         Self { header, ..Self::default() }
     }
 
-    /// Records the attribute of the next triangle that is not skipped.
+    /// Records the attribute of the triangle that was added last.
     #[inline]
     pub(super) fn record(&mut self, triangle: usize, attribute: u16) {
         if attribute == 0 && self.header.is_none() {
@@ -55,10 +55,10 @@ impl FacetColors {
         }
     }
 
-    /// Sets the vertex colors of a primitive to the colors of its triangles. Vertices between
+    /// Sets the vertex colors of a primitive to the colors of its triangles. Vertices shared by
     /// triangles of different colors are split. Without colors, the primitive is unchanged.
     ///
-    /// Some programs write a color in the header and 0 in all facets, which would be black. Those
+    /// Some programs write a color in the header and 0, the code for black, in all facets. Such
     /// facets get the color in the header.
     pub(super) fn apply_to(mut self, primitive: &mut Primitive) {
         if !self.has_attributes {
@@ -86,7 +86,7 @@ impl FacetColors {
     }
 }
 
-/// Splits vertices between triangles with different codes, and returns the code of each vertex.
+/// Splits vertices shared by triangles with different codes, and returns the code of each vertex.
 fn split_vertices(primitive: &mut Primitive, codes: &[u16]) -> Vec<u16> {
     let Primitive { indices, positions, normals, .. } = primitive;
     let mut of_vertex: Vec<Option<u16>> = vec![None; positions.len()];

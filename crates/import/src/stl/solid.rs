@@ -1,4 +1,4 @@
-//! Solids: the triangles of one surface with welded vertices.
+//! STL solids: triangles with welded vertices.
 
 use super::facet_color::FacetColors;
 use crate::polygons::{CreaseNormals, Smoothing, VertexWelder};
@@ -6,7 +6,7 @@ use files::counted;
 use gltf_import::ImportWarnings;
 use model::Primitive;
 
-/// The maximum number of pending triangles, whose vertices have not been welded.
+/// Number of pending triangles at which their corners are welded.
 const WAITING_TRIANGLES: usize = 64;
 
 /// A solid of an STL file that is being read.
@@ -14,11 +14,11 @@ const WAITING_TRIANGLES: usize = 64;
 pub(super) struct Solid {
     /// The name after `solid`, if the file is text.
     pub(super) name: Option<String>,
-    /// Vertices of the triangles, except for pending triangles.
+    /// Vertex indices of the triangles that are not pending.
     triangles: Vec<[u32; 3]>,
     /// Corners of the pending triangles, which are welded as a batch.
     waiting: Vec<[f32; 3]>,
-    /// The vertices.
+    /// The welder, which holds the vertices.
     welder: VertexWelder,
     /// Colors of the triangles, if the file has any.
     pub(super) colors: FacetColors,
@@ -29,8 +29,8 @@ pub(super) struct Solid {
 }
 
 impl Solid {
-    /// Creates a solid with space for a number of triangles. A closed surface has half as many
-    /// vertices.
+    /// Creates a solid with space for a number of triangles. A closed surface has about half as
+    /// many vertices as triangles.
     pub(super) fn with_capacity(triangles: usize) -> Self {
         Self {
             triangles: Vec::with_capacity(triangles),
@@ -82,7 +82,7 @@ impl Solid {
         }
     }
 
-    /// Builds the primitive, with normals by crease angle and vertices split between colors.
+    /// Builds the primitive: computes normals by crease angle, and splits vertices between colors.
     pub(super) fn into_primitive(mut self, crease_degrees: f64) -> Primitive {
         self.weld_waiting();
         let mut positions = self.welder.into_positions();

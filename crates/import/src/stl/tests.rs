@@ -1,4 +1,4 @@
-//! Tests of STL files in every form, valid and broken, and the resulting models.
+//! Tests of the STL importer with valid and broken files of both forms.
 
 use super::*;
 use crate::load_bytes;
@@ -18,13 +18,13 @@ fn binary(header: &[u8], triangles: &[([[f32; 3]; 3], u16)]) -> Vec<u8> {
     file
 }
 
-/// Two triangles of a square, which share two vertices.
+/// The two triangles of a square; they share two vertices.
 const SQUARE: [[[f32; 3]; 3]; 2] = [
     [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]],
     [[-0.0, 0.0, 0.0], [1.0, 1.0, -0.0], [0.0, 1.0, 0.0]],
 ];
 
-/// Returns the square as text with these line ends.
+/// Returns the square as text with this line end.
 fn ascii(end: &str) -> String {
     let facet = |corners: [[f32; 3]; 3]| {
         let vertex = |[x, y, z]: [f32; 3]| format!("vertex {x:e} {y} {z:.3}{end}");
@@ -136,7 +136,7 @@ fn a_surface_without_area_causes_a_warning() {
 }
 
 #[test]
-fn a_distant_triangle_is_read() {
+fn a_huge_triangle_is_read() {
     let far = SQUARE[0].map(|corner| corner.map(|x| x * 1e30));
     let model = read(&binary(b"", &[(far, 0)]));
     assert_eq!(model.bounds().unwrap().max().raw().x, f64::from(1e30_f32));
@@ -163,7 +163,7 @@ fn truncated_files_are_errors_or_read_leniently() {
         assert!(!model.warnings.is_empty());
     }
     let model = read(text.strip_suffix("endsolid the part").unwrap().as_bytes());
-    let message = "the last solid has no end; the file may be truncated";
+    let message = "the last solid lacks endsolid; the file may be truncated";
     assert_eq!(model.warnings[0].sentence(), format!("line 16, column 1: {message}"));
 }
 
@@ -216,7 +216,7 @@ fn unexpected_words_are_reported_with_a_location() {
     }
 }
 
-/// Returns the linear colors of the two triangles of a square.
+/// Returns the linear colors of the square's two triangles, if the file has colors.
 fn colors(header: &[u8], attributes: [u16; 2]) -> Option<[[f32; 4]; 2]> {
     let facets = [(SQUARE[0], attributes[0]), (SQUARE[1], attributes[1])];
     let model = read(&binary(header, &facets));

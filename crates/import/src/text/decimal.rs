@@ -1,8 +1,7 @@
 //! Decimal number parsing: correctly rounded, and fast for numbers with few digits.
 //!
 //! An integer of at most 2⁵³ and a power of ten of at most 10²² are both exact, so their product or
-//! quotient has a single rounding, as IEEE 754 requires (Clinger 1990). The standard library parses
-//! all other numbers.
+//! quotient is rounded only once (Clinger 1990). The standard library parses all other numbers.
 
 /// Powers of ten that doubles represent exactly.
 const POWERS_OF_TEN: [f64; 23] = [
@@ -109,7 +108,7 @@ fn scan_decimal(text: &[u8]) -> Option<(f64, usize)> {
         let sign = text.get(at).copied();
         at += usize::from(matches!(sign, Some(b'-' | b'+')));
         let (start, mut exponent) = (at, 0);
-        // A fourth digit remains, so no token ends here.
+        // A fourth digit is not consumed, so the callers see that the token is longer.
         while let Some(digit) = digit_at(at).filter(|_| at < start + 3) {
             exponent = 10 * exponent + i32::from(digit);
             at += 1;
@@ -190,7 +189,7 @@ mod tests {
             let expected = (expected.to_bits(), text.len());
             assert!(simple.is_none_or(|(x, length)| (x.to_bits(), length) == expected), "{text}");
         }
-        // Halfway between two floats when rounded to a double, but not exactly: 1 + 2⁻²⁴ + 2⁻⁶⁰.
+        // 1 + 2⁻²⁴ + 2⁻⁶⁰ is halfway between two floats only after rounding to a double.
         let text = "1.000000059604644776258";
         assert_eq!((text.parse::<f64>().unwrap() as f32).to_bits(), 1f32.to_bits());
         assert_eq!(parse_f32(text.as_bytes()).unwrap().to_bits(), 1f32.to_bits() + 1);
@@ -211,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn other_spellings_are_accepted() {
+    fn fortran_and_microsoft_spellings_are_accepted() {
         assert_eq!(parse_f64(b"1.5D+2"), Some(150.0));
         assert!(parse_f64(b"-1.#IND").unwrap().is_nan());
         assert!(parse_f64(b"nan(ind)").unwrap().is_nan());

@@ -4,9 +4,8 @@ use std::borrow::Cow;
 
 /// Returns the text of a file in UTF-8, without a byte order mark.
 ///
-/// UTF-16 is recognized by its byte order mark, and invalid characters become U+FFFD. Bytes without
-/// such a mark are not changed, because names may be in any encoding, and keywords and numbers are
-/// ASCII.
+/// UTF-16 is recognized by its byte order mark, and invalid characters become U+FFFD. Text without
+/// such a mark is not changed: names may be in any encoding, but keywords and numbers are ASCII.
 pub(crate) fn decode_text(bytes: &[u8]) -> Cow<'_, [u8]> {
     match bytes {
         [0xEF, 0xBB, 0xBF, text @ ..] => Cow::Borrowed(text),

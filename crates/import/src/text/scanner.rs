@@ -74,7 +74,7 @@ impl<'a> TextScanner<'a> {
         Some(number)
     }
 
-    /// Skips white space, and returns the offset of the next byte.
+    /// Returns the offset of the next byte that is not white space.
     #[inline]
     fn skip_space(&self) -> usize {
         let mut start = self.at;
@@ -117,7 +117,7 @@ impl<'a> Token<'a> {
         Self { bytes: &self.bytes[start..end], offset: self.offset + start }
     }
 
-    /// Returns whether this is the given lowercase keyword, ignoring case.
+    /// Returns whether this is the keyword, in upper or lower case.
     pub(crate) fn is_keyword(self, keyword: &str) -> bool {
         self.bytes.eq_ignore_ascii_case(keyword.as_bytes())
     }
@@ -145,8 +145,8 @@ impl<'a> LineCounter<'a> {
         Self { text, at: 0, line: 1, line_start: 0 }
     }
 
-    /// Returns the location of an offset as `line 12, column 5`. Both count from 1, columns in
-    /// bytes.
+    /// Returns the location of an offset as `line 12, column 5`. Both count from 1, and columns
+    /// count bytes.
     pub(crate) fn locate(&mut self, offset: usize) -> String {
         if offset < self.at {
             *self = Self::new(self.text);

@@ -83,8 +83,8 @@ impl<'a> Archive<'a> {
     /// Reads the content of an entry.
     ///
     /// # Errors
-    /// Fails if the entry is encrypted, broken, larger than the budget, or uses an unsupported
-    /// compression method.
+    /// Fails if the entry is encrypted, broken or larger than the budget, or if it uses an
+    /// unsupported compression method.
     pub(super) fn read_entry(
         &self,
         entry: &Entry,
@@ -218,7 +218,8 @@ fn read_entry(bytes: &[u8], at: usize) -> Option<(Entry, usize)> {
     Some((entry, at + extra_at + extra_length + comment_length))
 }
 
-/// Reads 32-bit fields. If all bits of a field are set, its value is in the extra field numbered 1.
+/// Returns the values of 32-bit fields. A field whose bits are all set has its value in the extra
+/// field with id 1.
 fn zip64_fields(fields: [u32; 3], mut extra: &[u8]) -> Option<[u64; 3]> {
     let mut wide: &[u8] = &[];
     while let (Some(id), Some(length)) = (read_u16(extra, 0), read_u16(extra, 2)) {

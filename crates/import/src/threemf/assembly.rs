@@ -43,7 +43,7 @@ struct AssemblyObject {
     /// Index of the object's mesh in the model, if it has one.
     mesh: Option<usize>,
     components: Vec<Placement>,
-    /// Whether the object's components have been counted or are being counted.
+    /// How far the object's nodes have been counted.
     progress: Progress,
     /// Number of nodes for the object and everything below it.
     nodes: u64,
@@ -82,7 +82,7 @@ impl Assembly {
     /// skipped.
     ///
     /// # Errors
-    /// Fails if there is no such object. In lenient mode the reference is skipped.
+    /// Fails if a referenced object does not exist. In lenient mode the reference is skipped.
     pub(super) fn resolve(
         &mut self,
         references: &[ObjectReference],
@@ -121,7 +121,7 @@ impl Assembly {
         self.objects[object].mesh = Some(mesh);
     }
 
-    /// Returns whether an object is built; valid after [`Self::count_nodes`].
+    /// Returns whether an object is built; [`Self::count_nodes`] must have been called.
     pub(super) fn is_built(&self, object: usize) -> bool {
         self.objects[object].progress == Progress::Counted
     }
@@ -139,7 +139,7 @@ impl Assembly {
     /// Counts the nodes that the items will have, before any node is created.
     ///
     /// # Errors
-    /// Fails if an object contains itself (in lenient mode, that reference is skipped), or there
+    /// Fails if an object contains itself (in lenient mode, that reference is skipped), or if there
     /// are more nodes or levels than the limits allow.
     pub(super) fn count_nodes(
         &mut self,
@@ -223,7 +223,7 @@ impl Assembly {
         object.progress = Progress::Counted;
     }
 
-    /// Creates the nodes of the items. Several items get a common root.
+    /// Creates the nodes of the items. They get a common root unless there is exactly one item.
     ///
     /// # Errors
     /// Fails if a product of transforms overflows. In lenient mode the node gets its parent's

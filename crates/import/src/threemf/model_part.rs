@@ -11,7 +11,7 @@ use gltf_import::ImportWarnings;
 use homog::{Affine, Model as ModelSpace};
 use model::{Diagnostic, LengthUnit, Material};
 
-/// Memory for an object without its mesh and components; it may exceed the length of the tags.
+/// Memory for an object without its mesh and components. The object's tags may be shorter.
 const OBJECT_BYTES: u64 = 256;
 
 /// A reference to an object: an item to build, or a component of an object.
@@ -21,7 +21,7 @@ pub(super) struct ObjectReference {
     pub(super) path: Option<String>,
     /// The id of the object in its part.
     pub(super) id: u32,
-    /// The transform from object coordinates to the coordinates of the reference.
+    /// The transform from the object's coordinates to its parent's.
     pub(super) transform: Affine<ModelSpace, ModelSpace>,
     /// Location of the reference, for messages.
     pub(super) location: String,
@@ -48,7 +48,7 @@ pub(super) struct PartReader<'a, 'w> {
     package: &'w Package<'w>,
     pub(super) palette: &'w mut Palette,
     pub(super) warnings: &'w mut ImportWarnings,
-    /// The subjects of the warnings so far, so that each is reported once.
+    /// The subjects that have had a warning, so that each is reported once.
     said: Vec<&'static str>,
 }
 
@@ -254,7 +254,8 @@ impl<'a, 'w> PartReader<'a, 'w> {
                 Some(None) => {
                     let message = "the transform must be twelve finite numbers";
                     let fault = Diagnostic::invalid(&location, message);
-                    self.warnings.downgrade_if_lenient(fault, "it is shown without a transform")?;
+                    self.warnings
+                        .downgrade_if_lenient(fault, "the object is shown without a transform")?;
                     Affine::IDENTITY
                 }
             };

@@ -32,7 +32,7 @@ const EXTENSIONS: [(&str, &str, Support); 11] = [
     ("3dmanufacturing/securecontent/", "secure content (encryption)", Support::Refused),
 ];
 
-/// The prefixes of a model part.
+/// The namespaces that a model part declares.
 #[derive(Debug, Default)]
 pub(super) struct Namespaces<'a> {
     /// Each prefix with its URI.
@@ -47,11 +47,11 @@ impl<'a> Namespaces<'a> {
             (b"", b"xmlns") => Some((&b""[..], uri)),
             _ => None,
         });
-        // A part has only a few prefixes; more would make each lookup slow.
+        // A part has only a few prefixes; a long list would make each lookup slow.
         Self { prefixes: declared.take(64).collect() }
     }
 
-    /// Returns the name of a prefix's namespace for messages, and its level of support. Elements
+    /// Returns the name, for messages, and the level of support of a prefix's namespace. Elements
     /// with an undeclared prefix are read.
     pub(super) fn support_of(&self, prefix: &[u8]) -> (&'static str, Support) {
         let Some(uri) = self.prefixes.iter().find(|(p, _)| *p == prefix).map(|(_, uri)| *uri)
@@ -63,7 +63,7 @@ impl<'a> Namespaces<'a> {
         known.map_or(("", Support::Ignored), |&(_, name, support)| (name, support))
     }
 
-    /// Returns whether elements with a prefix are read.
+    /// Returns whether an element is read, which depends on its prefix.
     pub(super) fn is_read(&self, element: &Element<'_>) -> bool {
         // This is a fast path: every element is checked here, and most have no prefix.
         element.prefix().is_empty() || self.support_of(element.prefix()).1 == Support::Read
@@ -80,7 +80,7 @@ impl<'a> Namespaces<'a> {
         warnings: &mut ImportWarnings,
     ) -> Result<(), Diagnostic> {
         let required = root.text_attribute("requiredextensions").unwrap_or_default();
-        // Each prefix may cause a warning, so their number is limited.
+        // Each prefix may cause a warning, so the number of prefixes is limited.
         for prefix in required.split_ascii_whitespace().take(64) {
             let (name, support) = self.support_of(prefix.as_bytes());
             match support {
@@ -99,7 +99,7 @@ impl<'a> Namespaces<'a> {
                     warnings.downgrade_if_lenient(fault, "it is ignored")?;
                 }
                 Support::LeftOut => {
-                    let message = format!("the file requires {name}; this part is skipped");
+                    let message = format!("skipped {name}, which the file requires");
                     warnings.push_warning(location, message);
                 }
                 _ => {}

@@ -11,7 +11,7 @@ use gltf_import::ImportWarnings;
 use model::{Diagnostic, Mesh, Primitive};
 use std::collections::BTreeMap;
 
-/// Marks a property that a triangle does not specify.
+/// Marks a vertex or property that a triangle does not specify.
 const NONE: u32 = u32::MAX;
 
 /// An object.
@@ -40,7 +40,7 @@ pub(super) struct ObjectContent {
     pub(super) components: Vec<ObjectReference>,
 }
 
-/// The triangles of an object.
+/// The mesh of an object.
 #[derive(Debug, Default)]
 pub(super) struct ObjectMesh {
     positions: Vec<[f32; 3]>,
@@ -57,7 +57,7 @@ struct TriangleProperties {
 }
 
 impl TriangleProperties {
-    /// No properties.
+    /// The properties of a triangle that specifies none.
     const NONE: Self = Self { group: NONE, indices: [NONE; 3] };
 }
 
@@ -79,8 +79,7 @@ impl PartReader<'_, '_> {
         Ok(mesh)
     }
 
-    /// Reads the vertices. In lenient mode, a vertex without finite coordinates still takes an
-    /// index.
+    /// Reads the vertices. In lenient mode, a vertex without finite coordinates keeps its index.
     fn read_vertices(&mut self, mesh: &mut ObjectMesh) -> Result<(), Diagnostic> {
         let depth = self.xml.depth();
         while let Some(vertex) = self.xml.next_child(depth)? {
@@ -126,7 +125,7 @@ impl PartReader<'_, '_> {
             if !corners.iter().filter_map(position).all(is_finite) {
                 continue;
             }
-            // Most meshes have no properties, so the list begins at the first triangle that has
+            // Most meshes have no properties, so the list is created at the first triangle that has
             // any.
             if properties.group != NONE || properties.indices[0] != NONE {
                 mesh.properties.resize(mesh.triangles.len(), TriangleProperties::NONE);
@@ -140,7 +139,7 @@ impl PartReader<'_, '_> {
         Ok(())
     }
 
-    /// Returns the vertices and properties of a triangle, with [`NONE`] for any it does not
+    /// Returns the vertices and properties of a triangle, with [`NONE`] for any that it does not
     /// specify.
     fn parse_triangle(&mut self, element: &Element<'_>) -> ([u32; 3], TriangleProperties) {
         let (mut corners, mut properties) = ([NONE; 3], TriangleProperties::NONE);
@@ -190,7 +189,7 @@ impl ObjectMesh {
         warnings: &mut ImportWarnings,
     ) -> Mesh {
         let Self { mut positions, triangles, properties } = self;
-        // No triangle uses these positions, but bounds are computed from all of them.
+        // No triangle uses these positions, but bounds are computed from all positions.
         for position in positions.iter_mut().filter(|position| !is_finite(position)) {
             *position = [0.0; 3];
         }
@@ -248,7 +247,7 @@ struct PropertyLookup<'a> {
 struct PropertySummary {
     /// The materials that the triangles use, in order of first use.
     numbers: Vec<u32>,
-    /// The index of each triangle's material in that list; empty if there is only one material.
+    /// The index of each triangle's material in `numbers`; empty if there is only one material.
     materials: Vec<u32>,
     has_uvs: bool,
     has_colors: bool,
@@ -279,7 +278,7 @@ impl PropertyLookup<'_> {
         let (mut numbers, mut number_of) = (Vec::new(), BTreeMap::new());
         let (mut has_uvs, mut has_colors, mut missing) = (false, false, 0);
         let mut materials = Vec::new();
-        // If no triangle specifies properties, all are like the first.
+        // If no triangle specifies properties, all have the same, so the first is enough.
         let distinct = if self.properties.is_empty() { triangles.min(1) } else { triangles };
         for triangle in 0..distinct {
             let mut first = None;

@@ -12,7 +12,7 @@ use model::{Diagnostic, codes};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// The end of the relationship type for the model; the part before it contains the year.
+/// The end of the relationship type for the model. The rest varies, because it contains a year.
 const MODEL_RELATIONSHIP: &str = "/3dmodel";
 
 /// The parts of a 3MF file.
@@ -62,7 +62,7 @@ impl<'a> Package<'a> {
         self.find_part(name).map(|entry| entry.name.as_str())
     }
 
-    /// Reads the content of a part. `location` is where the file refers to it.
+    /// Reads the content of a part. `location` is where the file refers to the part.
     ///
     /// # Errors
     /// Fails if there is no such part, or it cannot be read.

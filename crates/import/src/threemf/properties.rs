@@ -128,8 +128,8 @@ fn white() -> Material {
     Material { base_color: [1.0; 4], ..Material::plain() }
 }
 
-/// Parses `#RRGGBB` or `#RRGGBBAA`. An alpha of 0 is read as 1, which is what programs that write
-/// it intend, because invisible parts are never printed.
+/// Parses `#RRGGBB` or `#RRGGBBAA`. An alpha of 0 is read as 1: programs that write it mean opaque,
+/// because invisible parts are never printed.
 pub(super) fn parse_color(text: &[u8]) -> Option<[f32; 4]> {
     let digits = text.strip_prefix(b"#")?;
     if !matches!(digits.len(), 6 | 8) {
@@ -182,7 +182,7 @@ pub(super) enum OpenGroup {
 /// A layer of multiproperties.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Layer {
-    /// The group.
+    /// Id of the layer's group.
     id: u32,
     /// Whether the layer multiplies the layers below instead of covering them.
     multiplies: bool,
@@ -378,7 +378,7 @@ impl OpenGroup {
             Self::Color => Some(colored(parse_color(element.attribute("color")?)?, palette)),
             Self::Texture { material } => {
                 let [u, v] = [parse_number(element, "u")?, parse_number(element, "v")?];
-                // In 3MF files v = 0 is at the bottom, in glTF at the top.
+                // v = 0 is at the bottom in 3MF, but at the top in glTF.
                 Some(Property { material: *material, color: [1.0; 4], uv: [u, 1.0 - v] })
             }
             Self::Composite { bases } => {

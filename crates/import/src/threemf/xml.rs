@@ -28,7 +28,7 @@ pub(super) struct XmlReader<'a> {
     at: usize,
     /// Names of the open elements.
     open: Vec<&'a [u8]>,
-    /// Whether the last element was empty, so that it ends next, without an end tag.
+    /// Whether the last tag was an empty-element tag, so that its element ends next.
     closes_next: bool,
     /// The name of the document, which precedes every location.
     document: &'a str,
@@ -36,7 +36,7 @@ pub(super) struct XmlReader<'a> {
     lines: RefCell<LineCounter<'a>>,
 }
 
-/// A tag.
+/// A tag. An empty-element tag counts as a start tag and an end tag.
 enum Tag<'a> {
     Start(Element<'a>),
     End,

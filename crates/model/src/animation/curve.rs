@@ -50,8 +50,8 @@ pub enum Interpolation {
 impl AnimationCurve {
     /// Returns the value at a time in seconds.
     ///
-    /// A rotation is a quaternion of any nonzero length. Halfway between two opposite quaternions,
-    /// which have no shorter arc, it is 0.
+    /// A rotation is a quaternion of any length. A cubic spline between two opposite quaternions
+    /// may even pass through 0.
     ///
     /// The keyframe is found by binary search in O(log n). A time at or after the last keyframe
     /// gives the last value.
@@ -108,7 +108,7 @@ fn weighted_sum(rows: &[(f64, Vec<f64>)]) -> Vec<f64> {
 /// Interpolates spherically along the shorter arc (Shoemake 1985), at `t` in [0, 1].
 ///
 /// Both quaternions are normalized first, because files contain rounded values. If the dot product
-/// is negative, the second is negated, which is the same rotation along the shorter arc.
+/// is negative, negating the second gives the shorter arc to the same rotation.
 fn slerp(from: &[f64], to: &[f64], t: f64) -> Vec<f64> {
     let unit = |q: &[f64]| {
         let length = libm::sqrt(q.iter().map(|x| x * x).sum());
@@ -175,7 +175,7 @@ mod tests {
 
     #[test]
     fn splines_reproduce_cubic_polynomials() {
-        // x³ has slopes 3 and 27 at 1 and 3; the outer tangents are never read.
+        // x³ has slope 3 at 1 and 27 at 3; the outer tangents are never read.
         let keys = [99.0, 1.0, 3.0, 27.0, 27.0, 99.0];
         let spline = curve(Interpolation::CubicSpline, &[1.0, 3.0], &keys, 1);
         for x in [1.0, 1.25, 2.0, 2.75, 3.0] {

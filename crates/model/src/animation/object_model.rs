@@ -43,7 +43,7 @@ pub struct PropertyRow<T> {
     pub numbers_mut: fn(&mut T) -> Option<&mut [f32]>,
 }
 
-/// Creates a row of a property table, with the arguments in the order of the figure above.
+/// Creates a row of a property table, with the arguments in the order of the module's figure.
 const fn property_row<T>(
     path: &'static str,
     width: usize,
@@ -221,8 +221,8 @@ impl Material {
         self.update_derived();
     }
 
-    /// Recomputes dependent fields: the emitted radiance, a valid index of refraction, and the
-    /// metallic-roughness approximation of specular-glossiness.
+    /// Recomputes the emitted radiance and the metallic-roughness approximation of
+    /// specular-glossiness, and makes the index of refraction valid.
     pub fn update_derived(&mut self) {
         self.emissive = self.emission.scaled_color();
         if self.extensions.ior > 0.0 {
@@ -344,7 +344,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_stay_within_bounds_and_consistent() {
+    fn properties_are_clamped_and_dependent_fields_updated() {
         let mut material = Material::default();
         let field = |path| match ObjectProperty::for_material(path) {
             Some(ObjectProperty::Material(row_index)) => row_index,

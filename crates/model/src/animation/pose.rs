@@ -14,7 +14,7 @@ impl Model {
     /// Sets the model to the pose of an animation at a time in seconds.
     ///
     /// Anything that the animation does not target is unchanged, as are nodes whose transforms
-    /// would overflow. An out-of-range index is ignored. Times outside the animation give its first
+    /// would overflow. An unknown animation is ignored. Times outside the animation give its first
     /// or last pose; to loop, pass the time modulo [`Animation::duration_seconds`].
     ///
     /// ```
@@ -37,8 +37,8 @@ impl Model {
 
     /// Sets the target of a channel to a value.
     ///
-    /// Indices out of range are ignored, because programs can also build models. If a node has no
-    /// weights, they start from the weights of its mesh.
+    /// Indices out of range are ignored, because a model built in code has not been checked. If a
+    /// node has no weights, they start from the weights of its mesh.
     fn apply_channel(&mut self, target: AnimationTarget, value: &[f64]) {
         match target {
             AnimationTarget::Node { node, property } => {
@@ -131,7 +131,7 @@ impl Model {
 
 /// Sets one weight or all weights.
 ///
-/// The list grows with zeros if the target is beyond its end.
+/// If the target is beyond the end of the list, zeros are added first.
 fn set_morph_weights(weights: &mut Vec<f32>, target: Option<usize>, value: &[f64]) {
     match (target, value) {
         (None, all) => *weights = all.iter().map(|&weight| weight as f32).collect(),

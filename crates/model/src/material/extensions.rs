@@ -1,10 +1,10 @@
 //! KHR_materials extensions: clearcoat, sheen, transmission, volume, iridescence, anisotropy and
 //! more.
 //!
-//! Each extension has one record, which is absent if the file does not use the extension. Names,
-//! units and texture channels follow the extensions' specifications. Factors are linear, and a
-//! texture multiplies the factor of the same name. Records are boxed because most materials have
-//! none.
+//! Each extension with several parameters has a record, which is absent if the material does not
+//! use the extension. Names, units and texture channels follow the extensions' specifications.
+//! Factors are linear, and a texture multiplies the factor of the same name. Records are boxed
+//! because most materials have none.
 
 use crate::{NormalTexture, TextureInfo};
 
@@ -110,7 +110,7 @@ pub struct Sheen {
 
 /// Light that passes through the surface, tinted by the base color (KHR_materials_transmission).
 ///
-/// Roughness scatters the light. With the thickness of [`Volume`], it is refracted.
+/// Roughness scatters this light, and the thickness of a [`Volume`] refracts it.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Transmission {
     /// Fraction of the unreflected light that is transmitted, in [0, 1]. Default: 0.

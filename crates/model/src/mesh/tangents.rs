@@ -21,8 +21,8 @@ impl Primitive {
     ///
     /// `uv_set` is the texture coordinate set that the normal map uses. Flat normals replace
     /// missing normals. Returns `None` for points and lines, for a missing set, and for shapes that
-    /// the algorithm rejects. The result for the first requested set is cached with the primitive,
-    /// so that all frames of an animation share it.
+    /// the algorithm rejects. The result for the first requested set is cached in the primitive, so
+    /// that all frames of an animation share it.
     #[must_use]
     pub fn mikktspace_tangents(&self, uv_set: usize) -> Option<Cow<'_, [[f32; 4]]>> {
         let (cached_set, cached) =
@@ -49,7 +49,7 @@ impl Primitive {
 
 /// An adapter that presents a primitive to `bevy_mikktspace` and collects its tangents.
 ///
-/// The algorithm calls it for each corner of each face.
+/// The algorithm calls its methods for each corner of each face.
 struct MikktspaceInput<'a> {
     /// The triangles, whose indices are valid.
     primitive: &'a Primitive,
@@ -140,13 +140,13 @@ mod tests {
         // cross(normal, tangent) · w must point in the direction in which v decreases (glTF 2.0
         // §3.7.2.1, §3.9.3).
         for (uvs, tangent) in [
-            // Unchanged: u increases along x, v decreases along y.
+            // Unchanged: u increases along x, and v decreases along y.
             ([[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]], [1.0, 0.0, 0.0, 1.0]),
             // Mirrored: u decreases along x.
             ([[1.0, 1.0], [0.0, 1.0], [0.0, 0.0], [1.0, 0.0]], [-1.0, 0.0, 0.0, -1.0]),
             // Upside down.
             ([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], [1.0, 0.0, 0.0, -1.0]),
-            // A quarter turn: u increases along y, v decreases along −x.
+            // A quarter turn: u increases along y, and v decreases along −x.
             ([[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]], [0.0, 1.0, 0.0, 1.0]),
         ] {
             let square = textured_square(uvs);

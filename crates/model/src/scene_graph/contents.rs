@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use homog::{Bounds, Model as ModelSpace, Point};
 
 impl Model {
-    /// Returns the primitives of the active scene, once per instance of their mesh.
+    /// Returns the primitives of the active scene, each once per instance of its mesh.
     pub fn scene_primitives(&self) -> impl Iterator<Item = (MeshInstance, &Primitive)> {
         self.primitives_below(&self.roots)
     }

@@ -13,10 +13,11 @@ use crate::page::Ink;
 /// The color that contrasts with the screen.
 const CONTRAST: u8 = 7;
 
-/// Inks whose channels differ by less than this are gray. Grays darker or lighter than the limits
-/// below become black or white.
+/// Inks whose channels differ by less than this are gray.
 const MAX_GRAY_SPREAD: u8 = 32;
+/// Grays with all channels below this become black.
 const MAX_BLACK: u8 = 64;
+/// Grays with all channels above this become white.
 const MIN_WHITE: u8 = 224;
 
 /// Returns the index of the color nearest to an ink. Grays stay gray, even if a brown of the same
@@ -56,8 +57,7 @@ fn index_color(index: u8) -> Ink {
     }
 }
 
-/// Returns the color of a hue: 15 degrees per ten indices, with five values in two saturations
-/// each.
+/// Returns a hue color by its index minus 10: ten per hue, in five values and two saturations.
 fn hue_color(number: u32) -> Ink {
     let value = [255, 189, 129, 104, 79][(number % 10 / 2) as usize];
     let (sector, quarter) = (number / 10 / 4, number / 10 % 4);

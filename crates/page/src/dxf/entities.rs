@@ -142,7 +142,7 @@ impl EntityWriter {
         }
     }
 
-    /// Writes the center and the radius.
+    /// Writes the center and the radius of a circle.
     fn write_circle(&mut self, circle: Circle) {
         let (center, radius) = (self.place_exactly(circle.center), self.length(circle.radius));
         self.tags.point_in_space(10, center);
@@ -243,15 +243,15 @@ impl EntityWriter {
         self.include(placed);
     }
 
-    /// Writes the pattern of a hatch, one family of continuous lines.
+    /// Writes the pattern of a hatch: one family of parallel continuous lines.
     fn write_pattern(&mut self, area: &HatchArea) {
         let along = DVec2::new(area.direction.x, -area.direction.y);
-        // The angle is rounded, because a view's size in pixels is rounded, so its scales in x and
-        // y differ slightly.
+        // The angle is rounded, because a view's scales in x and y differ slightly: its size is
+        // rounded to whole pixels.
         let angle = degrees_within(libm::atan2(along.y, along.x), 180.0, 1e5);
         let spacing = area.spacing * self.options.units_per_millimeter;
-        // A predefined pattern, rotated and scaled. Its lines rise at 45° with a spacing of 3.175
-        // mm.
+        // The lines of the predefined pattern rise at 45° with a spacing of 3.175 mm, so it is
+        // rotated and scaled.
         self.tags.tag(76, 1);
         self.tags.number(52, if angle < 45.0 { angle + 135.0 } else { angle - 45.0 });
         self.tags.number(41, spacing / 3.175);

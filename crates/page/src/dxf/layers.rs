@@ -3,7 +3,7 @@
 //! ```text
 //!   page layer          object        file layer
 //!   visible-crease      shaft         visible-crease.shaft
-//!   visible-crease      shaft         visible-crease.shaft      shared by objects with one name
+//!   visible-crease      shaft         visible-crease.shaft      shared by objects of that name
 //!   dimensions                        dimensions
 //! ```
 //!
@@ -196,7 +196,7 @@ mod tests {
     use glam::DVec2;
 
     #[test]
-    fn names_are_limited_to_what_the_format_allows() {
+    fn layer_names_fit_the_format() {
         assert_eq!(layer_name("cut-lines", ""), "cut-lines");
         assert_eq!(layer_name("a", "Welle Ø 12/3"), "a.Welle \\U+00D8 12_3");
         assert_eq!(layer_name("a", "x\n<y>\u{1f600} "), "a.x__y_?");

@@ -1,4 +1,4 @@
-//! Reads DXF files back tag by tag.
+//! Tests of DXF output, which is read back tag by tag.
 
 use super::*;
 use crate::page::{Group, GroupContent, HatchArea, Layer, Pen, Polyline};

@@ -1,8 +1,8 @@
-//! Tests of triangulation, which check areas and covered points, not which ears were clipped.
+//! Triangulation tests. They check areas and covered points, not which ears were clipped.
 
 use super::*;
 
-/// Returns the triangles of a polygon, and the outcome of the triangulation.
+/// Triangulates a polygon, and returns its triangles and its kind.
 fn triangulate(corners: &[[f32; 3]]) -> (Vec<[u32; 3]>, PolygonKind) {
     let mut triangles = vec![[9; 3]];
     let kind = Triangulator::default().triangulate(corners, &mut triangles);
@@ -18,7 +18,7 @@ fn doubled_areas(corners: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<f64> {
     triangles.iter().map(area).collect()
 }
 
-/// Returns twice the area of a polygon in the plane z = 0 (the shoelace formula).
+/// Returns twice the signed area of a polygon in the plane z = 0, by the shoelace formula.
 fn doubled_polygon_area(corners: &[[f32; 3]]) -> f64 {
     let edges = corners.iter().zip(corners.iter().cycle().skip(1));
     edges
@@ -26,8 +26,8 @@ fn doubled_polygon_area(corners: &[[f32; 3]]) -> f64 {
         .fold(0.0, |sum, [a, b]| sum + a[0] * b[1] - a[1] * b[0])
 }
 
-/// Checks that a counter-clockwise polygon with small integer coordinates is covered exactly once:
-/// by n − 2 triangles, none of them reversed, with the area of the polygon.
+/// Checks that a counter-clockwise polygon is covered exactly once: by n − 2 triangles, none of
+/// them reversed, whose areas add up to the area of the polygon.
 fn assert_covered(plane: &[[f32; 2]]) -> Vec<[u32; 3]> {
     let corners: Vec<[f32; 3]> = plane.iter().map(|&[x, y]| [x, y, 0.0]).collect();
     let (triangles, kind) = triangulate(&corners);
@@ -103,7 +103,7 @@ const CONCAVE: [&[[f32; 2]]; 6] = [
 ];
 
 #[test]
-fn concave_polygons_are_covered_once_from_every_first_corner() {
+fn concave_polygons_are_covered_once_whichever_corner_is_first() {
     for shape in CONCAVE {
         for first in 0..shape.len() {
             let mut turned = shape.to_vec();
@@ -115,7 +115,7 @@ fn concave_polygons_are_covered_once_from_every_first_corner() {
 
 #[test]
 fn collinear_and_repeated_corners_are_triangulated() {
-    // With corners in the middle of all four edges there are six triangles with nonzero area.
+    // A square with a further corner on each edge becomes six triangles with nonzero area.
     let square = [
         [0.0, 0.0],
         [1.0, 0.0],
@@ -129,8 +129,7 @@ fn collinear_and_repeated_corners_are_triangulated() {
     let corners = square.map(|[x, y]| [x, y, 0.0]);
     let triangles = assert_covered(&square);
     assert!(doubled_areas(&corners, &triangles).iter().all(|area| *area > 0.0));
-    // A corner that occurs twice, one that occurs three times in a row, and a needle that goes out
-    // and back.
+    // A corner that occurs twice, one that occurs three times in a row, and a spike of zero width.
     assert_covered(&[[0.0, 0.0], [2.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]);
     assert_covered(&[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [0.0, 2.0], [0.0, 2.0]]);
     assert_covered(&[[0.0, 0.0], [2.0, 0.0], [5.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]);
@@ -174,7 +173,7 @@ fn triangulation_is_independent_of_pose() {
     let placements: [fn([f32; 2]) -> [f32; 3]; 5] = [
         |[x, y]| [7.0, x, y],
         |[x, y]| [y, 7.0, x],
-        // Slightly nonplanar, tilted, and seen from behind.
+        // The last three: slightly nonplanar, tilted, and seen from behind.
         |[x, y]| [x, y, 0.05 * x * y],
         |[x, y]| [x, y, 0.25 * x],
         |[x, y]| [-x, y, 0.0],
@@ -211,7 +210,7 @@ fn polygons_without_area_become_fans() {
 }
 
 #[test]
-fn large_coordinates_are_triangulated() {
+fn tiny_and_huge_coordinates_are_triangulated() {
     for scale in [1e-30, 1e30_f32] {
         let arrowhead = [[0.0, 0.0], [4.0, 4.0], [0.0, 8.0], [2.0, 4.0]];
         let corners = arrowhead.map(|[x, y]: [f32; 2]| [scale * x, scale * y, 0.0]);
@@ -222,15 +221,15 @@ fn large_coordinates_are_triangulated() {
 
 #[test]
 fn ten_thousand_corners_are_within_the_test_limit() {
-    // A comb with 5,000 teeth, whose ears are all at the tips.
+    // A comb with 2,499 teeth, which has nearly all its ears at the tips of the teeth.
     let comb: Vec<[f32; 2]> = (0..4998)
         .map(|at| [(4998 - at) as f32, if at % 2 == 0 { 100.0 } else { 1.0 }])
         .chain([[0.0, 0.0], [5000.0, 0.0]])
         .collect();
     assert_covered(&comb);
-    // The same comb on its side, so that its teeth are far apart in y, not x.
+    // The same comb on its side, so that its teeth follow one another in y, not x.
     assert_covered(&comb.iter().map(|[x, y]| [y * 0.01, -x]).collect::<Vec<_>>());
-    // A star around the origin: four copies of a quarter turn of integer directions.
+    // A star around the origin, with 5,000 tips.
     let star: Vec<[f32; 2]> = (0..10_000)
         .map(|at| {
             let angle = f64::from(at) * std::f64::consts::TAU / 10_000.0;
