@@ -8,9 +8,9 @@
 //!   optional content groups, one for each layer;  3 document information
 //! ```
 //!
-//! Each page starts by scaling its unit from points to millimeters and flipping y. After that, the
-//! numbers are the same as in the SVG. Layers are optional content groups, which viewers can switch
-//! on and off. Streams are compressed with DEFLATE.
+//! Each page's content starts with a matrix that changes the unit from points to millimeters and
+//! flips y. After that, the coordinates are the same as in the SVG. Layers are optional content
+//! groups, which viewers can switch on and off. Streams are compressed with DEFLATE.
 //!
 //! Text is drawn as strokes, with invisible glyphs over them for searching and copying.
 //!
@@ -30,7 +30,7 @@ use picture::Picture;
 /// Points per millimeter. An inch has 72 points.
 const POINTS_PER_MILLIMETER: f64 = 72.0 / super::page::MILLIMETERS_PER_INCH;
 
-/// The compression level of streams, from 0 to 10; higher levels take longer for little gain.
+/// The compression level of streams (0 to 10). Higher levels are slower for little gain.
 const DEFLATE_LEVEL: u8 = 6;
 
 /// The maximum length of a layer name, in characters.
@@ -131,8 +131,8 @@ fn write_file(pages: &[PageContent<'_>]) -> Vec<u8> {
     pdf.finish()
 }
 
-/// Writes the list of layers to the catalog, in drawing order: `OCProperties` with its required
-/// default configuration `D`.
+/// Writes `OCProperties`, the catalog's list of layers in drawing order, with its required default
+/// configuration `D`.
 fn write_optional_content(catalog: &mut Dict<'_>, layers: impl Iterator<Item = Ref> + Clone) {
     let mut properties = catalog.insert(Name(b"OCProperties")).dict();
     properties.insert(Name(b"OCGs")).array().items(layers.clone());
@@ -140,9 +140,9 @@ fn write_optional_content(catalog: &mut Dict<'_>, layers: impl Iterator<Item = R
     default_config.insert(Name(b"Order")).array().items(layers);
 }
 
-/// Writes an image as two XObjects: RGB colors, and alpha as a soft mask.
+/// Writes an image as two XObjects: the RGB colors, and the alpha channel as a soft mask.
 ///
-/// PDF does not support interleaved alpha. Channels also compress better separately.
+/// PDF does not support interleaved alpha. Separate channels also compress better.
 fn write_image(pdf: &mut Pdf, [color, mask]: [Ref; 2], picture: &Picture) {
     let (width, height) = (picture.width as i32, picture.height as i32);
     let packed = |bytes: Vec<u8>| miniz_oxide::deflate::compress_to_vec_zlib(&bytes, DEFLATE_LEVEL);
@@ -161,8 +161,8 @@ fn write_image(pdf: &mut Pdf, [color, mask]: [Ref; 2], picture: &Picture) {
 
 /// Writes the page object, its resources and its content stream.
 ///
-/// `layers` and `pictures` count the layers and images on earlier pages, which determine the object
-/// ids.
+/// `layers` and `pictures` are the numbers of layers and images on earlier pages. Object ids depend
+/// on them.
 fn write_page(
     pdf: &mut Pdf,
     ids: &ObjectIds,
@@ -250,7 +250,7 @@ fn page_content(page: PageContent<'_>, fonts: &TextFonts) -> Vec<u8> {
 struct ContentStream(Vec<u8>);
 
 impl ContentStream {
-    /// Appends operators.
+    /// Appends text, such as an operator.
     fn push_text(&mut self, text: &str) {
         self.0.extend_from_slice(text.as_bytes());
     }
@@ -266,14 +266,14 @@ impl ContentStream {
         self.push_number(libm::round(millimeters * 1000.0) as i64);
     }
 
-    /// Appends a point of the page in millimeters.
+    /// Appends a point in millimeters from its coordinates in micrometers.
     fn push_point(&mut self, [x, y]: PagePoint) {
         self.push_number(x.into());
         self.push_number(y.into());
     }
 
-    /// Sets a color with `RG` for strokes or `rg` for fills. Channels range from 0 to 1, rounded to
-    /// thousandths.
+    /// Sets a color with `RG` for strokes or `rg` for fills. The channels are written as numbers
+    /// from 0 to 1, rounded to thousandths.
     fn set_color(&mut self, ink: Ink, command: &str) {
         for channel in ink {
             self.push_number((i64::from(channel) * 1000 + 127) / 255);

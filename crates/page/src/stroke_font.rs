@@ -1,6 +1,6 @@
 //! Stroke font: characters drawn as single pen strokes, designed for this program.
 //!
-//! Labels need no font file and give identical bytes on every machine.
+//! Labels need no font file, and their output is identical on every machine.
 //!
 //! ```text
 //!   10 ┌ ─ ╱╲ ─ ─ ─ ─ ┐ cap height              strokes are 0.1 wide, letters 0.24
@@ -10,10 +10,10 @@
 //!   −3                  descenders
 //! ```
 //!
-//! A glyph is a string of commands. `m x,y` moves, and `l x,y` draws a straight line. `h x,y` draws
-//! a quarter of an ellipse that starts horizontally and ends vertically, and `v x,y` the reverse.
-//! `c x,y x,y x,y` draws a cubic Bézier curve. Round letters consist of four quarters joined by
-//! lines.
+//! A glyph is a string of commands. `m x,y` moves the pen without drawing, and `l x,y` draws a
+//! straight line. `h x,y` draws a quarter of an ellipse that starts horizontally and ends
+//! vertically, and `v x,y` the reverse. `c x,y x,y x,y` draws a cubic Bézier curve. Round letters
+//! consist of four quarters joined by lines.
 
 mod accents;
 mod glyphs;
@@ -25,7 +25,7 @@ use glam::DVec2;
 /// The height of capitals in glyph units.
 pub(super) const CAP_HEIGHT: f64 = 10.0;
 
-/// The distance between letters.
+/// The gap between letters, in glyph units.
 const LETTER_SPACING: f64 = 2.4;
 
 /// The width of a space. With the letter spacing on both sides, it gives the distance between
@@ -47,7 +47,7 @@ pub(super) struct Glyph {
 
 /// Typesets a line of text as strokes, with x from its start and y up from the baseline.
 ///
-/// There is no kerning. Each character is one glyph, and combining characters become boxes.
+/// There is no kerning. Each character becomes one glyph, and combining characters become boxes.
 pub(super) fn typeset_line(text: &str) -> Glyph {
     let mut line = Glyph { width: 0.0, strokes: Vec::new() };
     let mut x = 0.0;
@@ -79,7 +79,7 @@ pub fn missing_glyphs(text: &str) -> String {
     missing
 }
 
-/// Whether the font has a character. White space counts, with an empty glyph.
+/// Whether the font has a glyph for a character. White space has an empty glyph.
 fn has_glyph(character: char) -> bool {
     character.is_whitespace()
         || plain_glyph(character).is_some()

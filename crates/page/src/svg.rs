@@ -14,8 +14,8 @@
 //!  </svg>
 //! ```
 //!
-//! Path data uses relative commands (`m`, `l`, `h`, `v`) with steps in whole micrometers, which are
-//! shorter than absolute coordinates. Each step is an exact decimal, so sums have no rounding
+//! Path data uses relative commands (`m`, `l`, `h`, `v`), because steps are shorter to write than
+//! absolute coordinates. Each step is a whole number of micrometers, so sums have no rounding
 //! error: a closed outline with a thousand points ends exactly where it began. Text is drawn as
 //! strokes, so the file needs no font. Names from files are escaped by [`escape_markup`].
 
@@ -30,7 +30,7 @@ use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write;
 
 impl<W> Page<W> {
-    /// Writes the page as an SVG file.
+    /// Returns the page as the text of an SVG file.
     ///
     /// ```
     /// use page::{Group, Layer, Page, Pen, Polyline};
@@ -74,7 +74,7 @@ fn write_page(page: PageContent<'_>) -> String {
 
 /// Writes an image element with its pixels embedded as a PNG.
 ///
-/// `preserveAspectRatio="none"` stretches the image to its rectangle, which is rounded to
+/// `preserveAspectRatio="none"` stretches the image to fill its rectangle, which is rounded to
 /// micrometers.
 fn write_image(svg: &mut String, pasted: &PlacedImage) {
     let [x, y, width, height] =
@@ -93,7 +93,7 @@ fn write_image(svg: &mut String, pasted: &PlacedImage) {
 /// Writes a layer as a group that contains a group for each object.
 ///
 /// Ids are unique because an object's id is prefixed with its layer's id. Titles become tooltips in
-/// browsers. Text with an id is its own title.
+/// browsers. A text group with an id but without a title has its text as the title.
 fn write_layer(svg: &mut String, layer: &Layer) {
     let id = escape_markup(&layer.id);
     let _ = write!(
@@ -124,8 +124,8 @@ fn write_layer(svg: &mut String, layer: &Layer) {
 /// Writes the strokes and fills of a group, with one path for all continuous strokes and one for
 /// each dashed stroke.
 ///
-/// Each dashed stroke has its own dash pattern, fitted to its length. Fills are last, over the
-/// strokes.
+/// Each dashed stroke has its own dash pattern, fitted to its length. Fills are written last and
+/// cover the strokes.
 fn write_paths(svg: &mut String, group: &Group, pen: &Pen) {
     let (dashed, whole): (Vec<_>, Vec<_>) = group
         .strokes
@@ -150,8 +150,8 @@ fn write_paths(svg: &mut String, group: &Group, pen: &Pen) {
     }
 }
 
-/// Returns the presentation attributes of a pen, without SVG defaults (butt caps, miter joins with
-/// limit 4).
+/// Returns the presentation attributes of a pen, except those with SVG defaults (butt caps, miter
+/// joins with limit 4).
 fn pen_attributes(pen: &Pen) -> String {
     let mut words = format!(
         "fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"",
@@ -179,7 +179,7 @@ fn css_color([r, g, b]: Ink) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// Returns the `d` attribute of a path through all the lines.
+/// Returns the `d` attribute of a path that contains all the lines.
 fn path_data<'a>(lines: impl IntoIterator<Item = &'a Polyline>) -> String {
     let mut path = PathWriter { out: Vec::new(), position: [0, 0], has_started: false };
     for line in lines {

@@ -9,13 +9,13 @@ pub trait Channel: sealed::Sealed + Copy + Default + Eq + Send + Sync + 'static 
     const FULL: Self;
     /// The number of bits per channel, 8 or 16.
     const BITS: u8;
-    /// Converts from an 8-bit code; 0 and 255 are exact.
+    /// Converts an 8-bit code: 0 stays 0, and 255 becomes `FULL`.
     fn from_byte(byte: u8) -> Self;
     /// Converts to the nearest 8-bit code.
     fn to_byte(self) -> u8;
     /// Appends pixels as stored in PNG: big-endian, and without alpha if the picture is opaque.
     fn append_pixels(pixels: &[[Self; 4]], opaque: bool, bytes: &mut Vec<u8>);
-    /// Composites a pixel under a pixel of a vector drawing, which is 8-bit premultiplied sRGB.
+    /// Composites a pixel under `over`, a pixel of a vector drawing in 8-bit premultiplied sRGB.
     ///
     /// This is Porter–Duff *over* on sRGB codes, as in HTML canvases.
     fn composite_under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4];
@@ -75,7 +75,7 @@ impl Channel for u16 {
     }
 
     fn composite_under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4] {
-        // Where nothing is drawn, the pixel must stay exact. The arithmetic below would round it.
+        // Where nothing is drawn, the pixel must not change. The arithmetic below would round it.
         if over[3] == 0 {
             return pixel;
         }

@@ -4,7 +4,7 @@
 //! Radiance manual. Both scanline encodings (flat with old-style runs, and run-length encoded
 //! channels) are supported, but only the orientation `-Y … +X …`. Sizes are checked against the
 //! file length before anything is allocated. Sixteen bytes can encode a row of 16,384 texels, so a
-//! file of a hundred kilobytes could take 800 MB. Rows are therefore halved as they arrive.
+//! file of a hundred kilobytes could expand to 800 MB. Rows are therefore halved as they arrive.
 //!
 //! ```text
 //!  value = (mantissa + ½) · 2^(exponent − 136)     0 if the exponent is 0
@@ -30,9 +30,9 @@ pub struct Panorama {
 impl Panorama {
     /// Decodes a Radiance file and halves the image until it is at most `most` texels wide.
     ///
-    /// Environment lighting is filtered to a far lower resolution than 1024, so 1024 loses nothing
-    /// visible there; backgrounds need more. Memory grows only with the rows actually in the file,
-    /// so a short file whose header declares a large image cannot use more.
+    /// Environment lighting is filtered to a far lower resolution, so a width of 1024 is enough for
+    /// it. Backgrounds need more. Memory use depends on the rows actually in the file, not on the
+    /// size in the header.
     ///
     /// # Errors
     /// Returns a description of the first error in the file.
@@ -63,8 +63,7 @@ impl Panorama {
         })
     }
 
-    /// Looks up the radiance from a direction with bilinear interpolation. The direction is a unit
-    /// vector.
+    /// Looks up the radiance from a direction, which is a unit vector, with bilinear interpolation.
     ///
     /// u = ½ + atan2(z, x)/2π and v = acos(y)/π: +x is at the center of the image, and +z is a
     /// quarter of its width to the right. Columns wrap around, and rows are clamped at the poles.
@@ -132,16 +131,15 @@ fn split_floor(place: f32) -> (i64, f32) {
     (place.floor() as i64, place - place.floor())
 }
 
-/// Decodes an RGBE texel, three 8-bit mantissas and an exponent with bias 128, to linear RGB.
+/// Decodes an RGBE texel (three 8-bit mantissas and an exponent with bias 128) to linear RGB.
 ///
 /// The value is in the middle of the mantissa's step, as in Ward's own decoder. It is clamped to
-/// 65504, the largest half-precision number, because an unclipped sun would cause noise.
+/// 65504, the largest half-precision number, because an unclamped sun would cause noise.
 fn decode_rgbe([r, g, b, exponent]: [u8; 4]) -> [f32; 3] {
     if exponent == 0 {
         return [0.0; 3];
     }
     let unit = libm::ldexpf(1.0, i32::from(exponent) - 136);
-    // Values above the half-precision maximum, such as a sun, are clamped.
     [r, g, b].map(|mantissa| ((f32::from(mantissa) + 0.5) * unit).min(65504.0))
 }
 
@@ -228,7 +226,7 @@ fn read_scanline<'a>(bytes: &'a [u8], row: &mut [[u8; 4]]) -> Option<&'a [u8]> {
 /// Decodes a flat scanline of RGBE texels. A texel (1, 1, 1, n) repeats the previous texel n times
 /// (old run-length encoding).
 ///
-/// Consecutive repeat texels form a base-256 number, least significant digit first.
+/// The counts of consecutive repeat texels form a base-256 number, least significant digit first.
 fn read_flat_scanline<'a>(bytes: &'a [u8], row: &mut [[u8; 4]]) -> Option<&'a [u8]> {
     let mut rest = bytes;
     let (mut x, mut shift) = (0, 0);

@@ -18,15 +18,15 @@ pub struct Picture<C = u8> {
 
 impl<C: Channel> Picture<C> {
     /// Returns the pixel in column `x` and row `y`, counted from the upper left corner, or `None`
-    /// if it is outside.
+    /// if the picture has no such pixel.
     #[must_use]
     pub fn pixel(&self, x: u32, y: u32) -> Option<[C; 4]> {
         let is_inside = x < self.width && y < self.height;
         is_inside.then(|| self.pixels[y as usize * self.width as usize + x as usize])
     }
 
-    /// Resizes the picture for new content. Its pixels are then unspecified, and its memory is
-    /// reused.
+    /// Resizes the picture for new content. Its pixels are then unspecified. Its memory is reused
+    /// if it suffices.
     pub fn resize(&mut self, width: u32, height: u32) {
         (self.width, self.height) = (width, height);
         let area = width as usize * height as usize;

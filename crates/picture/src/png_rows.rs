@@ -21,7 +21,7 @@ pub struct PngRows<'a, 'out> {
 }
 
 /// Encodes a PNG file of the given width and height with 8 or 16 bits per channel, as RGB if the
-/// picture is opaque, otherwise as RGBA with straight alpha. `draw` writes its pixels.
+/// picture is opaque, otherwise as RGBA with straight alpha. `draw` writes the pixels.
 ///
 /// The file is tagged as sRGB. Encoding needs memory for only one chunk of compressed data.
 ///
@@ -61,10 +61,11 @@ fn write_header(
 }
 
 impl PngRows<'_, '_> {
-    /// Writes the next pixels, in row-major order; omits alpha if the picture is opaque.
+    /// Writes the next pixels, in row-major order, without alpha if the picture is opaque.
     ///
     /// # Errors
-    /// Fails if they cannot be written or there are more of them than the picture has left.
+    /// Fails if the pixels cannot be written, or if there are more of them than the picture still
+    /// needs.
     pub fn write_pixels<C: Channel>(&mut self, pixels: &[[C; 4]]) -> io::Result<()> {
         for pixels in pixels.chunks(PIXELS_PER_WRITE) {
             self.bytes.clear();

@@ -1,5 +1,5 @@
 //! Renders a thousand scenes of one model from different viewpoints and in different light, and
-//! writes them as RON.
+//! writes each as RON with its picture.
 //!
 //! Run it with `cargo run --release -p alberti-pipeline --example thousand_scenes -- model.glb folder`.
 #![allow(clippy::print_stdout, reason = "an example prints its results")]

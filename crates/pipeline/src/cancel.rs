@@ -1,8 +1,7 @@
 //! Cancellation and progress: the monitors of a rendering.
 //!
-//! The rasterizer polls its monitor once per row of tiles, so canceling takes at most a few
-//! milliseconds. Hidden-line removal polls it every few hundred edges. Shadow maps always run to
-//! completion.
+//! The rasterizer polls its monitor once per row of tiles, so it stops within a few milliseconds.
+//! Hidden-line removal polls it every few hundred edges. Shadow maps always run to completion.
 
 use raster::Monitor;
 use std::sync::Arc;
@@ -66,7 +65,7 @@ impl Monitor for CancelOnly {
     }
 }
 
-/// The monitor of one frame, which reports its progress as a share of the whole job.
+/// The monitor of one frame, which adds the frame's progress to the progress of the whole job.
 #[derive(Debug)]
 pub(crate) struct PartMonitor {
     /// The monitor of the whole job.

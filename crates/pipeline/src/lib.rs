@@ -3,7 +3,7 @@
 //! Making a picture takes three steps:
 //!
 //! 1. Describe it in a [`SceneFile`], read from a file or built from defaults.
-//! 2. Resolve the description to a [`Scene`], with models loaded and all defaults filled in.
+//! 2. Resolve the description into a [`Scene`], with models loaded and all defaults filled in.
 //! 3. Render the scene.
 //!
 //! ```no_run
@@ -27,13 +27,13 @@
 //! | depth, normal and id of each pixel | [`mod@render::passes`] | `examples/depth_map.rs` |
 //! | many pictures without allocation | [`Renderer`] | its documentation |
 //! | pictures larger than memory | [`PreparedScene::write_png`] | its documentation |
-//! | every step of a point, a triangle or a pixel | the crate `explain` | |
+//! | every step of a point, triangle or pixel in the pipeline | the crate `explain` | |
 //! | lessons: projections, sweeps, depth curves | the crate `explorer` | |
 //! | models from memory | [`Origin::from_text_in_memory`], [`import::load_bytes`], [`Scene::from_models`] | |
 //! | the syntax of scene files | [`scene::reference`] | |
 //! | a tour of the stages, with the file of each | [`mod@render`] | |
 //!
-//! A [`Monitor`] observes a rendering and a [`CancelToken`] stops it; a sequence stops if the
+//! A [`Monitor`] observes a rendering, and a [`CancelToken`] stops it. A sequence also stops if the
 //! function that receives its pictures returns an error.
 //!
 //! The crate prints nothing. Any number of scenes, renderers and pictures can coexist, and each can

@@ -2,14 +2,14 @@
 //!
 //! # Tour: one triangle of one model, from file to pixel
 //!
-//! The stages follow the textbooks (PL-1). Paths are below `crates/`; `render/` is this folder.
+//! The stages follow the textbooks (PL-1). Paths start at `crates/`; `render/` is this folder.
 //!
 //! 1. **Preparation.** [`Renderer::render`] (`render/renderer.rs`) makes a [`PreparedScene`]
 //!    (`render/prepared_scene.rs`) with lines, overlays and insets. [`Textures`]
 //!    (`render/mip_chains.rs`) holds the mip chains; `render/shadow_maps.rs` renders a depth map
 //!    for each light.
-//! 2. **Image tiles.** A picture with a side over 16,384 pixels is rendered in tiles. The view
-//!    volume is narrowed to each tile: `tile_regions` (`render/image_tiles.rs`).
+//! 2. **Image tiles.** `tile_regions` (`render/image_tiles.rs`) divides a picture with a side over
+//!    16,384 pixels into tiles. The view volume is narrowed to each tile.
 //! 3. **Draw calls.** `PrimitiveAssembler::draw_primitive` (`render/primitive_assembly.rs`) visits
 //!    each primitive of each mesh instance and assigns its primitive ids.
 //! 4. **Skinning, morphing, model matrix.** `Model::skin_primitive` (`model/src/skinning.rs`) poses
@@ -109,7 +109,7 @@ pub enum RenderError {
     /// The picture's size is out of range.
     #[error(transparent)]
     Raster(#[from] raster::RasterError),
-    /// The picture has no viewport.
+    /// The picture's viewport is invalid.
     #[error(transparent)]
     Viewport(#[from] viewport::ViewportError),
     /// The lines of the scene cannot be drawn.
@@ -118,7 +118,7 @@ pub enum RenderError {
     /// The [monitor](raster::Monitor) requested cancellation.
     #[error("rendering was canceled")]
     Canceled,
-    /// Ambient occlusion needs the whole depth buffer, and the picture is larger than one tile.
+    /// The picture is larger than one tile, but ambient occlusion needs the whole depth buffer.
     #[error("ambient occlusion supports pictures up to {0} x {0} pixels", raster::MAX_SIDE)]
     OcclusionTooLarge,
     /// The scene has more points, lines and triangles than there are primitive ids.
@@ -153,11 +153,11 @@ impl From<hidden_line::DrawError> for RenderError {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// This is a shortcut for one picture. A [`Renderer`] is faster for several pictures, measures
-/// times, and can be observed and canceled.
+/// This is a shortcut for one picture. A [`Renderer`] is faster for several pictures and can be
+/// timed, observed and canceled.
 ///
 /// # Errors
-/// Returns an error if the picture's size is out of range, or the scene has too many primitives.
+/// Returns an error if the picture's size is out of range, or if the scene has too many primitives.
 pub fn render(scene: &Scene, threads: usize) -> Result<Picture, RenderError> {
     image_tiles::validate_region(scene.image, scene.image.pixel_rect())?;
     let textures = Textures::for_scene(scene);

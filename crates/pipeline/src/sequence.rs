@@ -38,7 +38,7 @@ pub enum Motion {
         animations: Vec<Option<usize>>,
         /// The time of the first frame in seconds.
         from: f64,
-        /// The time of the frame after the last in seconds.
+        /// The time in seconds of the frame that would follow the last.
         to: f64,
     },
 }
@@ -82,13 +82,13 @@ pub enum SequenceError<E> {
     Output(E),
 }
 
-/// Number of moments in the motion that an automatic camera is fitted to.
+/// The number of moments in the motion that an automatic camera is fitted to.
 ///
 /// A turntable with 16 samples misses the maximum extent of a corner by at most 1 − cos(π/16),
-/// which is 2% of its radius.
+/// which is 2% of the corner's radius.
 const FRAMING_SAMPLES: usize = 16;
-/// Number of frames per worker that may be started before the oldest frame is delivered. It limits
-/// the memory for frames that finish out of order.
+/// The number of frames per worker that may be started before the oldest frame is delivered. It
+/// limits the memory for frames that finish out of order.
 ///
 /// With w workers, at most 2 w pictures exist at a time, however long the sequence is.
 const FRAMES_AHEAD: usize = 2;
@@ -97,9 +97,9 @@ impl Sequence {
     /// Prepares a sequence of `frames` pictures for the scene that `file` describes. An automatic
     /// camera is fitted to the whole motion.
     ///
-    /// Each frame is resolved like a single picture at that time, so the lights, cameras and
-    /// grounds of the models move with them. Only an automatic view is shared by the whole motion:
-    /// it is resolved as if the models at all 16 moments existed at once.
+    /// Each frame is resolved like a single picture at that time, so the models' lights and cameras
+    /// and the ground follow the models. Only an automatic view is shared by the whole motion: it
+    /// is resolved as if the models at all 16 moments existed at once.
     ///
     /// # Errors
     /// Returns an error if the scene cannot be framed.
@@ -137,8 +137,8 @@ impl Sequence {
     }
 
     /// Returns whether a view is the same in all frames. View 0 is the picture; the insets are
-    /// views 1 and up. This holds for an automatic view and, in a turntable, for a camera of the
-    /// model, which would otherwise turn with it.
+    /// views 1 and up. An automatic view stays the same and, in a turntable, so does a camera of
+    /// the model, which would otherwise turn with the model.
     fn keeps_view(&self, index: usize) -> bool {
         let own = index.checked_sub(1).and_then(|inset| self.file.viewports.get(inset));
         let camera: &CameraFile =
@@ -216,7 +216,7 @@ impl Sequence {
     /// because the queue is consistent after every statement.
     ///
     /// # Errors
-    /// Returns an error if a frame cannot be rendered, or the sink fails. In either case no more
+    /// Returns an error if a frame cannot be rendered, or if the sink fails. In either case no more
     /// frames are started.
     pub fn render_frames<E>(
         &self,
@@ -347,8 +347,8 @@ struct FrameWorker<'a> {
 }
 
 impl<'a> FrameWorker<'a> {
-    /// Copies the models that animations pose. Instances of a model share one copy, and all copies
-    /// share the images.
+    /// Creates a worker with copies of the models that animations pose. Instances of a model share
+    /// one copy, and all copies share the images.
     ///
     /// A turntable changes only `model_to_world` and needs no copies.
     fn new(sequence: &'a Sequence) -> Self {
@@ -398,8 +398,7 @@ impl<'a> FrameWorker<'a> {
     }
 }
 
-/// Updates the pose-dependent parts of a scene, and sets the view of the frame if it differs from
-/// the view of the pose.
+/// Updates the pose-dependent parts of a scene. `view` overrides the view of the pose.
 fn take_posed(scene: &mut Scene, posed: Scene, view: Option<ViewProjection>) {
     scene.models = posed.models;
     scene.view_projection = view.unwrap_or(posed.view_projection);
@@ -421,8 +420,8 @@ impl Motion {
     ///
     /// A turntable computes model_to_world · T(−p) · R_y(αf) · T(p), written in the order of
     /// application. It starts from the unposed transform each time, so rotations do not drift over
-    /// thousands of frames. An animation is evaluated at t = from + (to − from) f seconds.
-    /// Instances of a model are posed once and share the result.
+    /// thousands of frames. An animation is evaluated at t = from + (to − from) f seconds. A model
+    /// with several instances is posed once, and they share the result.
     fn pose_models(
         &self,
         models: &mut [ModelInstance],

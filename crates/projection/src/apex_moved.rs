@@ -1,4 +1,4 @@
-//! The apex-moved frustum of the WebGL lesson. It has parameters like glFrustum's, but is a
+//! The apex-moved frustum of the WebGL lesson. It has the same parameters as glFrustum, but it is a
 //! different map.
 //!
 //! ```text
@@ -16,8 +16,8 @@ use crate::error::check_finite;
 use crate::{Convention, Frustum, ProjectionError, Window};
 use homog::{Affine, Clip, Point, Projective, View};
 
-/// The perspective of createFrustum (LW-1; C63): symmetric, with the apex moved opposite the center
-/// of the window.
+/// The perspective projection of createFrustum (LW-1; C63): symmetric, with the apex moved opposite
+/// the center of the window.
 ///
 /// # Guarantees
 /// See [`Frustum`].
@@ -84,13 +84,13 @@ impl ApexMovedFrustum {
         self.window
     }
 
-    /// Returns the distance of the near plane.
+    /// Returns the distance to the near plane.
     #[must_use]
     pub const fn near(self) -> f64 {
         self.about_apex.near()
     }
 
-    /// Returns the distance of the far plane.
+    /// Returns the distance to the far plane.
     #[must_use]
     pub const fn far(self) -> f64 {
         self.about_apex.far()

@@ -1,11 +1,11 @@
 //! Builders under the names used by graphics APIs.
 //!
-//! All functions accept distances and return only the matrix. They reject an infinite `far` if the
-//! formula needs a finite value. Each is a one-line wrapper around [`Frustum`], [`Perspective`] or
-//! [`Orthographic`] with its [`Convention`]. `fovy` is in radians (M19), and `aspect` is width /
-//! height. In the names:
+//! All functions take `near` and `far` as distances and return only the matrix. They reject an
+//! infinite `far` if the formula needs a finite value. Each is a one-line wrapper around
+//! [`Frustum`], [`Perspective`] or [`Orthographic`] with its [`Convention`]. `fovy` is in radians
+//! (M19), and `aspect` is width / height. In the names:
 //! - `lh` means that the camera looks along +z;
-//! - `zo` means that depth is from zero to one;
+//! - `zo` means that depth ranges from zero to one;
 //! - `rev` means that near is at 1;
 //! - `inf` means that there is no far plane.
 //!
@@ -57,8 +57,8 @@ macro_rules! by_window {
         $(#[$doc])*
         ///
         /// # Errors
-        /// Returns an error if a number is not finite, the window is empty, or 0 < near < far does
-        /// not hold.
+        /// Returns an error if a number is not finite, if the window is empty, or if 0 < near < far
+        /// does not hold.
         pub fn $name(left: f64, right: f64, bottom: f64, top: f64, near: f64, far: f64) -> Matrix {
             frustum_matrix([left, right, bottom, top], near, far, $convention)
         }
@@ -83,8 +83,8 @@ macro_rules! by_angle {
         $(#[$doc])*
         ///
         /// # Errors
-        /// Returns an error if a number is not finite, fovy is not between 0 and π, aspect is not
-        /// positive, or 0 < near < far does not hold.
+        /// Returns an error if a number is not finite, if fovy is not between 0 and π, if aspect is
+        /// not positive, or if 0 < near < far does not hold.
         pub fn $name(fovy: f64, aspect: f64, near: f64, far: f64) -> Matrix {
             perspective_matrix(fovy, aspect, near, far, $convention)
         }
@@ -93,8 +93,8 @@ macro_rules! by_angle {
         $(#[$doc])*
         ///
         /// # Errors
-        /// Returns an error if a number is not finite, fovy is not between 0 and π, or aspect or
-        /// near is not positive.
+        /// Returns an error if a number is not finite, if fovy is not between 0 and π, or if aspect
+        /// or near is not positive.
         pub fn $name(fovy: f64, aspect: f64, near: f64) -> Matrix {
             infinite_perspective_matrix(fovy, aspect, near, f64::INFINITY, $convention)
         }

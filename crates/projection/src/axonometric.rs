@@ -10,8 +10,8 @@
 //! ```
 //!
 //! The object is rotated by −α about y and then by β about x until the normal of the plane points
-//! at the viewer. Then z is dropped. A unit along an axis at angle γ to the plane shrinks to cos γ.
-//! The squares of the three ratios sum to 2.
+//! to the viewer. Then z is dropped. A unit along an axis at angle γ to the plane shrinks to cos γ.
+//! The squares of these ratios for the three axes sum to 2.
 
 use crate::ProjectionError;
 use crate::error::{check_finite, check_positive};
@@ -162,8 +162,8 @@ impl Axonometric {
         ]
     }
 
-    /// Returns the rotated object with its depth: Rx(β) Ry(−α) T(−origin). Its z axis points to the
-    /// viewer.
+    /// Returns the transform that rotates the object and keeps its depth: Rx(β) Ry(−α) T(−origin).
+    /// The picture's z axis points to the viewer.
     #[must_use]
     pub fn depth_preserving(self) -> Affine<View, View> {
         let [x, y, z] = self.axes();
@@ -181,7 +181,7 @@ impl Axonometric {
         Affine::from_frame(to_x, to_y, to_z, self.origin)
     }
 
-    /// Returns the classical projection: the rotated object with z dropped. It is singular.
+    /// Returns the classical projection, which drops z after the rotation. Its matrix is singular.
     #[must_use]
     pub fn onto_plane(self) -> Affine<View, View> {
         self.depth_preserving().then(Affine::scale(1.0, 1.0, 0.0))

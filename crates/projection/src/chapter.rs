@@ -91,7 +91,7 @@ fn check_same_side(n: f64, f: f64) -> Result<(), ProjectionError> {
 /// Returns M_orth, which maps the box [l, r] × [b, t] × [f, n] to [−1, 1]³ (OR-1; C7, C8).
 ///
 /// # Errors
-/// Returns an error if a number is not finite, two opposite sides coincide, or n > f does not hold.
+/// Returns an error if a number is not finite, if two opposite sides coincide, or if n ≤ f.
 pub fn m_orth(
     l: f64,
     r: f64,
@@ -139,8 +139,8 @@ fn signed_box(
 /// (PE-2; C27, C29).
 ///
 /// # Errors
-/// Returns an error if a number is not finite, the window on z = n is empty, or 0 > n > f does not
-/// hold.
+/// Returns an error if a number is not finite, if the window on z = n is empty, or if 0 > n > f
+/// does not hold.
 pub fn m_per(
     l: f64,
     r: f64,
@@ -205,8 +205,8 @@ fn signed_frustum(
 /// pixels (FOV-1, C33): t = |n| tan(θ/2), r = t nx/ny.
 ///
 /// # Errors
-/// Returns an error if theta is not between 0 and π, nx or ny is not positive, n is not negative,
-/// or a number is not finite.
+/// Returns an error if theta is not between 0 and π, if nx or ny is not positive, if n is not
+/// negative, or if a number is not finite.
 pub fn window_from_fov(theta: f64, nx: f64, ny: f64, n: f64) -> Result<Window, ProjectionError> {
     let aspect = check_positive("nx", nx)? / check_positive("ny", ny)?;
     let distance = -n;
@@ -220,7 +220,7 @@ pub fn window_from_fov(theta: f64, nx: f64, ny: f64, n: f64) -> Result<Window, P
 /// = 2 atan(t/|n|) (FOV-1).
 ///
 /// # Errors
-/// Returns an error if t is not positive, n is not negative, or either is not finite.
+/// Returns an error if t is not positive, if n is not negative, or if either is not finite.
 pub fn fov_from_window(t: f64, n: f64) -> Result<f64, ProjectionError> {
     let distance = -n;
     Ok(2.0 * libm::atan2(check_positive("t", t)?, check_positive("−n", distance)?))

@@ -6,8 +6,8 @@
 //! ```
 //!
 //! The fonts are Type 3 fonts (ISO 32000-1, 9.6.5), whose glyphs are content streams. Here the
-//! streams are empty, so they draw nothing in any viewer and need no font file. Widths match the
-//! stroke font, so a selection covers the characters. ToUnicode maps the codes to characters,
+//! streams are empty, so nothing is drawn in any viewer and no font file is needed. Widths match
+//! the stroke font, so a selection covers the characters. ToUnicode maps the codes to characters,
 //! including characters that the stroke font lacks.
 
 use crate::page::{GroupContent, PageContent, TextLine};
@@ -16,10 +16,10 @@ use pdf_writer::types::{SystemInfo, UnicodeCmap};
 use pdf_writer::{Finish, Name, Pdf, Rect, Ref, Str};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The number of characters in a font, with codes 1 to 255.
+/// The maximum number of characters in a font. Their codes are 1 to 255.
 const FONT_CHARACTERS: usize = 255;
 
-/// The glyph unit, in text units of one capital height.
+/// The size of a glyph unit in text units. A text unit is one capital height.
 const UNIT: f32 = 0.1;
 
 /// Returns the name of a glyph from its width in thousandths. Glyphs differ only in width.
@@ -31,7 +31,7 @@ fn glyph_name(width: i32) -> String {
 pub(super) struct TextFonts {
     /// The characters in the order of their codes.
     characters: Vec<char>,
-    /// The widths of the characters, in thousandths.
+    /// The distinct widths of the characters, in thousandths of a glyph unit.
     widths: BTreeSet<i32>,
 }
 
@@ -45,7 +45,7 @@ fn searched(character: char) -> Option<char> {
     }
 }
 
-/// Returns the advance width of a character in thousandths of a stroke-font unit.
+/// Returns the advance width of a character in thousandths of a glyph unit.
 fn width_of(character: char) -> i32 {
     libm::round(advance_width(character) * 1000.0) as i32
 }

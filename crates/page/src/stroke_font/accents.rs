@@ -1,8 +1,8 @@
 //! Accented letters of the stroke font: a base letter with a mark above, below or beside it.
 //!
-//! Marks are combined with letters at run time, so the glyph table holds 95 shapes instead of
-//! several hundred. A mark is drawn around x = 0 and moved to the middle of its letter. Its y is
-//! measured from the top of the letter or, for a cedilla, from the baseline.
+//! Marks are combined with letters at run time, so the glyph table does not need a shape for each
+//! accented letter. A mark is drawn around x = 0 and moved to the middle of its letter. The mark's
+//! y is measured from the top of the letter or, for a cedilla, from the baseline.
 
 use super::{Glyph, glyph_for_char, parse_strokes};
 use glam::DVec2;
@@ -23,7 +23,7 @@ const DOT: &str = "m 0,2 l 0,2.2";
 const CEDILLA: &str = "m 0,0 l 0,-0.7 h 1.1,-1.6 v 0,-2.5 l -0.9,-2.5";
 const APOSTROPHE: &str = "m 0.4,0 l 0,-1.8";
 
-/// The letters for each mark, as pairs of accented letter and base letter.
+/// The letters for each mark, as pairs of an accented letter and its base letter.
 const MARKED_LETTERS: &[(&str, &str)] = &[
     (ACUTE, "ÁAÉEÍIÓOÚUÝYĆCŃNŚSŹZŔRĹLáaéeíıóoúuýyćcńnśsźzŕr"),
     (GRAVE, "ÀAÈEÌIÒOÙUàaèeìıòoùu"),

@@ -1,6 +1,6 @@
 //! Greek letters, arrows and mathematical symbols, for angles, vectors and tolerances.
 
-/// Characters that look like another character of the font.
+/// Characters paired with the character of the font whose glyph they share.
 #[rustfmt::skip]
 const SAME: &[(char, char)] = &[
     ('Α', 'A'), ('Β', 'B'), ('Ε', 'E'), ('Ζ', 'Z'), ('Η', 'H'), ('Ι', 'I'), ('Κ', 'K'), ('Μ', 'M'),
@@ -8,7 +8,7 @@ const SAME: &[(char, char)] = &[
     ('ο', 'o'), ('∆', 'Δ'), ('∑', 'Σ'), ('∏', 'Π'), ('Ω', 'Ω'), ('ϕ', 'φ'), ('ϑ', 'θ'), ('ϵ', 'ε'),
 ];
 
-/// The other glyphs: character, advance width and path.
+/// The remaining glyphs: character, advance width and path.
 #[rustfmt::skip]
 pub(super) const GLYPHS: &[(char, f64, &str)] = &[
     ('Γ', 4.8, "m 0,0 l 0,10 l 4.8,10"),

@@ -43,7 +43,7 @@ pub(super) fn compute_occlusion(
         return Err(RenderError::OcclusionTooLarge);
     }
     let OcclusionBuffers { nearest, last } = buffers;
-    // Cleared first, because `resize` keeps existing depths.
+    // The buffer is cleared first, because `resize` keeps existing depths.
     nearest.clear();
     nearest.resize(width as usize * height as usize, SurfaceDepth::EMPTY);
     frame.surface_depths(&DepthOnly(&memory.draws), context.threads, nearest);
@@ -61,8 +61,8 @@ pub(super) fn compute_occlusion(
     Ok(Some(AmbientOcclusion::compute(nearest, space, simd_level, context.threads, last.take())))
 }
 
-/// Adds the ground to a depth buffer that lacks it because it is translucent. The ground occludes
-/// and is occluded.
+/// Adds the ground to a depth buffer that lacks translucent surfaces. The ground occludes other
+/// surfaces and is occluded by them.
 fn add_ground(
     ground: Ground,
     world_to_screen: DMat4,
@@ -89,7 +89,7 @@ fn add_ground(
 /// region is rendered.
 ///
 /// # Errors
-/// Returns an error if the picture is larger than one image tile, or the scene has too many
+/// Returns an error if the picture is larger than one image tile, or if the scene has too many
 /// primitives.
 pub(super) fn compute_full_occlusion(
     context: &RenderContext<'_>,

@@ -2,12 +2,12 @@
 //! picture behind everything else.
 //!
 //! Both are ordinary draw calls at the minimum depth, so translucent surfaces blend over them and
-//! only visible fragments are shaded. The depth of the far plane would not do, because the ground
-//! is not clipped against the far plane.
+//! only visible fragments are shaded. The depth of the far plane would not suffice, because the
+//! ground may extend beyond that plane.
 //!
 //! | kind | vertices carry | shading |
 //! | --- | --- | --- |
-//! | environment | positions on the far plane, pixel coordinates | radiance along the direction from the eye, or blurred |
+//! | environment | positions on the far plane, pixel coordinates | radiance along the direction from the eye, optionally blurred |
 //! | backdrop | fractions of the picture | color, gradient or image |
 
 use super::RenderError;

@@ -10,9 +10,9 @@ use picture::Channel;
 use scene::{ImageSpec, Scene};
 use shade::color::SrgbEncoder;
 
-/// The height of capital letters, and the margin at each end of the text, as fractions of the
-/// strip's height.
+/// The height of capital letters, as a fraction of the strip's height.
 const LETTER_HEIGHT: f64 = 12.0 / 28.0;
+/// The margin at each end of the text, as a fraction of the strip's height.
 const TEXT_MARGIN: f64 = 0.25;
 
 /// Returns the caption of a scene as a layer of its page, or `None` if there is no caption.
@@ -50,19 +50,19 @@ pub(super) fn draw_caption_over<C: Channel>(
     draw_layers_over(picture, [image.width, image.height], region, &[layer]);
 }
 
-/// Returns the rectangle above the strip.
+/// Returns the rectangle of the picture above the caption strip.
 pub(super) const fn view_rect(image: ImageSpec) -> PixelRect {
     PixelRect::from_size(image.width, image.height - image.caption_height)
 }
 
-/// Returns the rectangle of the strip.
+/// Returns the rectangle of the caption strip.
 pub(super) const fn strip_rect(image: ImageSpec) -> PixelRect {
     let ImageSpec { width, height, caption_height, .. } = image;
     PixelRect { x: 0, y: height - caption_height, width, height: caption_height }
 }
 
-/// Returns the warnings about labels and captions: labels outside the picture and characters
-/// without a glyph.
+/// Returns warnings about labels outside the picture, and about characters of labels or the caption
+/// that have no glyph.
 pub(super) fn text_warnings(scene: &Scene) -> Vec<Warning> {
     let mut warnings = label_warnings(&scene.drawing_subject(), &scene.overlays);
     warnings.extend(scene.caption.as_deref().and_then(missing_glyph_warning));

@@ -6,9 +6,10 @@ use raster::{Monitor, Workers};
 use scene::Scene;
 use std::sync::Arc;
 
-/// The inputs of a rendering, apart from the pixels it fills.
+/// The inputs of a rendering, except the picture that it fills.
 ///
-/// It only borrows and is cheap to copy. Create one per picture, or per frame of a sequence.
+/// A context only borrows these inputs, so it is cheap to copy. Create one per picture, or per
+/// frame of a sequence.
 ///
 /// ```no_run
 /// # use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures};
@@ -27,8 +28,7 @@ pub struct RenderContext<'a> {
     /// The mip chains of the scene's models. If the models are clones that are posed differently,
     /// use the chains of the original models.
     pub textures: &'a Textures<'a>,
-    /// The maximum number of threads for rendering, at least 1. It does not change a single bit of
-    /// the result.
+    /// The maximum number of threads for rendering, at least 1. It does not change the result.
     pub threads: usize,
     /// The stopwatch for the stages.
     timings: Option<&'a Timings>,
@@ -50,7 +50,7 @@ impl<'a> RenderContext<'a> {
     }
 
     /// Reports rendered pixels and drawn edges to `monitor`, and stops with
-    /// [`RenderError::Canceled`](crate::RenderError::Canceled) when the monitor requests it. The
+    /// [`RenderError::Canceled`](crate::RenderError::Canceled) when the monitor cancels. The
     /// picture is then incomplete. A [`CancelToken`](crate::CancelToken) is a monitor.
     #[must_use]
     pub const fn with_monitor(self, monitor: &'a Arc<dyn Monitor>) -> Self {

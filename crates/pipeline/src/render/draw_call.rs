@@ -36,8 +36,9 @@ pub(super) struct DrawCall<'a> {
 }
 
 impl DrawCall<'_> {
-    /// Submits the selected points, lines and triangles of a primitive in order, with consecutive
-    /// ids from `first_id`. Runs of unclipped triangles alternate with runs that may need clipping.
+    /// Submits the points, lines and triangles that survived culling, in order. The id of each is
+    /// `first_id` plus its index in the primitive. Runs of unclipped triangles alternate with runs
+    /// that may need clipping.
     pub(super) fn submit(&mut self, primitive: &Primitive, first_id: u32) {
         let mesh = self.mesh;
         let triangles = primitive.indices.as_chunks::<3>().0;
@@ -81,8 +82,8 @@ impl DrawCall<'_> {
         self.frame.clip_line(&self.transform.screen, ends, LINE_WIDTH_PIXELS, id, self.opacity);
     }
 
-    /// Culls, clips and submits one triangle. The fragments of its parts carry barycentric weights
-    /// of the original vertices.
+    /// Culls, clips and submits one triangle. The fragments of its clipped parts carry barycentric
+    /// weights of the original vertices.
     pub(super) fn submit_triangle(&mut self, vertices: [u32; 3], id: u32) {
         let ProjectedMesh { clip_positions, outcodes, screen_vertices, .. } = self.mesh;
         let vertices = vertices.map(|vertex| vertex as usize);

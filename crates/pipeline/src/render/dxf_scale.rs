@@ -15,7 +15,7 @@ use model::LengthUnit;
 use page::{DxfOptions, DxfUnit, MILLIMETERS_PER_PIXEL};
 use scene::Scene;
 
-/// Returns the DXF coordinates for a page from [`draw_lines`](super::draw_lines()).
+/// Returns the DXF unit, scale and origin for a page from [`draw_lines`](super::draw_lines()).
 #[must_use]
 pub fn dxf_options(scene: &Scene, page: &Page) -> DxfOptions {
     let on_paper = DxfOptions::on_paper(page);
@@ -34,7 +34,7 @@ pub fn dxf_options(scene: &Scene, page: &Page) -> DxfOptions {
 /// Returns the image of the world origin in millimeters on the page, or `None` if it is so far away
 /// that coordinates would lose all precision.
 fn origin_on_page(scene: &Scene, page: &Page) -> Option<DVec2> {
-    /// The maximum distance, as a multiple of the page's side.
+    /// The maximum distance, as a multiple of the page's longer side.
     const MAX_DISTANCE: f64 = 1e6;
     let image = scene.view_projection.world_to_clip().transform_point(Point::ORIGIN).raw();
     let ndc = image.truncate().truncate() / image.w;

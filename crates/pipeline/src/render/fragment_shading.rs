@@ -2,8 +2,8 @@
 //! that the rasterizer calls for each visible fragment.
 //!
 //! The rasterizer calls the surface for each triangle that is visible in a pixel, not for each
-//! triangle that covers it. Shading is deferred until the visibility buffer of a tile is complete.
-//! Styles wrap the physically based shading and use only its alpha test and geometry.
+//! triangle that covers the pixel. Shading is deferred until the visibility buffer of a tile is
+//! complete. Styles wrap the physically based shading and use only its alpha test and geometry.
 
 use super::renderer::FrameMemory;
 use super::shadow_maps::ShadowMapRenderer;

@@ -8,8 +8,8 @@
 //!   ├───────────────┼──────┤
 //!   └───────────────┴──────┘
 //! ```
-//! Pixels depend on the scene, the size of the whole picture and the tile, but never on the region,
-//! so regions match bit for bit.
+//! Pixels depend on the scene, the size of the whole picture and the tile, but never on the region.
+//! The same pixel is therefore bit-identical in every region.
 
 use super::RenderError;
 use homog::{Clip, ClipRange, PixelRect, Projective, World};
@@ -62,7 +62,7 @@ impl ImageTile {
     }
 }
 
-/// The intersection of a region with a tile.
+/// A part of a region: its intersection with a tile.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct TileRegion {
     /// The tile.
@@ -98,7 +98,7 @@ impl TileRegion {
         self.rect.area()
     }
 
-    /// Copies the pixels of this part into the region, row by row.
+    /// Copies the pixels of this part into `all`, the pixels of the region, row by row.
     pub(super) fn copy_into_region<P: Copy>(&self, pixels: &[P], region: PixelRect, all: &mut [P]) {
         let (width, region_width) = (self.rect.width as usize, region.width as usize);
         let left = (self.rect.x - region.x) as usize;
@@ -110,7 +110,7 @@ impl TileRegion {
     }
 }
 
-/// Divides a region at tile borders, in rows from the upper left. Most pictures have one part.
+/// Divides a region at tile borders, row by row from the upper left. Usually there is one part.
 pub(super) fn tile_regions(image: ImageSpec, region: PixelRect) -> Vec<TileRegion> {
     let (columns, rows) = (image.width.div_ceil(TILE_SIDE), image.height.div_ceil(TILE_SIDE));
     let tile_indices = (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));
@@ -121,7 +121,7 @@ pub(super) fn tile_regions(image: ImageSpec, region: PixelRect) -> Vec<TileRegio
     regions.collect()
 }
 
-/// Returns the tile in a column and row of tiles.
+/// Returns the tile at a column and row of the tile grid.
 fn tile_at(image: ImageSpec, [column, row]: [u32; 2]) -> ImageTile {
     let (x, y) = (column * TILE_SIDE, row * TILE_SIDE);
     let (width, height) = (TILE_SIDE.min(image.width - x), TILE_SIDE.min(image.height - y));
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn regions_outside_the_picture_or_too_large_are_rejected() {
+    fn oversized_and_outside_regions_are_rejected() {
         let small = ImageSpec::new(100, 100);
         let outside = PixelRect { x: 90, y: 0, width: 20, height: 10 };
         assert_eq!(refused(small, outside), Some(outside));

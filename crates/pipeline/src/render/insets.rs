@@ -5,7 +5,7 @@
 //!  │   picture  ┌─┤   picture in scene order: opaque, with an optional border inside the
 //!  │            │2│   rectangle, or in cyan for the right eye of a red-cyan anaglyph.
 //!  │       ┌──┐ └─┤
-//!  └───────┤1 ├───┘   A region of the picture renders only the parts of insets that it contains.
+//!  └───────┤1 ├───┘   If only a region is rendered, it includes only the parts of insets in it.
 //!          └──┘
 //! ```
 
@@ -24,7 +24,7 @@ pub(super) fn visible_rects(inset: &Inset, region: PixelRect) -> Option<[PixelRe
 
 /// Whether insets hide a region completely, so that the picture below does not have to be rendered.
 ///
-/// The test is conservative: either a single inset covers the region, or disjoint insets cover it
+/// The test is conservative: a single inset must cover the region, or disjoint insets must cover it
 /// together. A cyan inset of an anaglyph leaves the red channel of the picture below visible.
 pub(super) fn covers_region(insets: &[Inset], region: PixelRect) -> bool {
     let opaque = || {
@@ -45,7 +45,7 @@ pub(super) fn covers_region(insets: &[Inset], region: PixelRect) -> bool {
 /// the picture.
 ///
 /// The border replaces pixels at the inset's edge. A cyan inset replaces green and blue and keeps
-/// red (anaglyph). The result has the larger alpha of the two pixels.
+/// red (anaglyph). The result then has the larger alpha of the two pixels.
 pub(super) fn composite_into<C: Channel>(
     inset: &Inset,
     pixels: &Picture<C>,

@@ -30,10 +30,10 @@ const OVERLAY_INK: Ink = [20, 24, 30];
 
 /// Draws the lines of a scene on a page of the picture's size, at 96 pixels per inch.
 ///
-/// Styles that show surfaces are drawn with hidden lines removed, including in viewports. An
-/// anaglyph is skipped with a warning. Blank paper is omitted, so that the page can be placed over
-/// others. `workers` sets the number of threads, which does not change the page, and optionally a
-/// [monitor](raster::Monitor) that receives the edge count of each drawing.
+/// A style that shows surfaces is replaced by lines with hidden lines removed, also in viewports.
+/// The second view of an anaglyph is omitted with a warning. Blank paper is omitted, so that the
+/// page can cover others. `workers` sets the number of threads, which does not change the page, and
+/// optionally a [monitor](raster::Monitor) that receives the edge count of each drawing.
 ///
 /// ```
 /// # use pipeline::scene::file::{CameraFile, LightFile};
@@ -167,8 +167,8 @@ fn to_page_millimeters(pixels: u32) -> f64 {
     f64::from(pixels) * MILLIMETERS_PER_PIXEL
 }
 
-/// Returns the lines drawn over shaded surfaces, with a warning if they are skipped: the
-/// silhouettes of the toon style and the feature-edge overlay. Styles that draw only lines have
+/// Returns the lines drawn over shaded surfaces (the silhouettes of the toon style and the
+/// feature-edge overlay), with a warning if they are skipped. Styles that draw only lines have
 /// none.
 pub(super) fn surface_line_layers(
     scene: &Scene,
@@ -186,8 +186,7 @@ pub(super) fn surface_line_layers(
         _ => return Ok(Default::default()),
     };
     let options = DrawOptions {
-        // The picture shows leaves, but lines would show the rectangles that the leaves are cut
-        // from.
+        // The picture shows cut-out leaves, but lines would show the rectangles around them.
         leaves_out_cut_outs: true,
         is_unlimited: scene.unlimited_lines,
         ..style.to_draw_options()

@@ -7,7 +7,7 @@
 //!  …
 //!  level 6   1 × 1
 //! ```
-//! A chain costs a third of the image's memory. An image may need two chains: texels of a color
+//! A chain adds a third to the image's memory. An image may need two chains: texels of a color
 //! texture are decoded from sRGB before they are averaged, while data is averaged directly.
 
 use model::{Image, Material, Model, ModelInstance, Texture, TextureSlot};
@@ -22,13 +22,13 @@ type ColorAndData<'a> = [Option<MipChain<'a>>; 2];
 
 /// The mip chains of all textures of a scene's models.
 ///
-/// They belong to the models, not to a picture, so several renderings of the same models share
+/// They belong to the models, not to a picture, so several renderings of the same models can share
 /// them. Building them takes about as long as rendering a small picture.
 #[derive(Debug)]
 pub struct Textures<'a> {
     /// The chains of each distinct model, by texture index.
     mip_chains: Vec<Vec<ColorAndData<'a>>>,
-    /// For each model of the scene, the index into `mip_chains`, shared by all its instances.
+    /// For each model instance of the scene, the index of its model's chains in `mip_chains`.
     chain_indices: Vec<usize>,
 }
 
@@ -58,8 +58,8 @@ impl<'a> Textures<'a> {
         Self { mip_chains, chain_indices }
     }
 
-    /// Copies the full images into the chains, so that a program can store them together with their
-    /// models.
+    /// Copies the full images into the chains, so that a program can store the chains together with
+    /// the models.
     #[must_use]
     pub fn into_owned(self) -> Textures<'static> {
         let own = |chains: ColorAndData<'_>| chains.map(|chain| chain.map(MipChain::into_owned));

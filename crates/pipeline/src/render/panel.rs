@@ -10,12 +10,12 @@ use glam::DVec2;
 use page::{MILLIMETERS_PER_PIXEL, PlacedImage, to_micrometers};
 use scene::Scene;
 
-/// Number of raster pixels per panel pixel along a side, for sharp prints.
+/// The number of raster pixels per panel pixel along a side, for sharp prints.
 const PICTURE_SCALE: u32 = 2;
 
-/// Draws a scene as a panel of its picture's size at 96 pixels per inch. Line styles become
-/// vectors, and styles that show surfaces become a raster picture. The number of threads does not
-/// change the result.
+/// Draws a scene as a panel of the same size as the scene's picture at 96 pixels per inch. Line
+/// styles become vectors, and styles that show surfaces become a raster picture. The number of
+/// threads does not change the result.
 ///
 /// # Errors
 /// Returns the same errors as [`render`](crate::render()).

@@ -8,7 +8,7 @@
 //! rasterizer's rules; holes in masked materials are skipped. The weights are then recomputed at
 //! the exact center, in f64, on the triangle before it is snapped to 1/256 pixel (IN-2; Olano and
 //! Greer, 1997, homogeneous barycentric coordinates). If the center is inside the snapped triangle
-//! but outside the exact triangle, its weights are clamped to the border.
+//! but outside the exact triangle, the weights are clamped to the exact border.
 
 mod buffer;
 mod exr;
@@ -54,7 +54,7 @@ use shade::FrameChannel;
 ///
 /// let whole = PixelRect::from_size(64, 48);
 /// let buffers = render_passes(&scene, whole, &[Pass::Depth], 2, &Default::default())?;
-/// // The triangle is at distance 4 in front of the eye.
+/// // The triangle is 4 units in front of the eye.
 /// let depth = buffers[0].float_values(32, 24).map(|values| values[0]);
 /// assert!(depth.is_some_and(|depth| (depth - 4.0).abs() < 1e-5), "{depth:?}");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -105,7 +105,7 @@ impl Renderer {
     }
 }
 
-/// The passes of one image tile.
+/// The state for rendering the passes of one image tile.
 struct TilePasses<'a, 'r> {
     /// The original scene; each frame draws a variant of it.
     context: RenderContext<'a>,

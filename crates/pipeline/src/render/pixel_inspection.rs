@@ -3,8 +3,8 @@
 //! The pixel is rendered again as a region of 1 × 1 pixel, bit for bit as in the picture, with a
 //! surface that records every shading call.
 //!
-//! It answers "why does this pixel have this color?": it lists the triangles and nodes visible in
-//! the pixel, their barycentric weights, and the linear color that each contributes.
+//! The result answers "why does this pixel have this color?": it lists the triangles and nodes
+//! visible in the pixel, their barycentric weights, and the linear color that each contributes.
 
 use super::RenderError;
 use super::context::RenderContext;
@@ -112,7 +112,7 @@ pub fn inspect_pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelFragme
 /// The primitive id, weights and color of a shading call.
 type RecordedFragment = (u32, [f32; 3], [f32; 4]);
 
-/// Draws a frame of one pixel and records its shading calls.
+/// Draws a frame of one pixel and records the shading calls.
 fn record_fragments(
     frame: &Frame,
     surface: &dyn Surface,
@@ -163,7 +163,7 @@ impl Surface for Recorder<'_> {
     }
 }
 
-/// Finds the primitive of a primitive id. Ids count points, lines and triangles in scene order,
+/// Finds the source of a primitive id. Ids count points, lines and triangles in scene order,
 /// including culled primitives.
 fn find_source(scene: &Scene, id: u32) -> Option<FragmentSource> {
     let mut first_id = 0;

@@ -3,8 +3,8 @@
 //!
 //! The mip chains, shadow maps, the depth buffer of ambient occlusion, the page of a line drawing
 //! and the overlay layers are computed once and shared by all regions. Everything else, beginning
-//! with the geometry, is repeated for each region, so memory is bounded by the region and not by
-//! the picture.
+//! with the geometry, is repeated for each region, so memory use depends on the size of the region,
+//! not of the picture.
 //!
 //! ```text
 //!  scene ─► prepare ─► region: surfaces of its image tiles, or lines ─► overlays ─► insets, caption
@@ -36,7 +36,7 @@ use std::sync::Arc;
 
 /// A scene prepared so that any region can be rendered; created by [`Renderer::prepare`].
 ///
-/// Regions of any size, in any order, match the picture bit for bit.
+/// Regions of any size, rendered in any order, match the picture bit for bit.
 #[derive(Debug)]
 pub struct PreparedScene<'a> {
     /// Scene, textures and threads.
@@ -54,7 +54,7 @@ pub struct PreparedScene<'a> {
     full_occlusion: Option<AmbientOcclusion>,
     /// The picture behind refracting and rough glass, rendered on demand.
     transmission_framebuffer: Option<TransmissionFramebuffer>,
-    /// The color of the picture, as long as all pixels so far have the same color.
+    /// Whether all pixels rendered so far have the same color.
     only_color: OnlyColor,
     /// The number of pixels rendered so far.
     pixels_seen: usize,
@@ -94,7 +94,7 @@ impl OnlyColor {
 }
 
 impl<'a> PreparedScene<'a> {
-    /// Draws the lines of a scene and its insets, with a separate renderer for each inset.
+    /// Prepares a scene and its insets by drawing their lines. Each inset has a separate renderer.
     pub(super) fn new(
         renderer: &'a mut Renderer,
         context: RenderContext<'a>,
@@ -158,8 +158,8 @@ impl<'a> PreparedScene<'a> {
     /// Renders a region of the picture. `picture` is resized to the region.
     ///
     /// # Errors
-    /// Returns an error if the region is empty, too large or outside the picture, the scene has too
-    /// many primitives, or the context's monitor requested cancellation.
+    /// Returns an error if the region is empty, too large or outside the picture, if the scene has
+    /// too many primitives, or if the context's monitor requested cancellation.
     pub fn render_region<C: FrameChannel>(
         &mut self,
         region: PixelRect,
@@ -211,7 +211,7 @@ impl<'a> PreparedScene<'a> {
     ) -> Result<(), RenderError> {
         let image = self.context.scene.image;
         let needs_framebuffer = needs_framebuffer(self.context.scene);
-        // Occlusion at a region's border depends on surfaces beyond it.
+        // Occlusion at a region's border depends on surfaces outside the region.
         let is_part = region != image.pixel_rect();
         if (is_part || needs_framebuffer) && self.full_occlusion.is_none() {
             self.full_occlusion = compute_whole_occlusion(&self.context)?;
@@ -232,7 +232,7 @@ impl<'a> PreparedScene<'a> {
                 tile.copy_into_region(&pixels, region, &mut picture.pixels);
             }
         }
-        // A canceled tile returns early and incomplete but without an error.
+        // The rendering of a canceled tile stops early but returns no error.
         if self.context.workers().is_canceled() {
             return Err(RenderError::Canceled);
         }
@@ -255,7 +255,7 @@ impl<'a> PreparedScene<'a> {
         Ok(())
     }
 
-    /// Renders the picture behind glass. Like shadow maps, it covers the whole picture.
+    /// Renders the picture behind glass, always for the whole picture and not for a region.
     fn render_transmission_framebuffer(&mut self) -> Result<(), RenderError> {
         let Self { context, buffers, full_occlusion, .. } = self;
         self.transmission_framebuffer = context.measure("transmission", || {

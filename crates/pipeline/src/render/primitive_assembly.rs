@@ -86,7 +86,7 @@ pub(super) struct PrimitiveAssembler<'a> {
 /// The default material of glTF 2.0 §3.9, for primitives without a material.
 pub(super) static DEFAULT_MATERIAL: LazyLock<Material> = LazyLock::new(Material::default);
 
-/// Two triangles over four vertices: ground, environment and backdrop.
+/// Two triangles over four vertices, for the ground, the environment and the backdrop.
 pub(super) static QUAD: LazyLock<Primitive> =
     LazyLock::new(|| Primitive { indices: vec![0, 1, 2, 0, 2, 3], ..Primitive::default() });
 
@@ -160,8 +160,8 @@ impl<'a> PrimitiveAssembler<'a> {
         if !self.project_primitive(primitive, material, &skinned, model_to_world) {
             return Ok(());
         }
-        // The sign of the determinant indicates whether faces are mirrored, and its cube root is
-        // the mean scale.
+        // The sign of the determinant indicates whether faces are mirrored, and the cube root of
+        // its magnitude is the mean scale.
         let determinant = model_to_world.determinant();
         let mut draw = Draw {
             first_id,
@@ -192,8 +192,8 @@ impl<'a> PrimitiveAssembler<'a> {
         Ok(())
     }
 
-    /// Returns the id of the primitive's first point, line or triangle, and the number of the draw
-    /// call.
+    /// Allocates ids for the points, lines or triangles of a primitive. Returns the first id and
+    /// the number of the draw call.
     fn allocate_ids(&mut self, primitive: &Primitive) -> Result<(u32, u32), RenderError> {
         let ids = (self.next_id, self.next_part_id);
         let count =
@@ -257,7 +257,7 @@ impl<'a> PrimitiveAssembler<'a> {
         arrays.write_vertices(count, selections, model_to_world, self.threads, vertices);
     }
 
-    /// Returns which winding a draw call culls. Front faces are counterclockwise in the picture
+    /// Returns the winding that a draw call culls. Front faces are counterclockwise in the picture
     /// unless exactly one of the model matrix and the projection reverses orientation.
     pub(super) fn cull_mode(&self, draw: &Draw<'_>) -> CullMode {
         let shows_both_faces = draw.material.double_sided || self.inputs.shows_back_faces;

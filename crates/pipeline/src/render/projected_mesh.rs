@@ -17,7 +17,7 @@ use model::{Primitive, SkinnedPrimitive, Topology};
 use raster::{MeshSelection, ScreenVertex, SimdLevel, VertexProjection};
 use std::borrow::Cow;
 
-/// The culled and projected vertices of one draw call. The next draw call reuses the memory.
+/// The projected vertices of one draw call after culling. The next draw call reuses the memory.
 #[derive(Debug, Default)]
 pub(super) struct ProjectedMesh {
     /// Triangles inside the guard band, drawn without clipping.
@@ -33,11 +33,11 @@ pub(super) struct ProjectedMesh {
 }
 
 impl ProjectedMesh {
-    /// Culls a primitive's clusters by frustum and by back faces.
+    /// Culls the clusters that are outside the frustum or show only back faces.
     ///
     /// `viewer` is the viewer in model space, or `None` if back faces are visible. Skinned and
     /// morphed meshes have no clusters, because their positions change with the pose. They are
-    /// culled by a single box.
+    /// culled as a whole by their bounding box.
     pub(super) fn cull_clusters(
         &mut self,
         transform: &ScreenTransform,

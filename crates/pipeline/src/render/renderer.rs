@@ -18,9 +18,9 @@ use std::sync::Arc;
 /// Renders whole pictures: surfaces or lines, outlines, overlays and insets.
 ///
 /// Single pictures, batches, frame sequences and pictures rendered in bands all use this renderer.
-/// A second picture reuses the buffers of the first: surfaces allocate only lists of nodes and
-/// textures, tangents, and skinned or morphed vertices. A picture does not depend on the pictures
-/// rendered before it.
+/// A second picture reuses the buffers of the first: rendering surfaces then allocates only lists
+/// of nodes and textures, tangents, and skinned or morphed vertices. A picture does not depend on
+/// the pictures rendered before it.
 ///
 /// ```no_run
 /// # use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures};
@@ -68,8 +68,8 @@ impl Renderer {
     /// ```
     ///
     /// # Errors
-    /// Returns an error if the picture's size is out of range, the scene has too many primitives,
-    /// or rendering was canceled.
+    /// Returns an error if the picture's size is out of range, if the scene has too many
+    /// primitives, or if rendering was canceled.
     pub fn render<C: FrameChannel>(
         &mut self,
         context: &RenderContext<'_>,
@@ -82,8 +82,8 @@ impl Renderer {
         Ok(prepared.into_warnings())
     }
 
-    /// Renders a whole picture with 8 bits per channel, and returns it as a PNG file with the
-    /// warnings about missing parts.
+    /// Renders a whole picture with 8 bits per channel, and returns a PNG file and the warnings
+    /// about missing parts.
     ///
     /// # Errors
     /// Returns the same errors as [`render`](Self::render).
@@ -172,7 +172,7 @@ impl RenderBuffers {
             _ => Frame::for_region(PixelRect { x, y, width, height }, samples)?,
         };
         let frame = frame.with_threads(context.threads);
-        // The monitor receives nothing until the pixels are counted.
+        // This monitor can only cancel. A monitor that receives progress may replace it later.
         let monitor = context.monitor.map(|monitor| CancelOnly(Arc::clone(monitor)));
         Ok(FrameMemory {
             frame: with_monitor(frame, monitor),
@@ -183,7 +183,7 @@ impl RenderBuffers {
         })
     }
 
-    /// Returns the buffers of a finished frame for reuse.
+    /// Takes back the buffers of a finished frame for reuse.
     pub(super) fn recycle_frame(&mut self, memory: FrameMemory<'_>) {
         let FrameMemory { frame, mut draws, mesh, mut vertex_pool, .. } = memory;
         // Reversed, so that the first draw call of the next picture gets its own list back, which

@@ -23,7 +23,7 @@ pub(super) fn find_repeated(models: &[ModelInstance], style: Style) -> Vec<bool>
         (Arc::as_ptr(model).addr(), model_to_world.raw().to_cols_array().map(f64::to_bits))
     };
     let mut order: Vec<usize> = (0..models.len()).collect();
-    // Addresses only group equal models; the first in each group is the first in scene order.
+    // The sort is stable, so the first model of each group is the first in scene order.
     order.sort_by_key(|index| place(*index));
     for pair in order.windows(2) {
         if place(pair[0]) == place(pair[1]) {

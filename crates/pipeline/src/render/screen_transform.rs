@@ -35,7 +35,7 @@ pub(super) struct ScreenTransform {
 /// The result of frustum culling a bounding box.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Containment {
-    /// Inside the view volume and its guard band: nothing needs clipping.
+    /// Inside the guard band and between the near and far planes: nothing needs clipping.
     Inside,
     /// Outside one plane of the view volume: nothing is visible.
     Outside,

@@ -41,7 +41,7 @@ pub(super) struct ShadowMapRenderer {
 impl ShadowMapRenderer {
     /// Discards all maps but retains their memory.
     pub(super) fn recycle_maps(&mut self) {
-        // Reversed, so that the first map of the next picture reuses the memory of the first map.
+        // Reversed, so that the next picture's first map reuses this picture's first map.
         self.ground_occlusion = None;
         let maps = self.maps.drain(..).rev().flatten();
         self.map_pool.extend(maps.flat_map(LightShadow::into_maps));

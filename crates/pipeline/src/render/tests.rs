@@ -1,5 +1,5 @@
-//! Compares SIMD shading with scalar shading: eight fragments at once must get the same bits as one
-//! at a time.
+//! Compares SIMD shading with scalar shading: the colors of eight fragments shaded at once must
+//! match scalar colors bit for bit.
 
 use super::context::RenderContext;
 use super::fragment_shading::fragment_shading;
@@ -16,7 +16,7 @@ use shade::Shading;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Shades like `Shading`, but one fragment at a time: the default methods of `Surface`.
+/// Shades like `Shading`, but one fragment at a time, with the default methods of `Surface`.
 struct ScalarShading<'a>(&'a Shading<'a>);
 
 impl Surface for ScalarShading<'_> {
@@ -46,7 +46,7 @@ fn load_scene(name: &str) -> Scene {
     file.image.size = (200, 130);
     let origin = Origin::from_text(name, text, folder);
     let mut scene = Scene::resolve(&origin, &file, &Default::default()).expect("a valid scene");
-    // The glass ball becomes rough and shows the transmission framebuffer.
+    // The glass ball becomes rough, so that it shows the transmission framebuffer.
     for material in
         scene.models.iter_mut().flat_map(|of| &mut Arc::make_mut(&mut of.model).materials)
     {

@@ -2,7 +2,7 @@
 //! glass, in linear light.
 //!
 //! It covers the whole picture even if only a region is rendered, because refraction and roughness
-//! bring in light from beyond the region's borders. The lookup is `shade::TransmissionFramebuffer`.
+//! bring in light from outside the region. `shade::TransmissionFramebuffer` performs the lookup.
 
 use super::RenderError;
 use super::ambient_occlusion::{OcclusionBuffers, compute_full_occlusion, compute_occlusion};
@@ -41,7 +41,7 @@ pub(super) fn needs_framebuffer(scene: &Scene) -> bool {
 /// surfaces.
 ///
 /// # Errors
-/// Returns an error if the picture is larger than one image tile, or the scene has too many
+/// Returns an error if the picture is larger than one image tile, or if the scene has too many
 /// primitives.
 pub(super) fn compute_whole_occlusion(
     context: &RenderContext<'_>,
@@ -73,8 +73,8 @@ pub(super) fn render_framebuffer(
     }
     let mut scene = context.scene.clone();
     [scene.image.width, scene.image.height] = framebuffer_size(scene.image);
-    // Contains linear light and not picture colors, because glass is tone mapped together with the
-    // light behind it.
+    // The framebuffer contains linear light and not picture colors, because glass is tone mapped
+    // together with the light behind it.
     scene.tone_mapper = ToneMapper::default();
     let context = context.with_scene(&scene);
     let whole = TileRegion::for_whole(scene.image);

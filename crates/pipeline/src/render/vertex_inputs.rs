@@ -1,9 +1,9 @@
 //! The vertex attributes, opacity and visible faces that a style needs for each draw call.
 //!
 //! A style that overrides materials (clay, normals, ids …) still needs their alpha values and
-//! double-sided flags. Styles that show the base color blend blended materials; other styles use
-//! one color per fragment, with holes instead of blending. The X-ray style makes everything
-//! translucent and also shows back faces.
+//! double-sided flags. Styles that show the base color draw blended materials as translucent; other
+//! styles use one color per fragment, with holes instead of translucency. The X-ray style makes
+//! everything translucent and also shows back faces.
 
 use super::vertex_processing::material_uv_set;
 use model::{AlphaMode, Material, Primitive};

@@ -23,13 +23,13 @@ pub(super) struct VertexArrays<'a> {
     pub(super) uvs: Option<&'a [[f32; 2]]>,
 }
 
-/// Number of vertices per parallel task. Smaller models run on one thread, because starting more
-/// threads would cost more than it saves.
+/// The number of vertices per parallel task. Smaller models are processed on one thread, because
+/// starting more threads would take longer than it saves.
 const VERTICES_PER_TASK: usize = 8192;
 
 impl VertexArrays<'_> {
-    /// Writes the selected vertices among `count`, with up to `threads` threads. The list is empty
-    /// if no attribute is needed.
+    /// Writes the selected ones of `count` vertices, with up to `threads` threads. The list is
+    /// empty if no attribute is needed.
     ///
     /// Vertices that are not selected keep values of earlier draw calls, which is harmless because
     /// no visible triangle refers to them.
@@ -135,7 +135,7 @@ pub(super) fn world_tangents(
     generated.map_or(Tangents::None, Tangents::PerCorner)
 }
 
-/// Transforms tangents to unit tangents in world space. A tangent that vanishes becomes zero.
+/// Transforms tangents to unit tangents in world space. A tangent that collapses becomes zero.
 ///
 /// w is the sign of the bitangent, w · (normal × tangent). A mirroring matrix reverses it.
 fn transform_tangents(
@@ -158,7 +158,7 @@ fn transform_tangents(
 /// Returns the normal matrix: the inverse transpose of a model matrix, up to a positive factor.
 ///
 /// It is computed from cofactors and divided by the largest entry, so it exists even for singular
-/// matrices and neither overflows nor underflows at extreme scales. It is zero if the matrix
+/// matrices and neither overflows nor underflows at extreme scales. It is zero if the model matrix
 /// collapses everything to a line.
 pub(super) fn normal_matrix(map: Affine<Model, World>) -> DMat3 {
     let raw = map.raw();
@@ -185,7 +185,7 @@ mod tests {
     use homog::Normal;
 
     #[test]
-    fn normals_match_homog_even_when_mirrored_and_at_any_scale() {
+    fn normals_match_homog_for_mirrored_and_extreme_scales() {
         let rotation = Affine::<Model, Model>::rotation_x(0.7);
         for size in [[1.0, 2.0, 3.0], [-1e-40, 1e-40, 2e-40], [1e30, -2e30, 5e30]] {
             let map = rotation.then(Affine::<Model, World>::scale(size[0], size[1], size[2]));

@@ -17,7 +17,7 @@ use std::io::{self, Write};
 const BAND_BYTES: u64 = 64 << 20;
 
 /// Returns the number of rows in a band for a picture of this width. A band has about 64 MiB of
-/// 8-bit pixels, in 64 to 2048 rows and whole rows of the rasterizer's 64-pixel tiles.
+/// 8-bit pixels. It has 64 to 2048 rows, a multiple of the rasterizer's tile height of 64.
 #[must_use]
 pub fn rows_per_band(width: u32) -> u32 {
     let rows = BAND_BYTES / (4 * u64::from(width.max(1)));
@@ -35,8 +35,8 @@ pub enum BitDepth {
 
 impl PreparedScene<'_> {
     /// Writes a region as a PNG file, rendered in bands of `rows` rows. The bytes do not depend on
-    /// the number of rows. If `copy` is set, it becomes the region's picture in 8 bits; otherwise
-    /// only one band is in memory.
+    /// the height of the bands. If `copy` is set, it becomes the region's picture in 8 bits;
+    /// otherwise only one band is in memory.
     ///
     /// The PNG header declares whether there is an alpha channel. Before anything is written, a
     /// picture over a translucent background is therefore rendered up to its first translucent
@@ -44,7 +44,7 @@ impl PreparedScene<'_> {
     ///
     /// # Errors
     /// Returns an error if a band cannot be rendered (see [`render_region`](Self::render_region)),
-    /// or the file cannot be written.
+    /// or if the file cannot be written.
     pub fn write_png(
         &mut self,
         out: &mut dyn Write,

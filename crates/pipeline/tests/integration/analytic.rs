@@ -67,7 +67,7 @@ struct TestPart {
     material: String,
 }
 
-/// Returns the square from −1 to 1 at height `z`, facing +z.
+/// Returns the square from −1 to 1 in x and y at this `z`, facing +z.
 fn square_part(z: f32, material: &str) -> TestPart {
     let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let positions = [0, 1, 2, 0, 2, 3].map(|n: usize| [corners[n][0], corners[n][1], z]);
@@ -100,7 +100,7 @@ fn render_parts(parts: &[TestPart], rest: &str) -> Picture {
     render_parts_larger(parts, 1.0, rest)
 }
 
-/// Renders the parts with everything scaled by `size`.
+/// Like [`render_parts`], but scales the parts by `size`.
 fn render_parts_larger(parts: &[TestPart], size: f64, rest: &str) -> Picture {
     render(&test_scene(parts, size, rest), 2).expect("a picture")
 }
@@ -356,7 +356,7 @@ fn transparent_pictures_over_a_color_match_opaque_pictures() {
     }
 }
 
-/// A sphere in surroundings of radiance 1 must not create light and may lose only a little.
+/// A sphere in uniform surroundings must not create light and may lose only a little.
 #[test]
 fn surfaces_in_white_surroundings_create_no_light() {
     let material = |metallic: f64, roughness: f64| {

@@ -11,8 +11,9 @@ use pipeline::{Origin, Scene, render};
 use std::sync::Arc;
 
 const IMAGE_SIZE: (u32, u32) = (1920, 1080);
-/// Number of texels along a side of the texture and of a checker square.
+/// The number of texels along a side of the texture.
 const TEXELS: u32 = 64;
+/// The number of texels along a side of a checker square.
 const CHECK_TEXELS: u32 = 8;
 /// Texture repetitions per unit in the world.
 const REPEATS_PER_UNIT: f32 = 0.5;
@@ -140,8 +141,8 @@ fn rms_error(anisotropy: u32) -> (f64, f64) {
 fn checkered_floors_are_close_to_the_mean_of_64_positions() {
     let errors = [1, 2, 4, 8].map(rms_error);
     let roots = errors.map(|(root, _)| root);
-    // The limits in linear light, from 0 to 1, for one, two, four (the default) and eight
-    // positions.
+    // The limits in linear light, from 0 to 1, for a maximum anisotropy of one, two, four (the
+    // default) and eight.
     for ((root, worst), (most, bound)) in
         errors.into_iter().zip([(0.065, 0.46), (0.045, 0.43), (0.034, 0.39), (0.028, 0.34)])
     {

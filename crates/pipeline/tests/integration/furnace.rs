@@ -1,4 +1,4 @@
-//! White furnace test: a white metal in uniform light returns all light it receives, at any
+//! White furnace test: a white metal in uniform light reflects all the light it receives, at any
 //! anisotropy.
 
 use homog::Affine;
@@ -34,7 +34,7 @@ fn ball_mesh(rows: u32) -> Primitive {
     Primitive { normals: Some(normals), tangents: Some(tangents), ..primitive }
 }
 
-/// Renders a white metal ball in uniform light of half the range, in parallel projection.
+/// Renders a white metal ball in uniform light of strength 0.5, in parallel projection.
 fn furnace_picture(strength: f32, roughness: f32) -> Picture<u16> {
     let anisotropy =
         (strength > 0.0).then(|| Box::new(Anisotropy { strength, ..Anisotropy::default() }));
@@ -78,7 +78,7 @@ fn anisotropic_metal_reflects_as_much_as_isotropic_metal() {
         for strength in [0.5, 1.0] {
             let picture = furnace_picture(strength, roughness);
             for (x, y) in (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y))) {
-                // From the center of the ball to a viewing angle of 80°.
+                // Only pixels with a viewing angle of at most 80° are compared.
                 let from_center = |at: u32| (2.0 * f64::from(at) + 1.0) / f64::from(SIDE) - 1.0;
                 let sine = libm::hypot(from_center(x), from_center(y));
                 if sine > libm::sin(80_f64.to_radians()) {

@@ -34,7 +34,7 @@ fn shadows_of_bare_models_are_inside_the_picture() {
             let is_border = |x: u32, y: u32| x == 0 || y == 0 || x + 1 == width || y + 1 == height;
             let on_border = all.clone().filter(|&(x, y)| is_border(x, y));
             let most = on_border.map(|(x, y)| alpha(x, y)).max();
-            // The key light's shadow does not reach the border; ambient occlusion fades slowly.
+            // The key light's shadow does not reach the border, but faint ambient occlusion may.
             assert!(most < Some(MAX_BORDER_ALPHA), "{name} {size:?}: {most:?}");
             let shadow = |&(x, y): &(u32, u32)| {
                 let [r, g, b, a] = picture.pixels[(y * width + x) as usize];
@@ -68,7 +68,7 @@ fn without_ground_only_the_model_is_framed() {
 }
 
 #[test]
-fn low_light_moves_the_camera_back_only_moderately() {
+fn light_from_low_angles_moves_the_camera_back_only_moderately() {
     let distance = |direction: &str| {
         let text = format!(
             r#"Scene(models: [(path: "crate.glb")], ground: Shadow(),
@@ -102,10 +102,10 @@ fn models_in_uniform_light_have_contact_shadows() {
         let size = (240, 180);
         let scene = model_in_uniform_light(name, size, None);
         let picture = render(&scene, 2).expect("a picture");
-        assert!(picture == render(&scene, 1).expect("a picture"), "{name}: threads");
+        assert!(picture == render(&scene, 1).expect("a picture"), "{name}: with one thread");
         let alphas: Vec<u8> =
             picture.pixels.iter().filter(|p| p[..3] == [0; 3]).map(|p| p[3]).collect();
-        // The shadow is dark at the foot and has no edge elsewhere.
+        // The shadow is dark at the foot of the model.
         let dark = alphas.iter().filter(|&&alpha| alpha > 90).count();
         assert!(dark > 20, "{name}: {dark}");
         let off = model_in_uniform_light(name, size, Some(ShadowsFile::Off));
@@ -130,7 +130,7 @@ fn regions_with_contact_shadows_match_the_whole_picture() {
     }
 }
 
-/// Renders a lamp lit from its left on shadow-catching ground, with additional fields in the scene.
+/// Renders a lamp in directional light on shadow-catching ground, with additional scene fields.
 fn lamp_picture(fields: &str) -> Picture {
     let text = format!(
         r#"Scene(models: [(path: "lamp.glb")], ground: Shadow(), shadows: On(),

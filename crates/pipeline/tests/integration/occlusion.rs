@@ -11,7 +11,7 @@ use std::sync::Arc;
 /// The number of directions in which the reference searches for occluders.
 const DIRECTION_COUNT: usize = 128;
 
-/// Makes all surfaces matte and nearly black, so that occluders reflect no light.
+/// Makes all surfaces matte and nearly black, so that occluders reflect almost no light.
 fn blacken_materials(scene: &mut Scene) {
     for ModelInstance { model, .. } in &mut scene.models {
         let materials = model.materials.iter().map(|material| Material {
@@ -40,7 +40,7 @@ fn load_scene(model: &str, image: &str, occlusion: &str) -> Scene {
     scene
 }
 
-/// Returns the linear red of each pixel.
+/// Returns the linear red value of each pixel; NaN for background pixels.
 fn linear_light(scene: &Scene, threads: usize) -> Vec<f64> {
     let (textures, mut renderer) = (Textures::for_scene(scene), Renderer::default());
     let context = RenderContext::new(scene, &textures, threads);
@@ -58,8 +58,8 @@ fn linear_light(scene: &Scene, threads: usize) -> Vec<f64> {
     picture.pixels.iter().map(linear).collect()
 }
 
-/// Returns the fraction of the light from all directions that the picture shows at each pixel; NaN
-/// for background pixels.
+/// Returns the scene and the fraction of light that occlusion leaves at each pixel; NaN for
+/// background pixels.
 fn drawn_visibility(model: &str, image: &str, radius: f64) -> (Scene, Vec<f64>) {
     let without = linear_light(&load_scene(model, image, ""), 2);
     let scene = load_scene(model, image, &format!("ambient_occlusion: (radius: {radius})"));
@@ -166,7 +166,7 @@ fn occlusion_matches_ray_casting() {
     assert!(faults.is_empty(), "{faults:#?}");
 }
 
-/// Compares the occlusion of a model, up to an eighth of its size, with ray casting.
+/// Compares ambient occlusion with ray casting, for a radius of an eighth of the model's size.
 fn judge_model(model: &str) -> Result<(), String> {
     let image = "size: (160, 120), samples: 1";
     let points = load_scene(model, image, "").world_points();

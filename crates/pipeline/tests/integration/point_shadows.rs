@@ -7,7 +7,7 @@ use pipeline::scene::parse_scene;
 use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
 use std::sync::Arc;
 
-/// The lamp, slightly off the center of the room.
+/// The position of the lamp, slightly off the center of the room.
 const LAMP: DVec3 = DVec3::new(0.11, -0.07, 0.05);
 /// Half of the room's side.
 const ROOM: f64 = 3.0;
@@ -24,8 +24,8 @@ const DIRECTIONS: [[f64; 3]; 6] = [
 /// A box given by its minimum and maximum coordinates.
 type Box3 = [DVec3; 2];
 
-/// Returns boxes with a half side of 0.3: one in front of each wall, and one across the borders of
-/// three faces.
+/// Returns one box in front of each wall, one across the borders of three faces, and one across the
+/// border of two.
 fn boxes() -> Vec<Box3> {
     let around = |center: DVec3, half: f64| [center - half, center + half];
     let mut boxes: Vec<Box3> =
@@ -35,7 +35,7 @@ fn boxes() -> Vec<Box3> {
     boxes
 }
 
-/// Returns the six sides of a box, visible from both sides.
+/// Returns the six sides of a box.
 fn box_mesh([low, high]: Box3) -> Primitive {
     let corner = |index: usize| {
         let pick = |axis: usize| if index >> axis & 1 == 0 { low[axis] } else { high[axis] };
@@ -118,8 +118,7 @@ fn shadows_in_all_six_directions_match_rays_from_the_lamp() {
             let along = (seen.truncate() / seen.w - eye).normalize();
             let Some([_, leave]) = meet_box(room, eye, along) else { panic!("in the room") };
             let place = eye + along * leave;
-            // Only positions on this wall count, away from its edges and with nothing in front of
-            // them.
+            // Only positions on this wall with nothing in front of them count.
             let is_hidden = boxes.iter().any(|&b| {
                 meet_box([b[0] - 0.02, b[1] + 0.02], eye, along)
                     .is_some_and(|[_, leave]| leave > 0.0)
@@ -129,7 +128,8 @@ fn shadows_in_all_six_directions_match_rays_from_the_lamp() {
             if is_hidden || !on_wall {
                 continue;
             }
-            // Two texels, where 2048 texels cover the 6 units of a wall, plus half a pixel.
+            // The offset is two texels, where 2048 texels cover the 6 units of a wall, plus half a
+            // pixel.
             let border = [side, -side, up, -up].map(|way| is_lit(&boxes, place + 0.008 * way));
             let expected = is_lit(&boxes, place);
             if border.iter().any(|&near| near != expected) {
@@ -143,7 +143,7 @@ fn shadows_in_all_six_directions_match_rays_from_the_lamp() {
     }
 }
 
-/// Returns a ball around a position, seen from inside, with smooth normals that point inward.
+/// Returns a ball around the origin, seen from inside, with smooth normals that point inward.
 fn hollow_ball(radius: f32, rows: u32) -> Primitive {
     let columns = 2 * rows;
     let mut primitive = Primitive::default();
@@ -238,8 +238,8 @@ fn penumbras_have_no_seams_between_faces() {
         differences.sort_unstable_by(f64::total_cmp);
         let (most, last) =
             (differences[differences.len() * 999 / 1000], differences[differences.len() - 1]);
-        // The pattern of 48 filter positions falls differently in the penumbra. If a face ended
-        // there, at least half of the light would be missing.
+        // The pattern of 48 filter positions differs in the penumbra. If a face ended there, at
+        // least half of the light would be missing.
         assert!(most < 0.05 && last < 0.15, "{degrees}: {most} {last}");
     }
 }

@@ -37,8 +37,8 @@ fn a_second_picture_allocates_only_short_lists() {
         let first = allocation_counter::measure(&mut draw);
         let second = allocation_counter::measure(&mut draw);
         assert!(first.bytes_total > 100_000, "{name}: {first:?}");
-        // Only lists of nodes and of each draw's textures, and nothing that grows with vertices or
-        // pixels. Each shadow map traverses the nodes again.
+        // Only lists of nodes and of each draw's textures are allocated, and nothing that grows
+        // with vertices or pixels. Each shadow map traverses the nodes again.
         let maps = scene.lights.iter().filter(|light| light.shadow().is_some()).count() as u64;
         // Ground occlusion allocates a grid of at most 192 × 192 cells for every picture.
         let has_grid = scene.ground.is_some_and(|ground| ground.occlusion.is_some());

@@ -114,8 +114,8 @@ fn render_box_on_floor(eye: &str, lights: &str) -> Picture {
     )
 }
 
-/// Returns the codes of the floor below the box for each column through its middle, starting at the
-/// first pixel outside the box.
+/// Returns the codes of the floor below the box for each pixel column through the box's middle,
+/// starting at the first pixel outside the box.
 fn pixels_below_box(picture: &Picture) -> Vec<Vec<u8>> {
     let is_box =
         |x: u32, y: u32| pixel_at(picture, x, y)[2] > 250 && pixel_at(picture, x, y)[0] < 250;
@@ -164,7 +164,7 @@ fn greatest_difference(parts: &[(Primitive, Material)], rest: &str, shadows: &st
 }
 
 #[test]
-fn balls_do_not_shade_themselves_in_grazing_light() {
+fn balls_do_not_shadow_themselves_in_grazing_light() {
     // A row of balls perpendicular to the light, from coarse to fine. No ball is in the shadow of
     // another.
     let balls: Vec<_> = [(-4.0, 12), (-2.0, 24), (0.0, 48), (2.0, 96), (4.0, 192)]
@@ -183,7 +183,7 @@ fn balls_do_not_shade_themselves_in_grazing_light() {
 }
 
 #[test]
-fn a_floor_and_a_bowl_do_not_shade_themselves() {
+fn a_floor_and_a_bowl_do_not_shadow_themselves() {
     let camera = "camera: (view: LookAt(eye: (0, 4, 8), target: (0, 0, 0)))";
     for direction in ["(1, -0.03, 0.2)", "(1, -0.2, 0.2)", "(0.1, -1, 0)"] {
         let rest = format!(
@@ -196,7 +196,7 @@ fn a_floor_and_a_bowl_do_not_shade_themselves() {
         );
         assert_eq!(difference, 0, "{direction}");
     }
-    // The inside of a complete ball, lit by a spot at its center.
+    // The inside of a complete ball, lit by a spot light inside it.
     let mut bowl = ball_mesh([0.0; 3], 5.0, 40);
     bowl.indices =
         bowl.indices.as_chunks::<3>().0.iter().flat_map(|&[a, b, c]| [a, c, b]).collect();
@@ -226,7 +226,7 @@ fn walls_without_thickness_do_not_leak_light() {
             lights: [{light}], shadows: {shadows}, image: (size: (960, 540), samples: 1)"
         );
         let picture = render_parts(room, &rest);
-        // Light and shade meet where two walls without thickness meet, so single pixels on the
+        // Light and shadow meet where two walls without thickness meet, so single pixels on the
         // edges may be lit.
         let lit = |x: u32, y: u32| u32::from(pixel_at(&picture, x, y)[0] > 0);
         let all = (0..540).flat_map(|y| (0..960).map(move |x| (x, y)));
@@ -242,7 +242,7 @@ fn walls_without_thickness_do_not_leak_light() {
 }
 
 #[test]
-fn only_opaque_texels_of_masked_parts_cast_shadows_and_blended_parts_do_not() {
+fn masked_parts_cast_shadows_where_alpha_passes_and_blended_parts_cast_none() {
     let roof =
         || quad_mesh(&[[[-1.0, 1.0, -1.0], [-1.0, 1.0, 1.0], [1.0, 1.0, 1.0], [1.0, 1.0, -1.0]]]);
     let shade_of = |alpha: f32, alpha_mode: AlphaMode| {
@@ -293,7 +293,7 @@ fn render_over_ground(background: &str, rest: &str) -> Picture {
     )
 }
 
-/// Returns the pixel of a ground position in that picture.
+/// Returns the pixel of a ground position in the picture of [`render_over_ground`].
 fn pixel_of_ground_point(x: f64, z: f64) -> (u32, u32) {
     let scene = shadow_scene(
         vec![(ball_mesh([0.0, 1.0, 0.0], 0.5, 60), matte_material(0.8, 0.8, 0.8))],
@@ -412,12 +412,12 @@ fn occlusion_has_no_stripes_next_to_sharp_edges() {
         |x: u32, y: u32| f64::from(picture.pixels[(y * region.width + x) as usize][0]) / 257.0;
     let (mut step, mut back) = (0.0_f64, 0.0_f64);
     for (x, y) in (0..region.height).flat_map(|y| (1..region.width - 1).map(move |x| (x, y))) {
-        // The difference between a pixel and the mean of its neighbors, and its increase over the
-        // pixel farther away.
+        // The difference between a pixel and the mean of its neighbors, and the increase from a
+        // pixel to the next one toward the box.
         step = step.max((code(x, y) - 0.5 * (code(x - 1, y) + code(x + 1, y))).abs());
         back = back.max(code(x + 1, y) - code(x, y));
     }
     let fall = code(0, 30) - code(100, 30);
-    assert!(fall > 8.0, "it must be darker next to the box: {fall}");
+    assert!(fall > 8.0, "the ground must be darker next to the box: {fall}");
     assert!(step < 0.5 && back < 0.25, "step {step}, back {back}");
 }

@@ -18,7 +18,7 @@ pub enum PassValues {
     Integers(Vec<u32>),
 }
 
-/// A rendered pass of a picture or of a region of it.
+/// A rendered pass of a whole picture or of a region.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PassBuffer {
     /// The meaning of the values.
@@ -96,7 +96,7 @@ impl PassBuffer {
                 let rows = values.chunks_mut(width * count).zip(hits.chunks(width)).enumerate();
                 raster::for_each_parallel(threads, rows, |(row, (values, hits))| {
                     let pixels = values.chunks_exact_mut(count).zip(hits).enumerate();
-                    // Reset for each row, because rows run in parallel.
+                    // Rows are processed in parallel, so each row starts without a cached item.
                     let mut last = None;
                     for (column, (values, hit)) in pixels {
                         geometry.write_value(pass, hit, pixel(row, column), &mut last, values);

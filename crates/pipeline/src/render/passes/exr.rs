@@ -1,25 +1,26 @@
 //! Passes as OpenEXR files, for compositing programs.
 //!
-//! The format (*OpenEXR file layout*, Academy Software Foundation): a magic number and a version,
-//! the header attributes, a table of row offsets, and the rows. Each row stores its channels one
-//! after another in alphabetical order. Nothing is compressed, so the values are exact and the
+//! The format (*OpenEXR file layout*, Academy Software Foundation) consists of a magic number, a
+//! version, header attributes, a table of row offsets, and the rows. Each row stores its channels
+//! one after another in alphabetical order. Nothing is compressed, so the values are exact and the
 //! bytes are the same everywhere. The `exr` package is not used because it would add a second
 //! deflate implementation.
 
 use super::buffer::{PassBuffer, PassValues};
 use scene_file::Pass;
 
-/// The magic number and version 2, which means one image stored in scan lines.
+/// The magic number, and version 2 without flags, for one image stored in scan lines.
 const MAGIC_AND_VERSION: [u8; 8] = [0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0];
-/// The codes for channel types.
+/// The channel type of u32 values.
 const UINT: i32 = 0;
+/// The channel type of f32 values.
 const FLOAT: i32 = 2;
 
 impl PassBuffer {
     /// Encodes the pass as an OpenEXR file of f32 or u32 values.
     ///
     /// Channels are `Z` for depth, `X`, `Y` and `Z` for vectors, `U` and `V` for texture
-    /// coordinates, and the name of the pass for others.
+    /// coordinates, and the name of the pass for other values.
     #[must_use]
     pub fn to_exr(&self) -> Vec<u8> {
         let names = channel_names(self.pass);
@@ -51,7 +52,7 @@ impl PassBuffer {
         bytes
     }
 
-    /// Writes the attributes common to all files.
+    /// Writes the header attributes.
     fn write_header(&self, names: &[&str], bytes: &mut Vec<u8>) {
         let mut attribute = |name: &str, kind: &str, value: &[u8]| {
             for text in [name, kind] {

@@ -125,10 +125,10 @@ impl<'a> SceneGeometry<'a> {
         }
     }
 
-    /// Writes the values of a floating-point pass for the pixel `pixel` of the tile. Values of
-    /// background pixels are left unchanged.
+    /// Writes the values of a floating-point pass for a pixel of the tile. Values of background
+    /// pixels are left unchanged.
     ///
-    /// `last` is the item of the previous pixel, because neighbors usually show the same triangle.
+    /// `last` caches the previous pixel's item, because neighbors usually show the same triangle.
     pub(super) fn write_value<'s>(
         &'s self,
         pass: Pass,
@@ -192,8 +192,8 @@ impl<'a> SceneGeometry<'a> {
         SurfacePoint { weights, position }
     }
 
-    /// Returns the unit normal of the visible side. It is interpolated, or the triangle's normal
-    /// for flat surfaces, or zero for points and lines.
+    /// Returns the unit normal of the visible side. It is interpolated for smooth surfaces, the
+    /// triangle's normal for flat surfaces, and zero for points and lines.
     fn visible_normal(&self, item: &HitItem<'_, '_>, point: &SurfacePoint) -> DVec3 {
         let draw = item.draw;
         if draw.primitive.topology != Topology::Triangles {
@@ -230,7 +230,7 @@ pub(super) struct HitItem<'s, 'a> {
     vertices: [usize; 3],
     /// Edge normals in (x, y, w), for computing weights at a point of the picture.
     edge_normals: [DVec3; 3],
-    /// Vertex positions in the world.
+    /// Vertex positions in world space.
     corners: [Point<World>; 3],
 }
 
@@ -275,7 +275,7 @@ fn interpolate([a, b, c]: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
 /// The normal q × r belongs to the edge opposite p, and so on. All normals point toward the
 /// triangle.
 ///
-/// Their dot products with a point (x, y, 1) of the picture are its weights, up to a factor.
+/// Their dot products with a point (x, y, 1) of the picture are that point's scaled weights.
 fn edge_normals(corners: [HPoint<Clip>; 3]) -> [DVec3; 3] {
     let [p, q, r] = corners.map(|corner| DVec3::new(corner.x(), corner.y(), corner.w()));
     let normals = [q.cross(r), r.cross(p), p.cross(q)];
@@ -303,7 +303,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn weights_match_the_point_before_the_divide() {
+    fn weights_are_recovered_from_the_projected_point() {
         let corners = [[-3.0, -1.0, 0.0, 2.0], [4.0, -2.0, 0.0, 5.0], [0.5, 6.0, 0.0, 9.0]];
         let corners = corners.map(|[x, y, z, w]| HPoint::new(x, y, z, w));
         for expected in [[0.2, 0.3, 0.5], [1.0, 0.0, 0.0], [0.05, 0.9, 0.05]] {

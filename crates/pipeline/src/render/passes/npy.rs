@@ -45,7 +45,7 @@ mod tests {
     use super::*;
     use scene_file::Pass;
 
-    /// Splits header and data as `numpy.lib.format` does for version 1.0.
+    /// Separates the header from the data as `numpy.lib.format` does for version 1.0.
     fn parse_npy(bytes: &[u8]) -> (&str, &[u8]) {
         assert_eq!(&bytes[..8], b"\x93NUMPY\x01\x00");
         let length = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));

@@ -8,8 +8,8 @@
 //! | barycentric, coverage | c / 65,535 |
 //! | integers | the value in gray; if any value exceeds 65,535, its high 16 bits in red and its low 16 bits in green |
 //!
-//! min and max are the minimum and maximum in the file. The text chunk `Description` records them,
-//! with the pass and its unit.
+//! min and max are the minimum and maximum of each channel. The text chunk `Description` records
+//! them, with the pass and its unit.
 
 use super::buffer::{PassBuffer, PassValues};
 use png::{BitDepth, ColorType, Compression, Encoder};
@@ -20,7 +20,7 @@ use std::fmt::Write;
 const MAX_CODE: f64 = 65_535.0;
 
 impl PassBuffer {
-    /// Encodes the pass as a PNG file with 16 bits per channel: gray for one value per pixel,
+    /// Encodes the pass as a PNG file with 16 bits per channel: gray if one channel suffices,
     /// otherwise RGB.
     #[must_use]
     pub fn to_png(&self) -> Vec<u8> {
@@ -106,7 +106,7 @@ impl PassBuffer {
     }
 }
 
-/// The values of the first and last codes.
+/// The values that the first and last codes represent.
 struct CodeRange {
     /// The value of the first code.
     min: f64,

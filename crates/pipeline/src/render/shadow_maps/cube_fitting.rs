@@ -1,13 +1,13 @@
 //! Cube shadow map fitting: the six cameras for a point light, cropped to its casters.
 //!
 //! ```text
-//!   ╲           ╱    a face covers 90° and a margin as wide as the filter's disc around a
+//!   ╲           ╱    a face covers 90° plus a margin as wide as the filter's disc around a
 //!    ╲┌──────┐ ╱     receiver at the border. Its window is cropped to its casters.
 //!     │ ▟▛   │╱      All faces have the same texel size and near and far planes, so a
 //!     └──────●───    border looks the same from both sides.
 //!            │ light
 //! ```
-//! A face has no map if it has no casters or if nothing in the view is on its side.
+//! A face has no map if it has no casters or if the light reaches nothing in the view through it.
 
 use super::light_fitting::{BORDER_TEXELS, LightCamera, ViewBounds, view_volume_corners};
 use camera::{Basis, Camera, ViewProjection};
@@ -27,8 +27,8 @@ const FACE_DIRECTIONS: [[f64; 3]; 6] = [
     [0.0, 0.0, 1.0],
     [0.0, 0.0, -1.0],
 ];
-/// The maximum total number of texels in the faces of all point lights, which is 0.8 GB. With more
-/// lights the faces are smaller.
+/// The maximum total number of texels in the faces of all point lights, to limit memory to 0.8 GB.
+/// With more lights the faces are smaller.
 const MAX_CUBE_TEXELS: f64 = (1_u32 << 26) as f64;
 /// The maximum ratio of the far distance to the near distance, for precision.
 const MAX_DEPTH_RATIO: f64 = 1e3;
@@ -41,7 +41,7 @@ pub(super) struct CubeCameras {
     position: [f32; 3],
     /// The tangent of half the angle that the light subtends.
     spread: f64,
-    /// The distance of the near plane of all faces.
+    /// The distance from the light to the near plane of each face.
     near: f64,
     /// The side length of a texel at distance 1.
     texel: f64,
@@ -73,7 +73,7 @@ impl CubeCameras {
         Some(Self { faces, position, spread, near, texel })
     }
 
-    /// Returns the cube of the maps rendered with these cameras.
+    /// Returns the shadow cube that consists of the maps rendered with these cameras.
     pub(super) fn to_cube(&self, faces: [Option<shade::ShadowMap>; 6]) -> ShadowCube {
         let (position, spread) = (self.position, self.spread as f32);
         let (nearest, texel) = (self.near as f32, self.texel as f32);
@@ -150,8 +150,8 @@ impl CroppedWindow {
     }
 }
 
-/// Returns the coordinates of a position relative to the light in the axes of a face: right, up and
-/// along its axis.
+/// Converts a position relative to the light to the coordinates of a face: right, up and along the
+/// face's axis.
 fn face_coordinates(face: usize, p: DVec3) -> DVec3 {
     // The axes of `Basis::from_gaze_or_fallback` for these directions.
     match face {
@@ -164,7 +164,7 @@ fn face_coordinates(face: usize, p: DVec3) -> DVec3 {
     }
 }
 
-/// Returns the sides of the six faces that a position is outside of, with five bits per face.
+/// Returns five bits per face, one for each plane of the face that a position is outside of.
 ///
 /// A triangle or a volume is outside a face if all its corners share one of the face's bits.
 fn outside_bits(p: DVec3, slope: f64) -> u32 {
@@ -240,7 +240,7 @@ impl CubeCasters {
         is_lit.then_some(casters)
     }
 
-    /// Adds a triangle, given the outside bits of its vertices.
+    /// Adds a triangle, given by its vertices and their outside bits.
     fn add_triangle(&mut self, triangle: [(DVec3, u32); 3], range: f64, max_slope: f64) {
         let positions = triangle.map(|(position, _)| position);
         let [a, b, c] = positions;

@@ -1,4 +1,4 @@
-//! Height maps of the models, from below and from above, for ground occlusion.
+//! Height maps of the models, seen from below and from above, for ground occlusion.
 //!
 //! ```text
 //!   ▼ ▼ ▼ ▼ ▼ ▼   highest surfaces      two orthographic depth passes over one grid
@@ -65,12 +65,12 @@ impl ShadowMapRenderer {
         let slab = |index: usize| {
             let (low, high) = (lowest.height(mirrored(index))?, highest.height(index)?);
             let low = low.max(0.0);
-            // A single sheet is thin but does not have zero thickness.
+            // A single sheet gets a small thickness instead of zero.
             Some(HeightSlab { low, high: high.max(low * (1.0 + 1e-4) + 1e-4 * grid.cell) })
         };
         let slabs: Vec<_> =
             (0..columns * rows).map(|index| slab(index).unwrap_or(HeightSlab::EMPTY)).collect();
-        // Reversed, so that each map reuses its own memory.
+        // The order is reversed, so that each map later gets the same memory again.
         self.map_pool.extend([highest.map, lowest.map]);
         Ok(Some(GroundOcclusion::compute(grid, &slabs, context.threads)))
     }

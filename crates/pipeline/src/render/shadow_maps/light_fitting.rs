@@ -1,4 +1,4 @@
-//! Shadow map fitting: finds a camera for a light with the smallest possible view volume, so that
+//! Shadow map fitting: finds the camera with the smallest possible view volume for a light, so that
 //! texels are small.
 //!
 //! ```text
@@ -36,9 +36,9 @@ pub(super) struct LightCamera {
     pub(super) depth_at_infinity: Option<f64>,
 }
 
-/// The tangent of the maximum half angle of a spot light's map. Everything beyond it is lit.
+/// The tangent of the maximum half angle of a spot light's map; everything outside it is lit.
 const MAX_SPOT_SLOPE: f64 = 8.0;
-/// Number of empty texels around the casters, for filtering across the border.
+/// The number of empty texels around the casters, for filtering across the border.
 pub(super) const BORDER_TEXELS: f64 = 3.0;
 
 impl LightCamera {
@@ -200,7 +200,7 @@ fn view_to_world_point(camera: Camera, point: DVec3) -> DVec3 {
     camera.eye().raw() + offset.raw()
 }
 
-/// Fits a perspective camera to a spot light. `cosine` is the cosine of its outer half angle.
+/// Fits a perspective camera to a spot light with this cosine of its outer half angle.
 fn fit_spot(
     scene: &Scene,
     position: [f64; 3],

@@ -15,8 +15,8 @@ fn glass_material(color: [f64; 3], volume: &str) -> String {
 
 #[test]
 fn glass_tints_its_background_per_channel() {
-    // Over white, the result is the product of all transmittances in any order. Over a color, it is
-    // multiplied by that color.
+    // Over white, the result is the product of all transmittances in any order. Over a color, the
+    // product is multiplied by that color.
     let colors = [[0.9, 0.3, 0.2], [0.5, 0.8, 1.0], [0.7, 0.7, 0.7]];
     let mut expected = [1.0; 3];
     for color in colors {
@@ -65,7 +65,7 @@ fn partly_covering_glass_tints_only_the_covered_part() {
     let rest = r##"lights: [], image: (size: (40, 40), background: Color("#fff"))"##;
     let found = render_parts(&[square_part(0.0, &material)], rest).pixel(20, 20).unwrap();
     assert_near(found, [0.9, 0.3, 0.2].map(|c| 0.4 + 0.6 * c), "coverage 0.6");
-    // Over a transparent background there is a single alpha, from a gray of the same brightness.
+    // Over a transparent background, the tint becomes an alpha, from a gray of equal brightness.
     let rest = "lights: [], image: (size: (40, 40))";
     let found = render_parts(&[square_part(0.0, &glass_material([0.9, 0.3, 0.2], ""))], rest)
         .pixel(20, 20)

@@ -157,7 +157,7 @@ fn rough_and_thick_glass_in_white_surroundings_conserves_light() {
 }
 
 #[test]
-fn panes_in_front_of_rough_glass_are_blended_and_panes_behind_it_are_lost() {
+fn panes_are_blended_in_front_of_rough_glass_and_omitted_behind_it() {
     let (green, tint) = ([0.2, 0.9, 0.4], [0.9, 0.5, 0.7]);
     let glass = bending_glass(0.4, tint, "");
     let pane = |z: f32| square_part(z, &pane_material(PANES[0]));
@@ -181,7 +181,7 @@ fn transparent_backgrounds_stay_transparent_behind_rough_glass() {
     let found = render_parts(&parts(), "lights: [], image: (size: (40, 40))");
     let gray = 0.2126 * tint[0] + 0.7152 * tint[1] + 0.0722 * tint[2];
     assert_eq!(found.pixel(20, 20), Some([0, 0, 0, (255.0 * (1.0 - gray) + 0.5) as u8]));
-    // In front of a color, or an image of that color, the tint is colored under every tone mapping.
+    // In front of a color or a gradient, the glass shows its tint even with tone mapping.
     for background in ["Color(\"#fff\")", "Gradient(colors: [\"#fff\", \"#fff\"])"] {
         let image = format!("size: (40, 40), background: {background}, tone_mapping: Aces");
         let found = render_parts(&parts(), &format!("lights: [], image: ({image})"));
@@ -198,7 +198,7 @@ fn regions_with_rough_and_thick_glass_match_for_any_thread_count() {
         square_part(1.2, &bending_glass(0.6, [0.5, 1.0, 0.9], "")),
         white_half(),
     ];
-    // The longer side exceeds the maximum framebuffer size.
+    // In the second size, the longer side exceeds the maximum framebuffer size.
     for (width, height) in [(150, 90), (5000, 30)] {
         let rest = format!(
             "environment: Sky(), ambient_occlusion: (radius: 0.5), ground: Shadow(),

@@ -61,8 +61,8 @@ fn regions_and_bands_match_the_whole_picture() {
     }
 }
 
-/// Checks that rounding to the nearest 8-bit codes gives the picture, except where lines are drawn
-/// over it.
+/// Checks that the 16-bit picture rounds to the 8-bit picture, except where lines are drawn over
+/// it.
 fn assert_sixteen_bits_agree(whole: &Picture, deep: &Picture<u16>, name: &str) {
     let mut drawn = 0;
     for (flat, deep) in whole.pixels.iter().zip(&deep.pixels) {
@@ -79,7 +79,7 @@ fn assert_sixteen_bits_agree(whole: &Picture, deep: &Picture<u16>, name: &str) {
 }
 
 #[test]
-fn sixteen_bits_round_to_eight_without_drawn_lines() {
+fn sixteen_bit_pictures_without_lines_round_to_eight_bits() {
     for name in ["floor", "panes", "crates", "finishes"] {
         let scene = load_scene(name, |file| file.image.size = (200, 130));
         let all = scene.image.pixel_rect();
@@ -96,7 +96,7 @@ fn sixteen_bits_round_to_eight_without_drawn_lines() {
 
 #[test]
 fn files_do_not_depend_on_the_band_height() {
-    // Opaque, transparent, and transparent but fully covered.
+    // The backgrounds: opaque, transparent, and transparent but fully covered.
     for (background, covered) in [(1.0, false), (0.0, false), (0.0, true)] {
         let mut scene = load_scene("spheres", |file| file.image.size = (333, 210));
         scene.image.background = [background; 4];
@@ -141,7 +141,7 @@ fn regions_of_a_giant_picture_match_across_image_tiles() {
 }
 
 /// A tall picture with every feature that depends on more than one pixel. It has textures, glass,
-/// soft and sharp shadows, a ground that catches them, occlusion, an environment, an overlay, and a
+/// soft and hard shadows, a ground that catches them, occlusion, an environment, an overlay, and a
 /// view with a separate camera.
 const EVERYTHING_SCENE: &str = r#"Scene(
     models: [

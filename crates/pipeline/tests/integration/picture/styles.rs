@@ -59,7 +59,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 #[test]
-fn normals_match_the_pass() {
+fn normal_style_matches_the_normal_pass() {
     let scene = styled_scene("teapot", Style::Normals);
     let (picture, told) =
         (render_scene(&scene), render_wanted_passes(&scene, &[Pass::Id, Pass::Normal]));
@@ -127,7 +127,7 @@ fn expected_light(scene: &Scene, normal: [f64; 3]) -> [f64; 3] {
                 (dot(normal, towards.map(f64::from)).max(0.0), *lux)
             }
             Light::Ambient { lux } => (1.0, *lux),
-            _ => panic!("the scene has only suns"),
+            _ => panic!("the scene has only sun and ambient lights"),
         };
         for k in 0..3 {
             sum[k] += f64::from(lux[k]) * cosine / PI;
@@ -156,9 +156,9 @@ fn clay_is_matte_in_the_light_of_the_scene() {
 }
 
 #[test]
-fn gouraud_matches_clay_at_vertices_and_is_even_on_flat_faces() {
-    // All normals of a crate's face are equal, so its light is even, as on every matte surface in
-    // the sun.
+fn clay_is_even_on_flat_faces_and_differs_from_gouraud() {
+    // All normals of a crate's face are equal, so clay in sunlight has the same color everywhere on
+    // it.
     let (gouraud, clay) =
         (styled_scene("crates", Style::Gouraud), styled_scene("crates", Style::Clay));
     let told = render_wanted_passes(&gouraud, &[Pass::Id, Pass::Normal, Pass::Material]);
@@ -178,7 +178,7 @@ fn gouraud_matches_clay_at_vertices_and_is_even_on_flat_faces() {
 }
 
 #[test]
-fn each_part_has_one_color() {
+fn ids_give_each_node_a_distinct_color() {
     let scene = styled_scene("teapot", Style::Ids);
     let picture = render_scene(&scene);
     let told = render_wanted_passes(&scene, &[Pass::Id, Pass::Node]);
@@ -224,7 +224,7 @@ fn checkers_change_at_every_eighth_of_the_texture_coordinates() {
 }
 
 #[test]
-fn toons_have_few_tones_and_dark_outlines() {
+fn toon_style_has_few_tones_and_dark_outlines() {
     let scene = styled_scene("spheres", Style::Toon);
     let picture = render_scene(&scene);
     let told = render_wanted_passes(&scene, &[Pass::Id, Pass::Material]);
