@@ -130,8 +130,7 @@ fn finite_quotient(numerator: f64, denominator: f64) -> Option<f64> {
 }
 
 /// Converts the weights of a triangle's corners in the image to weights in space, given w at the
-/// corners (IN-2): λᵢ/wᵢ divided by their sum. The results interpolate any attribute
-/// perspective-correctly.
+/// corners (IN-2): λᵢ/wᵢ divided by their sum. They suit any attribute.
 ///
 /// Returns `None` if the sum is 0 or not finite, for example if a w is 0.
 #[must_use]

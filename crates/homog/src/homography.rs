@@ -95,8 +95,7 @@ impl Homography {
         self.raw.determinant()
     }
 
-    /// Returns the inverse map, or `None` if this one is singular up to rounding or either is not
-    /// finite.
+    /// Returns the inverse map, or `None` if it is not finite or does not exist, up to rounding.
     #[must_use]
     pub fn inverse(self) -> Option<Self> {
         eliminate_full_pivoting(self.rows()).inverse.map(Self::from_rows)

@@ -104,8 +104,7 @@ impl HLine2 {
         Self { raw }
     }
 
-    /// Evaluates a x + b y + c h, which is 0 on the line. For h > 0, its sign distinguishes the two
-    /// sides.
+    /// Evaluates a x + b y + c h, which is 0 on the line. For h > 0, its sign gives the side.
     #[must_use]
     pub fn evaluate(self, point: HPoint2) -> f64 {
         self.raw.dot(point.raw)

@@ -65,8 +65,7 @@ impl<A: Space, B: Space> Projective<A, B> {
         Projective::tagged(next.into().raw * self.raw)
     }
 
-    /// Returns the inverse map, or `None` if this one is singular up to rounding or either is not
-    /// finite.
+    /// Returns the inverse map, or `None` if it is not finite or does not exist, up to rounding.
     ///
     /// The test does not depend on units: a near plane at 10⁻⁹ does not make a map singular.
     /// [`inverse_with_report`](Self::inverse_with_report) reports details.
