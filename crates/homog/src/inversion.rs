@@ -32,7 +32,7 @@ impl<A: Space, B: Space> Inversion<A, B> {
 #[non_exhaustive]
 pub enum InversionError {
     /// The map flattens space, as every classical projection onto a plane does.
-    #[error("the matrix is singular: its rank is {rank}, but must be 4 for an inverse")]
+    #[error("the matrix is singular: its rank is {rank}, but an inverse needs rank 4")]
     Singular {
         /// The dimension of the image in homogeneous coordinates: 3 for a projection onto a plane.
         rank: usize,
