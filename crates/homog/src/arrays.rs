@@ -1,9 +1,9 @@
-//! Matrices as plain arrays, by rows or by columns, as the method names state.
+//! Conversions between maps and plain arrays, by rows or by columns as the method names state.
 //!
 //! Points are columns to the right of the matrix: `v' = M v`. Row-major arrays read like the
 //! printed matrix; OpenGL, Vulkan and glTF store column-major arrays. A library with row vectors,
-//! `v' = v M`, needs the transposed matrix. Its row-major array is identical to the column-major
-//! array here.
+//! `v' = v M`, needs the transposed matrix. The row-major array of that matrix is identical to the
+//! column-major array here.
 
 use crate::{Affine, Homography, Projective, Space};
 use glam::{DMat3, DMat4};

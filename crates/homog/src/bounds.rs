@@ -5,8 +5,8 @@ use crate::{Affine, Point, Space, Vector};
 /// A closed axis-aligned box in space `S`, never empty: `min ≤ max` in every coordinate, and all
 /// coordinates are finite.
 ///
-/// The bounds of one point have size zero. Without points there are no bounds, so
-/// [`Bounds::from_points`] returns an `Option`.
+/// The bounds of one point have size zero. An empty set has no bounds, so [`Bounds::from_points`]
+/// returns an `Option`.
 ///
 /// ```
 /// use homog::{Bounds, Point, World};
@@ -73,8 +73,8 @@ impl<S: Space> Bounds<S> {
         Point::tagged(self.min.raw * 0.5 + self.max.raw * 0.5)
     }
 
-    /// Returns the three edge lengths, from the minimum corner to the maximum corner. They are
-    /// infinite on overflow.
+    /// Returns the three edge lengths as the vector from the minimum corner to the maximum corner.
+    /// A length that overflows is infinite.
     #[must_use]
     pub fn size(self) -> Vector<S> {
         self.max - self.min

@@ -8,8 +8,8 @@
 //! ```
 //!
 //! Each kind includes the kinds above it. A common factor does not matter: the bottom row (0, 0, 0,
-//! 5) is equivalent to (0, 0, 0, 1). One source calls a perspective "non-linear" (misprint M27): it
-//! is linear on homogeneous points, and projective but not affine on positions.
+//! 5) is equivalent to (0, 0, 0, 1). One source calls perspective maps "non-linear" (misprint M27):
+//! they are linear on homogeneous points, and projective but not affine on positions.
 
 use crate::{Affine, Homography, Projective, Space};
 use core::fmt;
@@ -93,7 +93,7 @@ impl Classification {
     }
 
     /// Returns the number of x, y and z axes with a finite vanishing point, that is, the number of
-    /// nonzero entries among p, q and r. The values 1, 2 and 3 mean a one-, two- or three-point
+    /// nonzero entries among p, q and r. The values 1, 2 and 3 mean one-, two- and three-point
     /// perspective, and 0 means a parallel projection.
     #[must_use]
     pub fn finite_vanishing_points(&self) -> usize {
@@ -173,9 +173,9 @@ impl<A: Space, B: Space> Projective<A, B> {
         self.classify_within(0.0)
     }
 
-    /// Classifies this map with a tolerance, for computed matrices. Entries of the bottom row up to
-    /// `relative` times h count as 0, as do translation entries that small relative to the linear
-    /// part.
+    /// Classifies this map with a tolerance, for computed matrices. The entries p, q and r count as
+    /// 0 up to `relative` times |h|, and translations up to `relative` times the largest entry of
+    /// the linear part.
     #[must_use]
     pub fn classify_within(self, relative: f64) -> Classification {
         Classification::new(self.rows(), self.rank(), relative)
@@ -200,7 +200,7 @@ impl<A: Space, B: Space> Projective<A, B> {
 }
 
 impl<A: Space, B: Space> Affine<A, B> {
-    /// Classifies this map: affine, or linear if the origin stays.
+    /// Classifies this map as linear if the origin stays fixed, or else as affine.
     #[must_use]
     pub fn classify(self) -> Classification {
         Projective::from(self).classify()

@@ -9,8 +9,8 @@
 //! ```
 //!
 //! Projection, clipping and viewport must agree on the range. Each accepts it as a value, so you
-//! choose it once and pass it to all three. OpenGL selects it with `glClipControl`, Vulkan with
-//! `VK_EXT_depth_clip_control`.
+//! choose it once and pass it to all three. In OpenGL, `glClipControl` selects the range; in
+//! Vulkan, `VK_EXT_depth_clip_control` does.
 
 use thiserror::Error;
 
@@ -23,7 +23,7 @@ pub enum NdcY {
     Down,
 }
 
-/// The reason why the near and far depths are rejected.
+/// The reason why [`ClipRange::with_depths`] rejects the depths.
 #[derive(Clone, Copy, PartialEq, Debug, Error)]
 pub enum ClipRangeError {
     /// A depth is not a number from −1 to 1.
@@ -74,7 +74,7 @@ impl ClipRange {
         Self { near_depth, far_depth, y }
     }
 
-    /// Returns this range with the near and far depths exchanged (reversed z).
+    /// Returns this range with the near and far depths swapped (reversed z).
     #[must_use]
     pub const fn reversed(self) -> Self {
         Self::new(self.far_depth, self.near_depth, self.y)

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! The 4×4 matrix whose columns are the axes (w = 0) and the origin (w = 1) converts coordinates in
-//! the frame to coordinates in the parent space. Its inverse does the opposite. The matrix of one
+//! the frame to coordinates in the parent space. Its inverse converts them back. The matrix of one
 //! frame followed by the inverse matrix of another converts coordinates between the two frames.
 
 use crate::{Affine, Point, Space, Vector};
@@ -41,7 +41,7 @@ pub enum FrameError {
 }
 
 impl<S: Space> CoordinateFrame<S> {
-    /// Creates a frame from its origin and axes, which may have any lengths and angles.
+    /// Creates a frame from its origin and axes, which need not be perpendicular or of unit length.
     ///
     /// # Errors
     /// Returns an error if the axes lie in one plane (up to rounding) or a coordinate is not
@@ -78,7 +78,7 @@ impl<S: Space> CoordinateFrame<S> {
     /// Returns the map from points in `S` to coordinates in this frame (space `L`).
     #[must_use]
     pub fn parent_to_local<L: Space>(self) -> Affine<S, L> {
-        // A frame exists only if this inverse exists.
+        // `new` accepts a frame only if this inverse exists.
         self.local_to_parent::<L>().inverse().unwrap_or(Affine::IDENTITY)
     }
 

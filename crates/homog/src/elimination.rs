@@ -1,11 +1,11 @@
 //! Gauss–Jordan elimination of a small square matrix: its inverse and its rank.
 //!
-//! Rows and columns are first scaled by powers of two, which is exact, until the largest entry of
-//! each is near 1. The rank then does not depend on units, even if they differ wildly, as with a
-//! near plane at 10⁻¹² and a far plane at 10⁶. Only a pivot at the level of rounding noise makes a
-//! matrix singular.
+//! Rows and columns are first scaled exactly, by powers of two, so that the largest entry of each
+//! is near 1. The rank then does not depend on units, even if they differ wildly (a near plane at
+//! 10⁻¹² and a far plane at 10⁶): only a pivot at the level of rounding noise makes a matrix
+//! singular.
 
-/// Pivots of a balanced matrix up to this size count as rounding noise.
+/// Pivots of the scaled matrix up to this size count as rounding noise.
 const ROUNDING_NOISE: f64 = 4.0 * f64::EPSILON;
 
 /// The result of elimination.
@@ -16,7 +16,7 @@ pub(crate) struct Elimination<const N: usize> {
     pub(crate) inverse: Option<[[f64; N]; N]>,
 }
 
-/// Eliminates a matrix, stored by rows, with complete pivoting.
+/// Runs Gauss–Jordan elimination with complete pivoting on a matrix stored by rows.
 pub(crate) fn eliminate_full_pivoting<const N: usize>(rows: [[f64; N]; N]) -> Elimination<N> {
     if !rows.iter().flatten().all(|entry| entry.is_finite()) {
         return Elimination { rank: 0, inverse: None };
@@ -84,7 +84,7 @@ fn find_pivot<const N: usize>(
     best
 }
 
-/// Divides the pivot row by the pivot and subtracts it from all other rows, on both sides.
+/// Divides the pivot row by the pivot and subtracts multiples of it from all other rows.
 fn clear_column<const N: usize>(
     left: &mut [[f64; N]; N],
     right: &mut [[f64; N]; N],
@@ -104,8 +104,8 @@ fn clear_column<const N: usize>(
     }
 }
 
-/// Moves the rows of the balanced inverse to their positions and undoes the scaling: the inverse of
-/// R A C is C⁻¹ A⁻¹ R⁻¹, hence A⁻¹ = C (R A C)⁻¹ R.
+/// Moves the rows of the scaled matrix's inverse to their positions and undoes the scaling: the
+/// inverse of R A C is C⁻¹ A⁻¹ R⁻¹, hence A⁻¹ = C (R A C)⁻¹ R.
 fn undo_equilibration<const N: usize>(
     right: [[f64; N]; N],
     column_of: [usize; N],
@@ -126,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rounding_noise_is_singular_but_small_units_are_not() {
+    fn matrices_are_singular_up_to_noise_but_not_for_small_units() {
         let thirds = [[0.1, 0.2], [0.3, 0.6]];
         let flat = eliminate_full_pivoting(thirds);
         assert_eq!((flat.rank, flat.inverse), (1, None), "0.1 · 0.6 − 0.2 · 0.3 is 1e-17, not 0");

@@ -6,10 +6,10 @@
 //!  image     r/w_r ───────────────────── ● f = ¾ ── R/w_R      the far half is squeezed
 //! ```
 //!
-//! The point r + t(R − r) has its image at fraction f(t) = w_R t / (w_r + t(w_R − w_r)) between the
-//! images of the ends. If both values of w have the same sign, the denominator is a blend of the
-//! two and never 0. Then f rises from 0 to 1: segments map to segments, and points on them keep
-//! their order.
+//! The image of the point r + t(R − r) is at fraction f(t) = w_R t / (w_r + t(w_R − w_r)) of the
+//! image segment. If both values of w have the same sign, the denominator, their weighted mean, is
+//! never 0. Then f rises from 0 to 1: segments map to segments, and points on them keep their
+//! order.
 //!
 //! Source: the textbook (Shirley and Marschner, ch. 8), §8.4 and exercise 11; IN-1, IN-2.
 
@@ -28,7 +28,7 @@ pub struct SegmentCrossesEyePlane {
     pub end: f64,
 }
 
-/// The relation between a segment and its perspective image, determined by w at the ends.
+/// The relation between a segment and its perspective image, determined by w at the endpoints.
 ///
 /// ```
 /// use homog::Foreshortening;
@@ -40,7 +40,7 @@ pub struct SegmentCrossesEyePlane {
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Foreshortening {
-    /// w at both ends, scaled to be positive with the larger in [1, 2): only the ratio matters.
+    /// w at the start; both values are scaled to be positive, with the larger in [1, 2).
     start: f64,
     end: f64,
 }
@@ -72,11 +72,11 @@ impl Foreshortening {
         Self::new(start.w(), end.w())
     }
 
-    /// Returns f(t): the position in the image, as a fraction, of the point at fraction `t` of the
-    /// segment.
+    /// Returns f(t): the fraction of the image at which the point at fraction `t` of the segment
+    /// appears.
     ///
-    /// The result is always `Some` for t in [0, 1]. Beyond the ends, it is `None` from the point
-    /// where the image reaches infinity.
+    /// The result is always `Some` for t in [0, 1]. Beyond the endpoints, it is `None` from the
+    /// point whose image is at infinity onward.
     #[must_use]
     pub fn image_parameter(self, t: f64) -> Option<f64> {
         perspective_fraction(t, self.end * t, interpolate(self.start, self.end, t))
@@ -85,15 +85,15 @@ impl Foreshortening {
     /// Returns the inverse of f: the fraction of the segment that appears at fraction `s` of its
     /// image.
     ///
-    /// The result is always `Some` for s in [0, 1]. Beyond the ends, it is `None` from the
-    /// vanishing point on.
+    /// The result is always `Some` for s in [0, 1]. Beyond the endpoints, it is `None` from the
+    /// vanishing point onward.
     #[must_use]
     pub fn source_parameter(self, s: f64) -> Option<f64> {
         perspective_fraction(s, self.start * s, interpolate(self.end, self.start, s))
     }
 
-    /// Returns f'(t) = w_r w_R / (w_r + t(w_R − w_r))²: the stretch of a short piece at `t`,
-    /// relative to the average.
+    /// Returns f'(t) = w_r w_R / (w_r + t(w_R − w_r))²: the local stretch at `t`, relative to the
+    /// average.
     #[must_use]
     pub fn derivative(self, t: f64) -> Option<f64> {
         let w = interpolate(self.start, self.end, t);
@@ -101,9 +101,9 @@ impl Foreshortening {
         finite_quotient(self.start / w * self.end, w)
     }
 
-    /// Returns the value that varies from `a` to `b` along the segment, at fraction `s` of its
-    /// image (IN-2): [(1−s) a/w_r + s b/w_R] / [(1−s)/w_r + s/w_R]. This is perspective-correct
-    /// interpolation.
+    /// Returns an attribute that varies linearly from `a` to `b` along the segment, at fraction `s`
+    /// of the image (IN-2): [(1−s) a/w_r + s b/w_R] / [(1−s)/w_r + s/w_R]. This is
+    /// perspective-correct interpolation.
     #[must_use]
     pub fn interpolate_attribute(self, s: f64, a: f64, b: f64) -> Option<f64> {
         let t = self.source_parameter(s)?;
@@ -111,13 +111,13 @@ impl Foreshortening {
     }
 }
 
-/// Interpolates from `start` at 0 to `end` at 1. Both ends are exact, and nothing cancels in
-/// between.
+/// Interpolates from `start` at 0 to `end` at 1. Both values are reproduced exactly, and nothing
+/// cancels in between.
 fn interpolate(start: f64, end: f64, t: f64) -> f64 {
     start * (1.0 - t) + end * t
 }
 
-/// Returns the quotient, clamped to 1 if `of` is at most 1, because rounding could exceed 1.
+/// Returns the quotient, clamped to 1 if `of` is at most 1, because rounding may exceed it.
 fn perspective_fraction(of: f64, numerator: f64, denominator: f64) -> Option<f64> {
     let fraction = finite_quotient(numerator, denominator)?;
     Some(if of <= 1.0 { fraction.min(1.0) } else { fraction })
@@ -129,8 +129,8 @@ fn finite_quotient(numerator: f64, denominator: f64) -> Option<f64> {
     (denominator > 0.0 && quotient.is_finite()).then_some(quotient)
 }
 
-/// Returns the weights of a triangle's corners in space, from the weights in its image and w at the
-/// corners (IN-2): λᵢ/wᵢ over their sum. They interpolate any attribute perspective-correctly.
+/// Converts the weights of a triangle's corners in the image to weights in space, given w at the
+/// corners (IN-2): λᵢ/wᵢ divided by their sum. They suit any attribute.
 ///
 /// Returns `None` if the sum is 0 or not finite, for example if a w is 0.
 #[must_use]
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn every_fraction_of_a_segment_has_an_image_for_extreme_w() {
+    fn endpoints_map_to_endpoints_even_for_extreme_w() {
         let f = Foreshortening::new(3.0, 1e-180).expect("both positive");
         assert_eq!([0.0, 1.0].map(|t| f.image_parameter(t)), [Some(0.0), Some(1.0)]);
         assert_eq!([0.0, 1.0].map(|s| f.source_parameter(s)), [Some(0.0), Some(1.0)]);

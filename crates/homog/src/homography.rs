@@ -1,4 +1,4 @@
-//! Projective maps of the plane: 3×3 matrices on 2-D homogeneous points.
+//! Projective maps of the plane: 3×3 matrices that act on 2-D homogeneous points.
 //!
 //! ```text
 //!   (0,1)────(1,1)          (−1,3)──(1,3)       M = [ 2   0   −1 ]
@@ -24,7 +24,7 @@ use glam::{DMat3, DVec3};
 /// let photo = [[-3.0, 0.0], [3.0, 0.0], [1.0, 3.0], [-1.0, 3.0]];
 /// let map = Homography::from_unit_square(photo).expect("four corners of a quadrilateral");
 /// let middle = map.transform_point(HPoint2::from_xy(0.5, 0.5)).divide().expect("finite");
-/// // The image of the center is above half the height.
+/// // The center maps to a point above half the height.
 /// assert!((middle[1] - 2.25).abs() < 1e-14);
 /// let rectify = map.inverse().expect("a quadrilateral with four corners");
 /// # for (p, q) in photo.into_iter().zip(square) {
@@ -95,7 +95,7 @@ impl Homography {
         self.raw.determinant()
     }
 
-    /// Returns the inverse map, or `None` if this one is singular up to rounding, or not finite.
+    /// Returns the inverse map, or `None` if it is not finite or does not exist, up to rounding.
     #[must_use]
     pub fn inverse(self) -> Option<Self> {
         eliminate_full_pivoting(self.rows()).inverse.map(Self::from_rows)
@@ -104,7 +104,7 @@ impl Homography {
     /// Returns whether the two maps are the same, that is, whether one matrix is a multiple of the
     /// other (HO-2).
     ///
-    /// Returns `None` if one of them is zero or not finite.
+    /// Returns `None` if either matrix is zero or not finite.
     #[must_use]
     pub fn equivalent(self, other: Self, relative: f64) -> Option<bool> {
         are_proportional(&self.raw.to_cols_array(), &other.raw.to_cols_array(), relative)

@@ -46,8 +46,8 @@ impl HPoint1 {
         (self.h.is_finite() && number.is_finite()).then_some(number)
     }
 
-    /// Returns the perspective image of a point [y, z, h] of the plane on the line z = d, seen from
-    /// the origin: [d y, z], computed with the matrix [d 0 0; 0 1 0]. It represents y_s = (d/z) y.
+    /// Returns the perspective image, on the line z = d, of a point [y, z, h] seen from the origin:
+    /// [d y, z], computed with the matrix [d 0 0; 0 1 0]. It represents y_s = (d/z) y.
     #[must_use]
     pub fn project_point(d: f64, point: HPoint2) -> Self {
         let [y, z, _] = point.raw.to_array();
@@ -81,7 +81,7 @@ mod tests {
         assert_ne!(
             image.divide(),
             Some(d / z),
-            "the misprint y_s = d/z puts all points at one height"
+            "the misprint y_s = d/z gives all points at depth z one height"
         );
         // Misprinted as [d y, z] ~ [d y, 1]; the correct form is [d y / z, 1].
         assert_eq!(image.equivalent(HPoint1::new(d * y / z, 1.0), 0.0), Some(true));

@@ -104,14 +104,14 @@ impl HLine2 {
         Self { raw }
     }
 
-    /// Evaluates a x + b y + c h, which is 0 on the line and has opposite signs on its two sides.
+    /// Evaluates a x + b y + c h, which is 0 on the line. For h > 0, its sign gives the side.
     #[must_use]
     pub fn evaluate(self, point: HPoint2) -> f64 {
         self.raw.dot(point.raw)
     }
 
     /// Returns the intersection of two lines, which is at infinity if they are parallel, or `None`
-    /// if they are the same line.
+    /// if they are the same or either is not a line.
     #[must_use]
     pub fn meet(self, other: Self) -> Option<HPoint2> {
         cross_product(self.raw, other.raw).map(HPoint2::tagged)

@@ -118,12 +118,12 @@ impl<A: Space, B: Space> Projective<A, B> {
     /// Returns the point where the images of all lines along `direction` meet (VN-1): the image of
     /// their point at infinity. It is a position, or a direction if the images stay parallel.
     ///
-    /// A w up to `relative` from 0 counts as 0, as in [`HPoint::kind_within`]. A tolerance of 10⁻¹²
-    /// handles lines perpendicular to the gaze of a rotated camera.
+    /// As in [`HPoint::kind_within`], w counts as 0 up to `relative` times the largest coordinate.
+    /// A tolerance of 10⁻¹² handles lines perpendicular to the gaze of a rotated camera.
     ///
     /// ```
     /// use homog::{HPointKind, Ndc, Point, Projective, Clip, Vector, View};
-    /// // One-point perspective: the eye at distance 1 in front of the plane z = 0.
+    /// // One-point perspective: the eye is at distance 1 in front of the plane z = 0.
     /// let [x, y, z] = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
     /// let rows = [x, y, z, [0.0, 0.0, -1.0, 1.0]];
     /// let map = Projective::<View, Clip>::from_rows(rows);

@@ -36,8 +36,8 @@ pub trait Interpolate: Copy {
     #[must_use]
     fn weighted_sum<const N: usize>(values: [Self; N], weights: [f64; N]) -> Self;
 
-    /// Computes [`weighted_sum`](Self::weighted_sum) with single-precision weights, as rasterizers
-    /// use them. This is a shortcut for single-precision values.
+    /// Computes [`weighted_sum`](Self::weighted_sum) with single-precision weights, which
+    /// rasterizers use. Single-precision values then need no conversion.
     #[must_use]
     #[inline(always)]
     fn weighted_sum_f32<const N: usize>(values: [Self; N], weights: [f32; N]) -> Self {
@@ -96,7 +96,7 @@ impl<T: Interpolate, const M: usize> Interpolate for [T; M] {
     }
 }
 
-/// No attributes.
+/// The attributes of a vertex that has none.
 impl Interpolate for () {
     #[inline(always)]
     fn weighted_sum<const N: usize>(_: [Self; N], _: [f64; N]) -> Self {}
@@ -145,7 +145,7 @@ mod tests {
     use crate::World;
 
     #[test]
-    fn ends_are_exact_and_every_part_is_blended() {
+    fn endpoints_are_exact_and_every_component_is_blended() {
         let (a, b) = ((0.1_f32, [0.3_f64, 7.0]), (0.7, [1e9, -2.0]));
         assert_eq!((a.lerp(b, 0.0), a.lerp(b, 1.0)), (a, b));
         let corners = [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 8.0, 0.0]].map(Point::<World>::from);

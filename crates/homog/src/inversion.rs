@@ -32,7 +32,7 @@ impl<A: Space, B: Space> Inversion<A, B> {
 #[non_exhaustive]
 pub enum InversionError {
     /// The map flattens space, as every classical projection onto a plane does.
-    #[error("the matrix is singular: its rank is {rank}, and only rank 4 can be inverted")]
+    #[error("the matrix is singular: its rank is {rank}, but an inverse needs rank 4")]
     Singular {
         /// The dimension of the image in homogeneous coordinates: 3 for a projection onto a plane.
         rank: usize,
@@ -46,7 +46,7 @@ pub enum InversionError {
 }
 
 impl<A: Space, B: Space> Projective<A, B> {
-    /// Returns the inverse map, with its condition number.
+    /// Returns the inverse map, with its condition number and residual.
     ///
     /// # Errors
     /// Returns an error if the matrix is singular (up to rounding, regardless of the units of its
@@ -77,7 +77,7 @@ impl<A: Space, B: Space> Projective<A, B> {
     }
 
     /// Returns the rank of the matrix up to rounding: 4 for invertible maps, 3 for projections onto
-    /// a plane, 0 for zero and for matrices that are not finite.
+    /// a plane, 0 for the zero matrix and for matrices that are not finite.
     #[must_use]
     pub fn rank(self) -> usize {
         eliminate_full_pivoting(self.rows()).rank

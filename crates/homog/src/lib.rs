@@ -24,7 +24,7 @@
 //!
 //! let model_to_world = Affine::<Model, World>::rotation_y(90_f64.to_radians());
 //! let world_to_view = Affine::<World, View>::translation(Vector::new(0.0, 0.0, -4.0));
-//! // A lens: w becomes the distance in front of the eye, which makes distant objects small.
+//! // A lens: w becomes the distance in front of the eye, so the divide shrinks distant objects.
 //! let view_to_clip = Projective::<View, Clip>::from_rows([
 //!     [2.0, 0.0, 0.0, 0.0],
 //!     [0.0, 2.0, 0.0, 0.0],

@@ -6,10 +6,10 @@
 //! [ 0  2/3  1/3 ]
 //! ```
 //!
-//! A number with at most three decimals is written unchanged. Otherwise it becomes a fraction p/q
-//! with q < 1000 if the quotient is exactly this f64, as for 2/3 but not for π. All other numbers
-//! are rounded to six digits. A precision, as in `{:.4}`, writes every number with that many
-//! decimals.
+//! A number with at most three decimal places is written unchanged. Otherwise it becomes a fraction
+//! p/q with q < 1000 if the quotient is exactly this f64, as for 2/3 but not for π. All other
+//! numbers are rounded to six digits. A precision, as in `{:.4}`, writes every number with that
+//! many decimals.
 
 use crate::{Affine, Homography, Projective, Space};
 use core::fmt::{self, Write};
@@ -127,13 +127,13 @@ impl Write for MatrixCell {
     }
 }
 
-/// Returns whether the shortest decimal that reads back as x has at most three decimals.
+/// Returns whether x is exactly the f64 nearest to a number with at most three decimal places.
 fn has_three_decimals(x: f64) -> bool {
     let thousandths = libm::round(x * 1000.0);
     x.abs() < 1e9 && thousandths / 1000.0 == x
 }
 
-/// Returns the fraction with the smallest denominator whose quotient is exactly this f64.
+/// Returns the fraction p/q with the smallest q whose value, rounded to f64, is exactly `x`.
 fn simple_fraction(x: f64) -> Option<(i64, i64)> {
     if x.abs() >= 1e6 {
         return None;
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_short_and_exact() {
+    fn numbers_are_exact_or_rounded_to_six_digits() {
         for (x, want) in [
             (0.0, "0"),
             (-0.0, "0"),
@@ -194,6 +194,6 @@ mod tests {
         let fixed = format!("{:.2}", map.display());
         assert_eq!(fixed.lines().nth(1), Some("[  0.00  -1.33   0.33  0.00 ]"));
         let huge = format!("{:.300}", map.display());
-        assert_eq!(huge.lines().count(), 4, "truncated, not lost");
+        assert_eq!(huge.lines().count(), 4, "entries are truncated, but rows are not lost");
     }
 }

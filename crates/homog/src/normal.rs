@@ -25,7 +25,7 @@ impl<S: Space> Normal<S> {
         Self { raw, space: PhantomData }
     }
 
-    /// Returns the dot product with a vector of the same space: 0 if the vector lies in the
+    /// Returns the dot product with a vector of the same space: 0 if the vector is tangent to the
     /// surface.
     #[must_use]
     pub fn dot(self, vector: Vector<S>) -> f64 {

@@ -1,4 +1,4 @@
-//! Operators: products of maps and points as written in textbooks, and sums of vectors.
+//! Operators: products of maps, points and vectors as written in textbooks, and sums of vectors.
 //!
 //! `map * point` is `map.transform_point(point)`. `second * first` is the map that applies `first`,
 //! then `second`, as in a matrix product. [`Affine::then`] chains maps in the opposite order: the

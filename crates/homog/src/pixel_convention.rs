@@ -2,7 +2,7 @@
 //! VP-4).
 //!
 //! ```text
-//!   CHAPTER: centers at integers, y up        IMAGE: centers at halves, y down
+//!   CHAPTER: integer centers, y up            IMAGE: half-integer centers, y down
 //!
 //!   y ▲                                            0   1   2   3 ► x
 //! 1.5 ┼───┬───┬───┐                              0 ┌───┬───┬───┐
@@ -29,11 +29,11 @@ pub enum YAxis {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub enum PixelCenters {
     /// At (i, j): pixel i covers [i − ½, i + ½). Used by the textbook, OpenCV, most of computer
-    /// vision and Direct3D 9. The center of 640 columns is at 319.5.
+    /// vision and Direct3D 9. The center of a row of 640 pixels is at 319.5.
     #[default]
     Integer,
     /// At (i + ½, j + ½): pixel i covers [i, i + 1). Used by Direct3D 10 and later, OpenGL, Vulkan,
-    /// Metal, WebGPU and COLMAP. The center of 640 columns is at 320.
+    /// Metal, WebGPU and COLMAP. The center of a row of 640 pixels is at 320.
     Half,
 }
 
@@ -64,9 +64,9 @@ pub struct PixelConvention {
 }
 
 impl PixelConvention {
-    /// Centers at integers, y up (VP-1; the textbook, §8.1.1).
+    /// Integer centers, y up (VP-1; the textbook, §8.1.1).
     pub const CHAPTER: Self = Self { y: YAxis::Up, centers: PixelCenters::Integer };
-    /// Centers at integers, y down (VP-2): exercise 1 of the textbook, and Direct3D 9.
+    /// Integer centers, y down (VP-2): exercise 1 of the textbook, and Direct3D 9.
     pub const CHAPTER_Y_DOWN: Self = Self { y: YAxis::Down, centers: PixelCenters::Integer };
     /// Half-integer centers, y down (VP-3): this project's pipeline, image files, Direct3D, Vulkan,
     /// Metal, WebGPU.

@@ -28,7 +28,7 @@ impl PixelRect {
         Self { x: 0, y: 0, width, height }
     }
 
-    /// Returns the intersection of both rectangles, or `None` if they do not overlap.
+    /// Returns the intersection of the two rectangles, or `None` if they do not overlap.
     #[must_use]
     pub fn intersection(self, other: Self) -> Option<Self> {
         let (x, y) = (self.x.max(other.x), self.y.max(other.y));
@@ -37,8 +37,8 @@ impl PixelRect {
         (width > 0 && height > 0).then_some(Self { x, y, width, height })
     }
 
-    /// Returns band `index` of `count` horizontal bands, counted from the top. Their heights differ
-    /// by at most one row.
+    /// Returns band `index` of `count` horizontal bands, counted from the top. The heights of the
+    /// bands differ by at most one row.
     ///
     /// If the rectangle has fewer rows than bands, some bands are empty.
     #[must_use]
@@ -51,8 +51,8 @@ impl PixelRect {
         Self { y: self.y + from, height: to - from, ..self }
     }
 
-    /// Returns horizontal bands of at most `rows` rows, from the top, split at multiples of `rows`
-    /// in the image.
+    /// Returns horizontal bands of at most `rows` rows, from top to bottom. They are split at image
+    /// rows that are multiples of `rows`.
     pub fn bands(self, rows: u32) -> impl Iterator<Item = Self> {
         let rows = rows.max(1);
         let mut next = self.y;

@@ -1,10 +1,10 @@
-//! Planes: the points at signed distance zero.
+//! Oriented planes, stored as the coefficients of a x + b y + c z + d = 0.
 
 use crate::{HPoint, Normal, Point, Space};
 use core::marker::PhantomData;
 use glam::{DVec3, DVec4};
 
-/// The plane a x + b y + c z + d = 0 of space `S`, as the four numbers (a, b, c, d).
+/// The plane a x + b y + c z + d = 0 of space `S`, stored as the four numbers (a, b, c, d).
 ///
 /// (a, b, c) points to the positive side. Any positive multiple is the same oriented plane.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -45,7 +45,7 @@ impl<S: Space> Plane<S> {
     }
 
     /// Evaluates a x + b y + c z + d w, which is positive on the side of the normal and 0 on the
-    /// plane. For w = 1 and a normal of length 1, it is the signed distance.
+    /// plane. For w = 1 and a normal of length 1, the value is the signed distance.
     #[must_use]
     pub fn evaluate(self, point: impl Into<HPoint<S>>) -> f64 {
         self.raw.dot(point.into().raw)

@@ -54,7 +54,7 @@ impl<S: Space> Point<S> {
         self.raw.z
     }
 
-    /// Returns the point at fraction `t` of the way to `end`: this point at 0, `end` at 1; `t`
+    /// Returns the point at fraction `t` of the way to `end`: this point at 0, `end` at 1. A `t`
     /// outside [0, 1] extrapolates.
     #[must_use]
     pub fn lerp(self, end: Self, t: f64) -> Self {

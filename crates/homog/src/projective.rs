@@ -28,7 +28,7 @@ impl<A: Space, B: Space> Projective<A, B> {
         self.transform_hpoint(point.into())
     }
 
-    /// Writes the images of `points` to `images` in one pass, bit-identical to
+    /// Writes the images of `points` to `images`, bit-identical to the results of
     /// [`transform_point`](Self::transform_point). Extra elements of the longer slice are ignored.
     pub fn transform_points_into(self, points: &[Point<A>], images: &mut [HPoint<B>]) {
         let DMat4 { x_axis, y_axis, z_axis, w_axis } = self.raw;
@@ -38,7 +38,7 @@ impl<A: Space, B: Space> Projective<A, B> {
         }
     }
 
-    /// Returns the image of a direction, that is, of its point at infinity: its vanishing point
+    /// Returns the vanishing point of a direction, that is, the image of its point at infinity
     /// (VN-1).
     #[must_use]
     pub fn transform_direction(self, vector: Vector<A>) -> HPoint<B> {
@@ -65,7 +65,7 @@ impl<A: Space, B: Space> Projective<A, B> {
         Projective::tagged(next.into().raw * self.raw)
     }
 
-    /// Returns the inverse map, or `None` if this one is singular up to rounding, or not finite.
+    /// Returns the inverse map, or `None` if it is not finite or does not exist, up to rounding.
     ///
     /// The test does not depend on units: a near plane at 10⁻⁹ does not make a map singular.
     /// [`inverse_with_report`](Self::inverse_with_report) reports details.

@@ -25,7 +25,7 @@ pub struct Ray<S: Space> {
 pub struct TriangleHit {
     /// The parameter along the ray.
     pub t: f64,
-    /// The weights of the triangle's corners at the point: nonnegative, with sum 1. They
+    /// The weights of the triangle's corners at the intersection: nonnegative, with sum 1. They
     /// interpolate any attribute.
     pub weights: [f64; 3],
     /// Whether the corners are counterclockwise as seen from the origin of the ray.
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn planes_are_hit_only_ahead() {
+    fn only_planes_ahead_of_the_origin_are_hit() {
         let floor = Plane::through(Point::ORIGIN, Normal::new(0.0, 1.0, 0.0));
         assert_eq!(ray([0.0, 3.0, 0.0], [1.0, -1.5, 0.0]).hit_plane(floor), Some(2.0));
         for direction in [[1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [f64::NAN, -1.0, 0.0]] {

@@ -75,7 +75,7 @@ pub fn remap_interval(x: f64, from: [f64; 2], to: [f64; 2]) -> Result<f64, Remap
     if y.is_finite() { Ok(y) } else { Err(RemapError::OutOfRange { from, to }) }
 }
 
-/// Returns the factor and the offset: y = factor · x + offset.
+/// Returns the factor and the offset of the map y = factor · x + offset.
 fn scale_and_offset(
     interval: &'static str,
     from: [f64; 2],
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn empty_and_infinite_intervals_are_rejected_by_name() {
+    fn empty_infinite_and_overflowing_intervals_are_rejected() {
         let empty = Homography::windowing([[0.0, 1.0], [2.0, 1.0]], [[0.0; 2], [1.0; 2]]);
         assert_eq!(empty, Err(RemapError::Empty { interval: "y interval", at: 1.0 }));
         let unit = [0.0, 1.0];

@@ -1,4 +1,4 @@
-//! The spaces a point passes through on its way to the screen, as types, and a macro to add more.
+//! Types for the spaces that a point passes through to reach the screen, and a macro for more.
 //!
 //! ```text
 //! Model ──► World ──► View ──► Clip ──÷w──► Ndc ──► Screen
@@ -24,7 +24,7 @@ pub trait Space: Copy + Clone + PartialEq + Debug + Send + Sync + 'static {
 /// ```
 /// use homog::{Affine, Point, World};
 /// homog::space!(
-///     /// The space of a lamp, which shines along its −z.
+///     /// The space of a lamp, which shines along its −z axis.
 ///     pub Lamp, "lamp"
 /// );
 /// let world_to_lamp = Affine::<World, Lamp>::translation([0.0, -3.0, 0.0].into());

@@ -56,7 +56,7 @@ impl<S: Space> Vector<S> {
         self.raw.dot(other.raw)
     }
 
-    /// Returns the cross product, which is perpendicular to both vectors, by the right-hand rule.
+    /// Returns the cross product, which is perpendicular to both vectors (right-hand rule).
     #[must_use]
     pub fn cross(self, other: Self) -> Self {
         Self::tagged(self.raw.cross(other.raw))

@@ -17,7 +17,7 @@ fn triple() -> impl Strategy<Value = [f64; 3]> {
     [number(), number(), number()]
 }
 
-/// Generates maps whose condition number times eps is far below the tolerances here.
+/// Generates maps so well conditioned that rounding errors stay far below the tolerances here.
 fn map() -> impl Strategy<Value = Map> {
     prop::array::uniform16(-4.0..4.0_f64)
         .prop_map(Map::from_row_major)
@@ -115,7 +115,7 @@ proptest! {
     }
 
     #[test]
-    fn arrays_of_points_get_the_same_bits(
+    fn slices_and_single_points_give_identical_bits(
         map in map(), affine in affine(), points in prop::collection::vec(triple(), 0..9),
     ) {
         let mut images = vec![HPoint::new(0.0, 0.0, 0.0, 0.0); points.len()];
@@ -137,7 +137,7 @@ proptest! {
     }
 
     #[test]
-    fn remapping_and_back_gives_the_same_number(x in number(), a in number(), b in number(), c in number(), d in number()) {
+    fn remapping_back_restores_the_number(x in number(), a in number(), b in number(), c in number(), d in number()) {
         prop_assume!((a - b).abs() > 0.01 && (c - d).abs() > 0.01);
         let back = remap_interval(remap_interval(x, [a, b], [c, d]).expect("valid"), [c, d], [a, b]).expect("valid");
         prop_assert!((back - x).abs() < 1e-9);
@@ -145,7 +145,7 @@ proptest! {
     }
 
     #[test]
-    fn homographies_are_recovered_from_their_corners(rows in prop::array::uniform9(-2.0..2.0_f64)) {
+    fn homographies_are_recovered_from_the_images_of_four_corners(rows in prop::array::uniform9(-2.0..2.0_f64)) {
         let map = Homography::from_row_major(rows);
         let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|c| map.transform_point(HPoint2::from(c)));
         prop_assume!(corners.iter().all(|c| c.raw().z.abs() > 0.05) && map.determinant().abs() > 0.1);
@@ -157,7 +157,7 @@ proptest! {
 
 #[test]
 fn c81_parallels_meet_in_the_image_of_their_point_at_infinity() {
-    // A perspective with w = -z: lines along (1, 2, -4) converge at (1/4, 2/4).
+    // A perspective projection with w = -z: lines along (1, 2, -4) converge at (1/4, 2/4).
     let rows =
         [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 3.0, -2.0], [0.0, 0.0, -1.0, 0.0]];
     let map = Map::from_rows(rows);
@@ -184,8 +184,8 @@ fn c3_a_chain_is_the_product_of_its_factors() {
     assert_eq!(chain.raw(), view_to_clip.raw() * (world_to_view.raw() * model_to_world.raw()));
 }
 
-/// The input is finite, but its products are beyond the range of f64. The result is `None`, not
-/// infinity.
+/// The input is finite, but products of its entries exceed the range of f64. The result is `None`,
+/// not infinity.
 #[test]
 fn overflow_gives_none() {
     let stretch = Affine::<World, World>::scale(1e-200, 1.0, 1.0);

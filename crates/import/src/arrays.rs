@@ -36,13 +36,13 @@ pub struct MeshArrays {
     pub positions: Vec<[f32; 3]>,
     /// The number of corners of each polygon, at least 3.
     pub lengths: Vec<u32>,
-    /// Vertices of the corners of all polygons, counter-clockwise as seen from outside.
+    /// Vertex indices of the corners of all polygons, counterclockwise as seen from outside.
     pub corners: Vec<u32>,
-    /// Vertices at the ends of lines, two per line. Without polygons and lines, the vertices form a
-    /// point cloud.
+    /// Vertex indices of the endpoints of lines, two per line. Without polygons and lines, the
+    /// vertices form a point cloud.
     pub line_ends: Vec<u32>,
-    /// Normals of the vertices, of any length. Without them, normals are computed with the crease
-    /// angle.
+    /// Normals of the vertices, which may have any length. Without them, normals are computed with
+    /// the crease angle.
     pub normals: Option<Vec<[f32; 3]>>,
     /// Texture coordinates of the vertices, with (0, 0) at the upper left.
     pub uvs: Option<Vec<[f32; 2]>>,
@@ -79,9 +79,8 @@ impl Default for MeshNode {
 /// Only the limits, up axis, unit and crease angle in the options are used.
 ///
 /// # Errors
-/// Fails if a limit is exceeded, arrays have different lengths, an index is out of range, or a
-/// position is not finite. Locations begin with the index of the mesh or node:
-/// `/meshes/0/corners/7`.
+/// Fails if a limit is exceeded, the lengths of arrays are inconsistent, an index is out of range,
+/// or a position is not finite. Locations begin with the mesh or node: `/meshes/0/corners/7`.
 pub fn load_arrays(
     name: &str,
     meshes: Vec<MeshArrays>,
@@ -95,7 +94,7 @@ pub fn load_arrays(
         let location = format!("/meshes/{index}");
         // Checked before anything is built, so that later code can index without checks.
         mesh.check_arrays(&location)?;
-        // An image without texture coordinates cannot be shown.
+        // An image cannot be shown without texture coordinates.
         let image = mesh.image.take().filter(|_| mesh.uvs.is_some());
         let texture = image.is_some().then_some(images.len());
         if image.is_some() {
@@ -174,7 +173,7 @@ impl MeshArrays {
         let most = u32::MAX as usize;
         if vertices.max(self.corners.len()).max(self.line_ends.len()) >= most {
             let what = format!("it has {vertices} vertices and {} corners", self.corners.len());
-            let message = format!("{what}, more than {most}");
+            let message = format!("{what}; fewer than {most} are supported");
             return Err(wrong_arrays(location, message));
         }
         let finite = |position: &[f32; 3]| position.iter().all(|x| x.is_finite());
@@ -199,13 +198,13 @@ impl MeshArrays {
             return Err(wrong_arrays(&format!("{location}/lengths"), message));
         }
         if !self.line_ends.len().is_multiple_of(2) {
-            let message = "lines need an even number of ends".to_owned();
+            let message = "lines need an even number of endpoints".to_owned();
             return Err(wrong_arrays(&format!("{location}/line_ends"), message));
         }
         Ok(())
     }
 
-    /// Returns the material with the texture at this index.
+    /// Returns the material, with the texture at this index if there is one.
     fn to_material(&self, texture: Option<usize>) -> Material {
         let colors = self.vertex_colors.as_ref().or(self.face_colors.as_ref());
         let colors = colors.filter(|_| texture.is_none());

@@ -27,7 +27,7 @@ impl Default for CornerAttributes {
 /// New vertices, one for each distinct combination of an old vertex and attributes.
 #[derive(Debug)]
 pub(super) struct CornerVertices {
-    /// The last new vertex of each old vertex.
+    /// For each old vertex, the new vertex added last.
     latest: Vec<u32>,
     /// For each new vertex, the previous new vertex of the same old vertex.
     before: Vec<u32>,
@@ -38,7 +38,7 @@ pub(super) struct CornerVertices {
 }
 
 impl CornerVertices {
-    /// Creates an empty list for each old vertex.
+    /// Creates a table without new vertices for this number of old vertices.
     pub(super) fn new(vertices: usize) -> Self {
         Self {
             latest: vec![NONE; vertices],
@@ -79,7 +79,7 @@ impl CornerVertices {
         self.attributes.clear();
     }
 
-    /// Returns the values of old vertices for the new vertices.
+    /// Returns, for each new vertex, the value of its old vertex.
     pub(super) fn gather<T: Copy>(&self, values: &[T]) -> Vec<T> {
         self.sources.iter().map(|&source| values[source as usize]).collect()
     }

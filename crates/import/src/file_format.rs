@@ -87,8 +87,8 @@ impl FileFormat {
         }
     }
 
-    /// Returns whether content that looks like this format identifies it even if the file has the
-    /// length of a binary STL file.
+    /// Returns whether the first bytes of this format take precedence over the length of a binary
+    /// STL file.
     pub(super) fn precedes_binary_stl(self) -> bool {
         matches!(self, Self::Gltf | Self::ThreeMf | Self::Ply)
     }

@@ -1,7 +1,7 @@
 //! Import: reads a file into a [`Model`](model::Model) without trusting any of its content.
 //!
-//! Files are untrusted input. Every index, length and size is checked before it is used, URIs refer
-//! only to files below one folder, and everything a file can declare has a [limit](Limits). A
+//! Files are untrusted input. Every index, length and size is checked before it is used, URIs may
+//! refer only to files below one folder, and everything a file can declare has a [limit](Limits). A
 //! [`Diagnostic`](model::Diagnostic) gives the location, the problem and the remedy.
 //!
 //! Problems in the geometry (positions, indices, the node hierarchy) are errors. Problems in the

@@ -12,8 +12,8 @@ use std::path::Path;
 /// Loads a model. Its [format](FileFormat) is detected from the content; the name is used only if
 /// the content is ambiguous.
 ///
-/// Problems that leave something to draw do not stop loading; they are listed in
-/// [`Model::warnings`]. A file without anything to draw also loads.
+/// Problems in the appearance do not stop loading; they are listed in [`Model::warnings`]. A file
+/// without anything to draw also loads.
 ///
 /// ```no_run
 /// use import::{ImportOptions, load};
@@ -148,7 +148,7 @@ fn misleading_name(path: &Path, format: FileFormat) -> Option<Diagnostic> {
     Some(fault.with_severity(Severity::Info))
 }
 
-/// Returns the warning about a model in which no triangle has an area, so that nothing is visible.
+/// Returns the warning about a model whose triangles all have zero area, so that none is visible.
 pub(crate) fn surface_without_area(model: &Model) -> Option<Diagnostic> {
     let primitives = model.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let mut triangles = primitives

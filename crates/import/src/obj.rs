@@ -5,20 +5,16 @@
 //!   └─ mtllib ──mtl──► statements ──material, textures─────────────────────────────────────┘
 //! ```
 //!
-//! The parser reads:
-//! - polygons with any number of corners, lines and points;
-//! - positions, texture coordinates, normals and vertex colors;
-//! - objects, groups and smoothing groups;
-//! - materials and their textures.
-//!
+//! Reads polygons with any number of corners, lines and points, with texture coordinates, normals
+//! and vertex colors. Objects, groups, smoothing groups, materials and textures are read as well.
 //! Free-form curves and surfaces and unknown statements are listed in a warning.
 //!
 //! A file without elements is a point cloud. Missing normals are computed from the smoothing groups
-//! if the file has any, and otherwise with the crease angle. By convention y is up and the unit is
-//! unknown.
+//! if the file has any, and otherwise with the crease angle. The format defines neither up axis nor
+//! unit; y and the meter are assumed.
 //!
-//! The `tobj` crate was not used, because it splits polygons into fans, which is wrong for concave
-//! polygons, supports neither smoothing groups nor error locations, and does not read UTF-16.
+//! The `tobj` crate is not used, because its fans are wrong for concave polygons. It also lacks
+//! smoothing groups, error locations and UTF-16 support.
 
 mod elements;
 mod fault_counts;
@@ -78,7 +74,7 @@ pub(super) fn import_obj(
     Ok(model)
 }
 
-/// Checks the memory needed for the elements against the limits.
+/// Checks the number of nodes and the memory for the elements against the limits.
 fn check_sizes(file: &ObjFile<'_>, resolver: &UriResolver<'_>) -> Result<(), Diagnostic> {
     let limits = resolver.limits;
     let nodes = 2 * file.groups.len();
@@ -104,7 +100,7 @@ struct Library {
 
 /// Reads the material libraries. Each missing library causes a warning.
 ///
-/// `mtllib` has either one name, which may contain spaces, or several.
+/// `mtllib` gives either one name, which may contain spaces, or several names.
 fn read_libraries(
     statements: &[Token<'_>],
     resolver: &UriResolver<'_>,
@@ -118,7 +114,7 @@ fn read_libraries(
         tried += 1;
         let words = token.tokens().map(Token::to_text);
         let is_one = words.clone().nth(1).is_none();
-        // One name with spaces is tried first, because exporters do not quote it.
+        // The whole line is tried as one name first, because exporters do not quote spaces.
         match read_library(token.to_text(), resolver) {
             Ok(library) => libraries.push(library),
             Err(fault) if is_one => warnings.downgrade(&fault, "the default material is used"),

@@ -8,10 +8,10 @@
 //!                                      └─ others      skipped
 //! ```
 //!
-//! A file without faces and edges is a point cloud. Colors of every type are sRGB and are converted
-//! to linear. Texture coordinates have their origin at the lower left, and are flipped. A property
-//! without a predefined meaning, such as `quality`, can be shown as colors. Vertices are split
-//! where faces or corners have different attributes.
+//! A file without faces, strips or edges is a point cloud. Colors of every type are sRGB and are
+//! converted to linear light. Texture coordinates have their origin at the lower left, and are
+//! flipped. A property without a predefined meaning, such as `quality`, can be shown as colors.
+//! Vertices are split where faces or corners have different attributes.
 
 mod body;
 mod faces;
@@ -121,7 +121,7 @@ fn read_body(
     let mut contents = Contents::default();
     for element in &header.elements {
         let read = match element.name.as_str() {
-            // A second vertex element would replace the first.
+            // A second vertex element must not replace the first.
             "vertex" if contents.vertices.positions.is_empty() => {
                 vertices::read_vertices(&mut body, element, scalar, warnings)
                     .map(|vertices| contents.vertices = vertices)
@@ -170,7 +170,7 @@ fn read_textures<'a>(
     header.texture_files.iter().map(read).collect()
 }
 
-/// Adds a material for each texture to the model, or a single material without a texture.
+/// Adds a material for each texture to the model, or an untextured material if there are none.
 ///
 /// Vertex and face colors multiply the material color. A surface whose texture exists shows only
 /// the texture colors, as in the programs that write such files.

@@ -1,7 +1,7 @@
 //! Conversions to and from the types of the glam version that this crate uses.
 //!
-//! `from_raw` and `raw` cost nothing: a point is a `DVec3`. For another version of glam, convert
-//! through arrays or `mint`.
+//! `from_raw` and `raw` cost nothing, because a point is stored as a `DVec3`. For another version
+//! of glam, convert through arrays or `mint`.
 
 use crate::{
     Affine, HLine2, HPoint, HPoint2, Homography, Normal, Plane, Point, Projective, Space, Vector,

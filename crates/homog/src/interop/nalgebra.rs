@@ -29,7 +29,7 @@ impl<A: Space, B: Space> From<Matrix4<f64>> for Projective<A, B> {
     }
 }
 
-/// nalgebra's perspective follows the OpenGL conventions.
+/// `Perspective3` follows the OpenGL conventions.
 impl<A: Space, B: Space> From<Perspective3<f64>> for Projective<A, B> {
     fn from(theirs: Perspective3<f64>) -> Self {
         theirs.to_homogeneous().into()

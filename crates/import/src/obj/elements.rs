@@ -5,8 +5,7 @@ use model::Topology;
 /// Marks missing texture coordinates or a missing normal of a corner.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// A corner of an element: the indices of its position, texture coordinates and normal, starting at
-/// 0.
+/// A corner of an element: the zero-based indices of its position, texture coordinates and normal.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Corner {
     /// Index of the position, which may be out of range until the whole file has been read.
@@ -45,7 +44,7 @@ pub(super) struct ElementRun {
 pub(super) struct Elements {
     /// The corners of all elements, one element after another.
     pub(super) corners: Vec<Corner>,
-    /// The end of each element's corners.
+    /// The end of each element's corners, as an index into `corners`.
     pub(super) ends: Vec<u32>,
     /// Runs of elements with the same state.
     pub(super) runs: Vec<ElementRun>,
@@ -66,7 +65,7 @@ impl Elements {
         start as usize..self.ends[element] as usize
     }
 
-    /// Returns each run with the range of its elements.
+    /// Returns the state of each run with the range of its elements.
     pub(super) fn runs(&self) -> impl Iterator<Item = (ElementState, std::ops::Range<usize>)> {
         let ends = self.runs.iter().skip(1).map(|run| run.first);
         let ends = ends.chain(std::iter::once(self.ends.len()));

@@ -42,7 +42,7 @@ impl Occurrences {
         self.count += 1;
     }
 
-    /// Counts an attribute that does not exist, and returns the index for missing attributes.
+    /// Counts a reference to an attribute that does not exist, and returns [`NONE`].
     pub(super) fn count_none(&mut self, offset: usize) -> u32 {
         self.count_at(offset);
         NONE

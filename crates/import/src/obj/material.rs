@@ -2,8 +2,7 @@
 //!
 //! | MTL | material |
 //! | --- | --- |
-//! | `Kd`, `Ke` | base color and emission, sRGB decoded; an emission above 1 is scaled and gets a
-//! strength |
+//! | `Kd`, `Ke` | base color, emission; sRGB decoded; emission above 1 becomes color and strength |
 //! | `Ns` | α² = 2 / (Ns + 2) |
 //! | `Ks` | reflectance 0.08 Ks at normal incidence; none for 0 |
 //! | `Kd` below 0.04, `Ks` above | a metal with the color `Ks` |
@@ -54,7 +53,7 @@ pub(super) fn to_material<'a>(
     material
 }
 
-/// Sets the emission. A color above 1 becomes a color of at most 1 with a strength.
+/// Sets the emission. A color above 1 is split into a color of at most 1 and a strength.
 fn set_emission(material: &mut Material, mtl: &MtlMaterial<'_>) {
     let color = color_beside_texture(mtl.emission, mtl.has_texture("map_Ke"), [0.0; 3]);
     let strength = color.into_iter().fold(1.0, f32::max);

@@ -1,9 +1,8 @@
 //! A parser for material libraries (MTL).
 //!
-//! Sources:
-//! - Alias|Wavefront, *MTL material format*, Advanced Visualizer manual;
-//! - *Extending Wavefront MTL for Physically-Based Rendering*, Exocortex 2012, for `Pr`, `Pm`,
-//!   `Ps`, `Pc`, `Pcr`, `aniso`, `anisor` and `norm`.
+//! Sources: Alias|Wavefront, *MTL material format*, Advanced Visualizer manual; for `Pr`, `Pm`,
+//! `Ps`, `Pc`, `Pcr`, `aniso`, `anisor` and `norm`, *Extending Wavefront MTL for Physically-Based
+//! Rendering*, Exocortex 2012.
 
 use super::statements::StatementReader;
 use crate::text::{LineCounter, Token, parse_f32};
@@ -21,9 +20,9 @@ pub(super) struct MtlMaterial<'a> {
     pub(super) specular: Option<[f32; 3]>,
     /// Emitted light, `Ke`.
     pub(super) emission: Option<[f32; 3]>,
-    /// Single numbers by supported keyword: `Ns`, `Ni`, `d`, `Tr`, `illum`, `Pr` ….
+    /// Single numbers, keyed by supported keyword: `Ns`, `Ni`, `d`, `Tr`, `illum`, `Pr` ….
     pub(super) numbers: BTreeMap<&'static str, f32>,
-    /// Textures by normalized keyword.
+    /// Textures, keyed by normalized keyword.
     pub(super) textures: BTreeMap<&'static str, MtlTexture<'a>>,
 }
 
@@ -109,7 +108,7 @@ pub(super) fn parse_mtl<'a>(
 struct MtlParser<'a> {
     reader: StatementReader<'a>,
     materials: Vec<MtlMaterial<'a>>,
-    /// Statements and options that are not read, with their number and the offset of the first.
+    /// Statements and options that are not read, with their count and the offset of the first.
     unread: BTreeMap<String, (usize, usize)>,
 }
 

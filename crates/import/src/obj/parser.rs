@@ -1,4 +1,4 @@
-//! A parser for OBJ files, which converts statements to vertex data, elements and names.
+//! A parser that converts the statements of an OBJ file to vertex data, elements and names.
 //!
 //! Source: Alias|Wavefront, *Object Files (.obj)*, Appendix B1 of the Advanced Visualizer manual;
 //! vertex colors are an extension by ZBrush and MeshLab.
@@ -19,7 +19,7 @@ const IGNORED: [&[u8]; 6] =
 /// The content of an OBJ file. Names are slices of its text.
 #[derive(Debug, Default)]
 pub(super) struct ObjFile<'a> {
-    /// Positions; a position is not finite if its statement is broken.
+    /// Positions; a position is not finite if its statement is malformed.
     pub(super) positions: Vec<[f32; 3]>,
     /// Vertex colors as stored in the file, with NaN for missing components. Shorter than
     /// `positions` if the last vertices have no colors.
@@ -36,13 +36,13 @@ pub(super) struct ObjFile<'a> {
     pub(super) material_names: Vec<&'a [u8]>,
     /// Material libraries.
     pub(super) libraries: Vec<Token<'a>>,
-    /// Vertices that are not three finite numbers, as index and offset.
+    /// The index and the statement offset of each vertex without three finite coordinates.
     pub(super) broken_positions: Vec<(u32, usize)>,
     /// Whether the file has smoothing groups.
     pub(super) has_smoothing: bool,
 }
 
-/// The elements' object and group names, or empty if there are none.
+/// The names of an element's object and group; a missing name is empty.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
 pub(super) struct GroupName<'a> {
     /// The object, from `o`.
@@ -79,7 +79,7 @@ struct ObjParser<'a, 'w> {
     file: ObjFile<'a>,
     /// The object and group of the next element.
     name: GroupName<'a>,
-    /// The index of the name, once an element has used it.
+    /// The index of `name` in the file's groups, once an element has used it.
     group: Option<u32>,
     /// The material of the next element.
     material: Option<u32>,
@@ -139,7 +139,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         Ok(())
     }
 
-    /// Reads at most `N` numeric arguments, and returns how many there were. Missing or broken
+    /// Reads at most `N` numeric arguments, and returns them with their number. Missing or broken
     /// arguments are NaN.
     #[inline]
     fn read_numbers<const N: usize>(&mut self) -> ([f32; N], usize) {
@@ -265,8 +265,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         let count = self.file.positions.len();
         let position = match resolve_index(position, count) {
             Some(index) if (index as usize) < count => index,
-            // References to later vertices are valid if those vertices follow; they are checked at
-            // the end.
+            // A reference to a later vertex is valid if that vertex follows, which `finish` checks.
             Some(index) => {
                 self.forward.push((self.file.elements.ends.len(), token.offset, index));
                 index
@@ -296,7 +295,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         }
     }
 
-    /// Checks forward references, and reports the counts.
+    /// Checks forward references, and reports the counted faults.
     fn finish(mut self) -> Result<ObjFile<'a>, Diagnostic> {
         let count = self.file.positions.len();
         for (element, offset, index) in std::mem::take(&mut self.forward) {
@@ -364,8 +363,9 @@ fn take_integer(rest: &mut &[u8]) -> Option<i64> {
     Some(if is_negative { -value } else { value })
 }
 
-/// Converts a reference (from 1, or from −1 for the last of `count`) to an index from 0. Returns
-/// `None` if no such item can exist. An item whose index is `count` or more may be defined later.
+/// Converts a reference (1 for the first item, −1 for the last of `count`) to a zero-based index.
+/// Returns `None` if no such item can exist. An item whose index is `count` or more may be defined
+/// later.
 #[inline]
 fn resolve_index(reference: i64, count: usize) -> Option<u32> {
     let index = if reference > 0 { reference - 1 } else { count as i64 + reference };

@@ -39,7 +39,7 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// Returns whether the items are points, lines or triangles.
+    /// Returns the kind of the items: points, lines or triangles.
     pub(super) const fn topology(&self) -> Topology {
         match self.key.corners_per_item {
             1 => Topology::Points,
@@ -52,7 +52,7 @@ impl Part {
 /// Splits and sorts the elements of a file. Parts are in the order of their first elements.
 ///
 /// # Errors
-/// Fails if an element has a vertex that is not three finite numbers. In lenient mode, the element
+/// Fails if an element has a vertex without three finite coordinates. In lenient mode, the element
 /// is skipped.
 pub(super) fn split_elements(
     file: &ObjFile<'_>,
@@ -135,7 +135,7 @@ struct ElementCutter<'a> {
 }
 
 impl<'a> ElementCutter<'a> {
-    /// Creates an empty list of parts.
+    /// Creates a cutter without parts.
     fn new(file: &'a ObjFile<'a>) -> Self {
         Self {
             file,
@@ -161,8 +161,8 @@ impl<'a> ElementCutter<'a> {
         })
     }
 
-    /// Returns whether an element has a vertex without a valid position, with the offset of the
-    /// vertex statement unless it has already been reported.
+    /// Returns the offset of the first broken vertex statement that an element uses. The offset is
+    /// `None` for a vertex that does not exist, which has already been reported.
     fn find_broken_vertex(&self, corners: &[Corner]) -> Option<Option<usize>> {
         if corners.iter().any(|corner| corner.position as usize >= self.file.positions.len()) {
             return Some(None);

@@ -3,7 +3,7 @@
 use gltf_import::linear_from_srgb;
 use model::{AlphaMode, Material, Specular};
 
-/// The diffuse color, sRGB encoded, if a library does not specify it.
+/// The sRGB-encoded diffuse color of materials that do not specify one.
 const PLAIN_COLOR: [f32; 3] = [0.8; 3];
 /// The maximum diffuse color of a metal, and its minimum specular color.
 const METAL_THRESHOLD: f32 = 0.04;
@@ -98,8 +98,8 @@ pub(super) fn double_sided_matte() -> Material {
     Material { double_sided: true, metallic: 0.0, roughness: 1.0, ..Material::plain() }
 }
 
-/// Adjusts a color that a texture multiplies: a black or missing color becomes white, because the
-/// texture would otherwise be invisible.
+/// Adjusts a color that a texture multiplies. A black color, which would hide the texture, becomes
+/// white, as does a missing color.
 pub(super) fn color_beside_texture(
     color: Option<[f32; 3]>,
     has_texture: bool,

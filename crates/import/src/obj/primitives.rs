@@ -22,7 +22,7 @@ pub(super) struct GroupPrimitive {
 /// Builds the primitives of a file, in the order of their first elements.
 ///
 /// # Errors
-/// Fails if an element has a vertex that is not three finite numbers. In lenient mode, the element
+/// Fails if an element has a vertex without three finite coordinates. In lenient mode, the element
 /// is skipped.
 pub(super) fn build_primitives(
     mut file: ObjFile<'_>,
@@ -63,11 +63,11 @@ fn is_computed(part: &Part) -> bool {
     part.topology() == Topology::Triangles && !part.key.has_normals
 }
 
-/// Computes all missing normals over the whole file, so that a border between two groups or
+/// Computes all missing normals across the whole file, so that a border between two groups or
 /// materials does not become a crease.
 ///
-/// They are appended to the file's normals. The result has a normal index for each corner of the
-/// parts with missing normals, one part after another.
+/// The new normals are appended to the file's normals. The result has a normal index for each
+/// corner of the parts with missing normals, one part after another.
 fn compute_normals(file: &mut ObjFile<'_>, parts: &[Part], crease_angle: f64) -> Vec<u32> {
     let parts = || parts.iter().filter(|part| is_computed(part));
     let count: usize = parts().map(|part| part.corners.len()).sum();
@@ -95,7 +95,7 @@ fn compute_normals(file: &mut ObjFile<'_>, parts: &[Part], crease_angle: f64) ->
 
 /// Returns the vertex colors in linear light: one per position, or none if the file has none.
 ///
-/// In the file they are sRGB encoded, from 0 to 1, or to 255 if any is above 1.
+/// In the file, they are sRGB encoded and range from 0 to 1, or to 255 if any value exceeds 1.
 fn linear_colors(file: &ObjFile<'_>, warnings: &mut ImportWarnings) -> Vec<[f32; 4]> {
     if file.colors.is_empty() {
         return Vec::new();
@@ -116,7 +116,7 @@ fn linear_colors(file: &ObjFile<'_>, warnings: &mut ImportWarnings) -> Vec<[f32;
     colors
 }
 
-/// Builds the primitive of a part. If normals are computed, `normals` has the normal of each
+/// Builds the primitive of a part. If normals are computed, `normals` has the normal index of each
 /// corner.
 fn build_primitive(
     file: &ObjFile<'_>,
@@ -142,7 +142,7 @@ fn build_primitive(
     let is_surface = part.topology() == Topology::Triangles;
     let uv_at = |corner: &Corner| {
         let [u, v] = file.uvs[corner.uv as usize];
-        // In OBJ files v = 0 is at the bottom, in glTF at the top.
+        // In OBJ files, v = 0 is at the bottom; in glTF, it is at the top.
         [u, 1.0 - v]
     };
     Primitive {

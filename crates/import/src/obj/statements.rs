@@ -105,7 +105,7 @@ impl<'a> StatementReader<'a> {
     }
 }
 
-/// Returns the bytes before the next line end.
+/// Returns the number of bytes before the next line end.
 fn line_length(rest: &[u8]) -> usize {
     rest.iter().position(|byte| matches!(byte, b'\n' | b'\r')).unwrap_or(rest.len())
 }

@@ -15,7 +15,7 @@ use std::sync::Arc;
 /// Maximum number of image files.
 const MAX_IMAGES: usize = 4096;
 
-/// The images and textures needed by the materials so far.
+/// The images and textures needed by the materials converted so far.
 #[derive(Debug, Default)]
 pub(super) struct TextureTable<'a> {
     /// The folder of the current library with a trailing slash, or empty for the OBJ file's folder.
@@ -36,7 +36,7 @@ enum ImageSource<'a> {
     File { folder: String, name: &'a [u8] },
     /// Color from one image, opacity from another.
     Opacity { color: Option<usize>, opacity: usize, channel: Option<u8> },
-    /// Roughness in green and metalness in blue, white if missing.
+    /// Roughness in green and metalness in blue; a missing image counts as white.
     MetallicRoughness { roughness: Option<usize>, metallic: Option<usize> },
 }
 
@@ -138,7 +138,7 @@ impl<'a> TextureTable<'a> {
         warnings: &mut ImportWarnings,
     ) {
         let Self { images, textures, bump_maps, .. } = self;
-        // Files come first, with separate indices.
+        // Files are loaded first and have separate indices.
         let mut file_indices = vec![None; images.len()];
         let mut files = Vec::new();
         for (image, source) in images.iter().enumerate() {
@@ -204,11 +204,9 @@ fn combine_all(
     model.images = Arc::from(all);
 }
 
-/// Reads an image file below the library's folder, else below the OBJ file's folder, else next to
-/// the OBJ file by file name only.
-///
-/// The last search is necessary because many libraries contain paths from the computer they were
-/// made on.
+/// Reads an image file below the library's folder, else below the OBJ file's folder. If neither has
+/// it, its file name is tried next to the OBJ file, because many libraries contain paths from
+/// another computer.
 fn read_image<'a>(
     folder: &str,
     name: &[u8],
@@ -257,7 +255,7 @@ impl TexelLimit {
     }
 }
 
-/// Combines two images into an image of the size of `like`. Each texel is computed from the two
+/// Combines two images into an image with the size of `like`. Each texel is computed from the two
 /// texels at the same position.
 fn combine_images(
     like: &Image,
@@ -278,8 +276,8 @@ fn combine_images(
     Image { width, height, rgba }
 }
 
-/// Returns the opacity of a texel: the channel named by `-imfchan`, or its alpha if the image has
-/// any, or else its luminance.
+/// Returns the opacity of a texel: the channel named by `-imfchan`, or alpha if the image has
+/// transparent texels, or else luminance.
 fn opacity([r, g, b, a]: [u8; 4], channel: Option<u8>, has_alpha: bool) -> u8 {
     // Rec. 709 weights in 256ths.
     let luminance = (54 * u32::from(r) + 183 * u32::from(g) + 19 * u32::from(b)) / 256;
@@ -293,7 +291,7 @@ fn opacity([r, g, b, a]: [u8; 4], channel: Option<u8>, has_alpha: bool) -> u8 {
     }
 }
 
-/// Removes gray bump maps, because heights need a scale, which libraries do not specify.
+/// Removes gray bump maps, which contain heights, because libraries do not specify their scale.
 ///
 /// A colored bump map is a normal map, which many programs store under this name.
 fn remove_height_maps(

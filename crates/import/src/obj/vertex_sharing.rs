@@ -4,14 +4,14 @@
 use super::elements::{Corner, NONE};
 
 /// Maximum number of vertices to compare at one position before a new vertex is added. Without this
-/// limit, a position with many vertices would take quadratic time; with it, such corners share
-/// fewer vertices, which costs only memory.
+/// limit, a position with many vertices would take quadratic time; with it, some identical corners
+/// get separate vertices.
 const MAX_COMPARISONS: usize = 32;
 
 /// Collects the vertices of one primitive at a time, in the order of their first use.
 #[derive(Debug)]
 pub(super) struct VertexSharing {
-    /// The last vertex at each position.
+    /// For each position, the vertex added last.
     latest: Vec<u32>,
     /// For each vertex, the previous vertex at the same position.
     before: Vec<u32>,

@@ -50,7 +50,7 @@ impl<'a> Body<'a> {
         let end = rest.iter().position(|byte| *byte == b'\n' || *byte == b'\r');
         let end = end.unwrap_or(rest.len());
         let mut words = rest[..end].split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
-        // A word that is not a number is an error, as elsewhere.
+        // A word that is not a number remains, so that the next read reports it.
         if words.clone().any(|word| parse_f64(word).is_none()) {
             return;
         }
@@ -136,7 +136,7 @@ impl<'a> Body<'a> {
     /// Skips the records of an unknown element.
     ///
     /// # Errors
-    /// Fails if the file ends before its last record.
+    /// Fails if the file ends before the element's last record.
     pub(super) fn skip_element(&mut self, element: &PlyElement) -> Result<(), Diagnostic> {
         if element.properties.is_empty() {
             return Ok(());
@@ -205,7 +205,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// Converts the lowest bytes of a word to a number.
+/// Converts the low-order bytes of a word to a number.
 fn to_number(word: u64, scalar: ScalarType) -> f64 {
     match scalar {
         ScalarType::I8 => f64::from(word as i8),

@@ -6,12 +6,12 @@ use super::vertices::{color_channel, linearize_colors};
 use gltf_import::ImportWarnings;
 use model::Diagnostic;
 
-/// Polygons, one after another.
+/// Polygons, stored one after another in shared arrays.
 #[derive(Default, Debug)]
 pub(crate) struct Faces {
     /// The number of corners of each face.
     pub(crate) lengths: Vec<u32>,
-    /// Vertices of all corners, all less than the declared number of vertices.
+    /// Vertex indices of all corners, all less than the declared number of vertices.
     pub(crate) corners: Vec<u32>,
     /// Texture coordinates of all corners, with (0, 0) at the upper left.
     pub(crate) uvs: Option<Vec<[f32; 2]>>,
@@ -69,13 +69,13 @@ pub(super) fn read_faces(
     let has = |kind| kinds.contains(&kind);
     if !has(FaceProperty::Corners) {
         if element.count > 0 {
-            let message = "the faces have no list `vertex_indices`; they are skipped";
+            let message = "the faces have no `vertex_indices` list; they are skipped";
             warnings.push_warning("element face", message);
         }
         body.skip_element(element)?;
         return Ok(Faces::default());
     }
-    // A declared count may be far larger than the file, so capacity is limited by its bytes.
+    // A declared count may be far larger than the file, so the remaining bytes limit the capacity.
     let capacity = body.plausible_records(element);
     let mut faces = Faces {
         lengths: Vec::with_capacity(capacity),
@@ -230,7 +230,7 @@ pub(super) fn read_strips(
                 in_strip += 1;
             }
         }
-        // Records without properties take no bytes, so only time would limit their count.
+        // Records without properties take no bytes, so the file size does not limit their count.
         if element.properties.is_empty() {
             break;
         }

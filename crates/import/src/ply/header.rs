@@ -123,8 +123,7 @@ pub(super) struct Header {
     pub(super) elements: Vec<PlyElement>,
     /// The texture file names from `comment TextureFile NAME`.
     pub(super) texture_files: Vec<String>,
-    /// The first lines that begin with an unknown word, with their line numbers: comments without
-    /// the keyword.
+    /// The lines that begin with an unknown word, with their numbers. They are treated as comments.
     pub(super) stray_lines: Vec<(usize, String)>,
     /// The offset of the body.
     pub(super) body: usize,
@@ -288,7 +287,7 @@ struct Lines<'a> {
     bytes: &'a [u8],
     /// Offset of the next line.
     at: usize,
-    /// The number of the last line, from 1.
+    /// The number of the line returned last, counted from 1.
     number: usize,
     /// Whether lines end with a bare `\r`.
     ends_with_cr: bool,

@@ -40,7 +40,7 @@ pub(crate) fn build_primitives(
 ) -> Vec<Primitive> {
     let Contents { mut vertices, mut faces, strips, mut edges } = contents;
     faces.append_strips(strips);
-    // Without faces and edges the vertices are a point cloud.
+    // Without faces and edges, the vertices are a point cloud.
     let is_cloud = faces.corners.is_empty() && edges.is_empty();
     let is_finite: Vec<bool> =
         vertices.positions.iter().map(|p| p.iter().all(|x| x.is_finite())).collect();
@@ -60,12 +60,12 @@ pub(crate) fn build_primitives(
     let lost = (ends - edges.len()) / 2 + (all as usize - points.len());
     if lost > 0 {
         let message = match lost {
-            1 => "skipped 1 point or edge that is not finite".to_owned(),
-            _ => format!("skipped {lost} points and edges that are not finite"),
+            1 => "skipped 1 point or edge with vertices that are not finite".to_owned(),
+            _ => format!("skipped {lost} points and edges with vertices that are not finite"),
         };
         warnings.push_warning("element vertex", message);
     }
-    // No item uses these positions, but bounds are computed from all of them.
+    // No item uses these positions, but bounds are computed from all positions.
     for (position, _) in vertices.positions.iter_mut().zip(&is_finite).filter(|(_, is)| !**is) {
         *position = [0.0; 3];
     }
@@ -143,7 +143,7 @@ fn triangulate_faces(
     triangles
 }
 
-/// Builds the triangles for each texture.
+/// Builds a primitive from the triangles of each texture.
 ///
 /// Corner texture coordinates override vertex texture coordinates, and vertex colors override face
 /// colors. A textured surface has no other colors.

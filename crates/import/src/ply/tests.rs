@@ -19,7 +19,7 @@ fn load_leniently(bytes: &[u8]) -> Model {
         .unwrap()
 }
 
-/// Returns the positions of all triangle corners.
+/// Returns the corner positions of each triangle.
 fn corners(model: &Model) -> Vec<[[f32; 3]; 3]> {
     let primitives = model.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let of = |p: &model::Primitive| {
@@ -262,7 +262,7 @@ fn a_scalar_property_replaces_colors() {
 }
 
 #[test]
-fn a_missing_scalar_property_is_an_error_with_a_list() {
+fn the_error_for_a_missing_scalar_property_lists_the_others() {
     let fault = |name: &str, file: &str, attribute: &str| {
         let scalars = ScalarColors { attribute: attribute.to_owned(), ..ScalarColors::default() };
         let options = ImportOptions { scalars: Some(scalars), ..ImportOptions::default() };

@@ -8,7 +8,7 @@ use model::Diagnostic;
 
 /// Index in a row for the value of an unused property.
 const UNUSED: usize = 15;
-/// Index in a row of the first color component: red, green, blue, alpha.
+/// Index in a row of red, which green, blue and alpha follow.
 const COLOR: usize = 8;
 /// Index in a row of the first base color component of a Gaussian splat.
 const SPLAT_COLOR: usize = 12;
@@ -98,7 +98,7 @@ pub(super) fn read_vertices(
         .collect();
     let has = |wanted: usize, count: usize| (wanted..wanted + count).all(|p| places.contains(&p));
     if !has(0, 3) && element.count > 0 {
-        return Err(body.fault("the vertices have no properties x, y and z"));
+        return Err(body.fault("the vertices need the properties x, y and z"));
     }
     let is_splat = has(SPLAT_COLOR, 3) && !has(COLOR, 3);
     if is_splat {
@@ -130,8 +130,8 @@ pub(super) fn read_vertices(
     Ok(vertices)
 }
 
-/// Reads a record. `places` has an entry for each property, and `scalar` is the index of a
-/// property.
+/// Reads a record. `places` has the row index of each property, and `scalar` is the index of the
+/// property to show as colors.
 fn read_row(
     body: &mut Body<'_>,
     properties: &[PlyProperty],

@@ -3,12 +3,12 @@
 //! The normal of a corner is the sum of the normals of all triangles around the vertex that can be
 //! reached from the corner's triangle across smooth edges. Each normal is weighted by the
 //! triangle's angle at the vertex (Thürmer and Wüthrich 1998), so the sum does not depend on how
-//! flat faces are triangulated. A vertex with several such groups is split.
+//! flat faces are triangulated. The reached triangles form a group; a vertex with several is split.
 //!
-//! An edge is smooth if exactly two triangles share it and their [`Smoothing`] allows it;
+//! An edge is smooth if exactly two triangles share it and meet the [`Smoothing`] condition;
 //! boundaries, non-manifold edges and edges of triangles without area are creases. If all triangles
 //! around a vertex are within half the crease angle of their mean, they form one group, regardless
-//! of their edges. So most vertices of fine meshes do not need an edge search.
+//! of their edges. Most vertices of fine meshes therefore need no edge search.
 
 use glam::{DVec3, Vec3};
 
@@ -22,11 +22,11 @@ pub(crate) enum Smoothing<'a> {
     Groups(&'a [u32]),
 }
 
-/// Vertex normals, and the vertices that were split for them.
+/// Vertex normals, and the vertex copies that they require.
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct CreaseNormals {
-    /// Vertices of the triangles. Indices beyond the original positions are new vertices. Original
-    /// vertices that were in use remain in use.
+    /// Vertex indices of the triangles. Indices beyond the original positions are new vertices.
+    /// Original vertices that were in use remain in use.
     pub(crate) triangles: Vec<[u32; 3]>,
     /// For each new vertex in order, the vertex it is a copy of.
     pub(crate) copies: Vec<u32>,
@@ -36,8 +36,8 @@ pub(crate) struct CreaseNormals {
 
 /// The amount by which the cosine between two normals may be below the cosine of the crease angle.
 ///
-/// It allows for rounded coordinates, so that all edges of a twelve-sided prism, whose normals are
-/// 30° apart, are treated alike.
+/// It allows for rounded coordinates, so that all edges of a twelve-sided prism, whose side normals
+/// are 30° apart, are treated alike.
 const COSINE_TOLERANCE: f32 = 1e-5;
 
 /// Maximum deviation in degrees from the mean normal at a vertex. Beyond it, triangles are grouped
@@ -122,8 +122,8 @@ struct SmoothVertices {
 
 impl SmoothVertices {
     /// Finds the vertices whose triangles are all within half the crease angle, and within 45°, of
-    /// the sum of their weighted normals. No two of these triangles differ by more than the crease
-    /// angle, and none is a fin. With smoothing groups, no vertex qualifies.
+    /// the sum of their weighted normals. The normals of these triangles differ by at most the
+    /// crease angle, and none of them sticks out. With smoothing groups, no vertex qualifies.
     fn find(
         vertices: usize,
         triangles: &[[u32; 3]],
@@ -214,7 +214,7 @@ fn arc_cosine(cosine: f32) -> f32 {
 
 /// The corners at each vertex. Corner 3 t + k is the k-th corner of triangle t.
 struct CornersByVertex {
-    /// For each vertex, the end of its corners in the list; before they are filled in, the start.
+    /// For each vertex, the end of its corners in the list, or the start until they are filled in.
     ends: Vec<u32>,
     /// The corners, sorted by vertex and then by triangle.
     corners: Vec<u32>,
@@ -231,7 +231,7 @@ impl CornersByVertex {
             sum += *end;
             *end = sum;
         }
-        // Each beginning advances to the end as the corners are filled in.
+        // Each start advances to the end as the corners are filled in.
         let mut corners = vec![0u32; all.len()];
         for (corner, &vertex) in all.iter().enumerate() {
             let slot = &mut ends[vertex as usize];
@@ -301,8 +301,8 @@ struct VertexFans {
 impl VertexFans {
     /// Groups the corners at a vertex that are connected by smooth edges.
     ///
-    /// Every triangle has two edges at the vertex; sorting them by their other ends makes equal
-    /// edges adjacent. Triangles without area have no edges and join the first group.
+    /// Every triangle has two edges at the vertex; sorting all edges by their other ends makes
+    /// equal edges adjacent. Triangles without area have no edges and join the first group.
     fn group_corners(&mut self, triangles: &[[u32; 3]], corners: &[u32], smooth: &SmoothEdges<'_>) {
         self.roots.clear();
         self.roots.extend(0..corners.len() as u32);
@@ -444,7 +444,7 @@ mod tests {
     }
 
     #[test]
-    fn smoothing_groups_replace_the_angle() {
+    fn smoothing_groups_replace_the_crease_angle() {
         let (positions, triangles) = bent_strip(2, 60.0);
         let copies = |groups: &[u32]| {
             let smoothing = Smoothing::Groups(groups);
@@ -467,7 +467,7 @@ mod tests {
     }
 
     #[test]
-    fn a_vertex_with_many_triangles_is_not_slow() {
+    fn a_vertex_with_many_triangles_is_processed_quickly() {
         let count = 100_000u32;
         let rim = (0..count).map(|at| [at as f32, (at % 2) as f32 * 1e6, 1.0]);
         let positions: Vec<[f32; 3]> = std::iter::once([0.0; 3]).chain(rim).collect();

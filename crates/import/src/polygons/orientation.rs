@@ -3,13 +3,13 @@
 //! Source: J. R. Shewchuk, *Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
 //! Predicates*, 1997: the error bound of the filter (`ccwerrboundA`), TWO-SUM and GROW-EXPANSION.
 
-/// The relative error of the rounded determinant: (3 + 16 ε) ε with ε = 2⁻⁵³.
+/// The bound on the relative error of the rounded determinant: (3 + 16 ε) ε with ε = 2⁻⁵³.
 const ERROR_BOUND: f64 = (3.0 + 16.0 * EPSILON) * EPSILON;
-/// Half the distance from 1 to the next number.
+/// Half the distance from 1 to the next larger `f64`.
 const EPSILON: f64 = f64::EPSILON / 2.0;
 
-/// Returns twice the signed area of the triangle a, b, c, with the exact sign: positive for
-/// counter-clockwise order, 0 if the points are collinear.
+/// Returns about twice the signed area of the triangle a, b, c, with the exact sign: positive for
+/// counterclockwise order, 0 if the points are collinear.
 ///
 /// The coordinates must be finite `f32` values, because the product of two such values is exact in
 /// `f64`.
@@ -27,7 +27,7 @@ pub(super) fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
 fn exact_orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     let products =
         [a[0] * b[1], -(a[1] * b[0]), b[0] * c[1], -(b[1] * c[0]), c[0] * a[1], -(c[1] * a[0])];
-    // An exact sum as nonoverlapping components, smallest first.
+    // The exact sum of the products as nonoverlapping components, smallest first.
     let mut expansion = [0.0; 6];
     for (length, product) in products.into_iter().enumerate() {
         let mut sum = product;
@@ -53,7 +53,7 @@ mod tests {
 
     #[test]
     fn signs_match_integer_arithmetic() {
-        // Coordinates are multiples of a power of two, far from the origin, so i128 is exact.
+        // Coordinates are integers far from the origin, so arithmetic in i128 is exact.
         let mut state = 12345_u64;
         let mut next = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
@@ -70,12 +70,12 @@ mod tests {
             }
             zeros += usize::from(whole == 0);
         }
-        assert!(zeros > 100, "some of the points are collinear");
+        assert!(zeros > 100, "some triples must be collinear");
     }
 
     #[test]
     fn one_unit_in_the_last_place_changes_the_sign() {
-        // Points on the line y = x, from very small to very large, with the last point moved by one
+        // Points on the line y = x, from very small to very large; the first is then moved by one
         // bit.
         let on = |x: f32| [f64::from(x), f64::from(x)];
         let (a, b, c) = (on(1e-30), on(3.0), on(2e30));

@@ -1,10 +1,10 @@
 //! Triangulation of polygons in space by ear clipping.
 //!
 //! A polygon with n corners becomes n − 2 triangles that use its corners. It is projected along the
-//! largest axis of its normal (Newell's method) and then triangulated with exact predicates. It may
-//! be concave or slightly nonplanar, and may have collinear or repeated corners, and holes joined
-//! by bridges. Self-intersecting polygons have no triangulation; once no ear is left, the rest
-//! becomes a fan.
+//! axis of the largest component of its normal (Newell's method) and then triangulated with exact
+//! predicates. It may be concave or slightly nonplanar, and may have collinear or repeated corners,
+//! and holes joined by bridges. Self-intersecting polygons have no triangulation; once no ear is
+//! left, the rest becomes a fan.
 //!
 //! Sources: G. H. Meisters, *Polygons Have Ears*, 1975; for the normal, I. E. Sutherland, R. F.
 //! Sproull, R. A. Schumacker, *A Characterization of Ten Hidden-Surface Algorithms*, 1974, who
@@ -12,8 +12,8 @@
 
 use super::orientation::orient2d;
 
-/// Maximum number of point-in-triangle tests for all polygons of a file, which take about a tenth
-/// of a second.
+/// Maximum number of point-in-triangle tests for all polygons of a file. So many tests take about
+/// 0.1 s.
 ///
 /// An ear is tested only against the reflex corners within its range along the polygon's longer
 /// axis, so that even large ordinary polygons take only a few tests per corner. Contrived polygons
@@ -39,7 +39,7 @@ pub(crate) enum PolygonKind {
 /// Triangulates polygons. The buffers are reused for each polygon.
 #[derive(Debug)]
 pub(crate) struct Triangulator {
-    /// The corners in the plane, in counter-clockwise order.
+    /// The projected corners, in counterclockwise order.
     points: Vec<[f64; 2]>,
     /// For each corner, the previous corner that has not been clipped.
     previous: Vec<u32>,
@@ -49,7 +49,7 @@ pub(crate) struct Triangulator {
     is_reflex: Vec<bool>,
     /// The axis of the plane along which the polygon is longer.
     long_axis: usize,
-    /// The initially reflex corners with their points, sorted along that axis.
+    /// The initially reflex corners with their points, sorted along the longer axis.
     reflex_in_order: Vec<([f64; 2], u32)>,
     /// The remaining number of tests for this file; see [`MAX_POINT_TESTS`].
     tests_left: u64,
@@ -97,7 +97,7 @@ impl Triangulator {
         self.cut_ears(triangles)
     }
 
-    /// Projects the corners along the largest axis of the normal, in counter-clockwise order.
+    /// Projects the corners along the largest component of the normal, in counterclockwise order.
     /// Returns `false` if there is no normal.
     fn project(&mut self, corners: &[[f32; 3]]) -> bool {
         let normal = newell_normal(corners);
@@ -119,10 +119,10 @@ impl Triangulator {
         true
     }
 
-    /// Returns whether the fan around the first corner is a triangulation, that is, the other
-    /// corners are in counter-clockwise order around it, within half a turn.
+    /// Returns whether the fan around the first corner is a triangulation, that is, whether the
+    /// other corners are in counterclockwise order around it, within half a turn.
     ///
-    /// This is true for all convex polygons, which are the vast majority.
+    /// This is true for all strictly convex polygons, which are the vast majority.
     fn is_visible_from_first(&self) -> bool {
         let [first, second, rest @ ..] = self.points.as_slice() else { return false };
         let mut before = second;
@@ -196,8 +196,8 @@ impl Triangulator {
         [before, at, after]
     }
 
-    /// Returns twice the area of the triangle at a remaining corner, which is positive if the
-    /// corner is convex.
+    /// Returns twice the signed area of the triangle at a remaining corner, which is positive if
+    /// the corner is convex.
     fn turn_at(&self, at: u32) -> f64 {
         let [a, b, c] = self.ear_triangle(at);
         orient2d(a, b, c)
@@ -221,7 +221,7 @@ impl Triangulator {
     ///
     /// Corners at the same position as a corner of the triangle are ignored, because they are the
     /// ends of bridges to holes. Only reflex corners need a test: of the corners in the triangle,
-    /// the one farthest from the edge to be clipped is reflex.
+    /// the one farthest from the edge that clipping would add is reflex.
     fn is_ear(&mut self, at: u32) -> bool {
         let [a, b, c] = self.ear_triangle(at);
         let [low, high] = [f64::min, f64::max].map(|f| [0, 1].map(|k| f(f(a[k], b[k]), c[k])));
@@ -272,8 +272,8 @@ fn push_fan(corners: impl IntoIterator<Item = u32>, triangles: &mut Vec<[u32; 3]
     }
 }
 
-/// Returns the sum of the cross products of a polygon's edges: its normal, scaled to twice its
-/// area.
+/// Returns the sum of the cross products of a polygon's edges: the polygon's normal, with a length
+/// of twice the area.
 fn newell_normal(corners: &[[f32; 3]]) -> [f64; 3] {
     let mut normal = [0.0; 3];
     let Some(origin) = corners.first().map(|at| at.map(f64::from)) else { return normal };

@@ -54,7 +54,7 @@ fn square() -> String {
     format!("mtllib a.mtl\nusemtl m\n{SQUARE}vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n")
 }
 
-/// Returns a model of the square with a material of these statements.
+/// Returns a model of the square whose material has these statements.
 fn model_of(name: &str, statements: &str) -> Model {
     let folder = Folder::new(name);
     folder.write("a.mtl", format!("newmtl m\n{statements}\n"));
@@ -79,7 +79,7 @@ fn phong_becomes_metallic_roughness() {
     let material = material_of("phong", "Kd 1 0.5 0\nKs 0.5 0.5 0.5\nNs 30\nillum 2\nd 1.0");
     let [r, g, b, a] = material.base_color;
     assert!(is_near(r, 1.0) && is_near(g, 0.214_041) && b == 0.0 && a == 1.0);
-    // α² = 2 / 32, so α is 1/4, and the roughness is its square root.
+    // α² = 2 / 32, so α is 1/4, and the roughness √α is 1/2.
     assert!(is_near(material.roughness, 0.5), "{}", material.roughness);
     assert_eq!((material.metallic, material.alpha_mode), (0.0, AlphaMode::Opaque));
     assert!(material.double_sided && !material.unlit);
@@ -205,7 +205,7 @@ fn opacity_roughness_and_metalness_images_are_combined() {
     assert_eq!((material.roughness, material.metallic), (1.0, 1.0));
     assert_eq!(material.alpha_mode, AlphaMode::Blend);
 
-    // A file with both color and opacity is used unchanged; a mask without a color is white.
+    // A file with both color and opacity is used unchanged; a mask without color is put on white.
     folder.write("a.mtl", "newmtl m\nmap_Kd leaf.png\nmap_d leaf.png\n");
     let model = folder.load("a.obj");
     assert_eq!(model.images.len(), 1);
@@ -223,7 +223,7 @@ fn opacity_roughness_and_metalness_images_are_combined() {
 }
 
 #[test]
-fn only_bump_maps_that_are_normal_maps_are_used() {
+fn bump_maps_are_used_only_if_they_are_normal_maps() {
     let folder = Folder::new("bump");
     folder.write_png("normal.png", &[[128, 128, 255, 255]]);
     folder.write_png("height.png", &[[7, 7, 7, 255]]);
@@ -246,7 +246,7 @@ fn only_bump_maps_that_are_normal_maps_are_used() {
 }
 
 #[test]
-fn libraries_are_found_by_one_or_several_names() {
+fn mtllib_accepts_one_or_several_names() {
     let folder = Folder::new("libraries");
     folder.write("my library.mtl", "newmtl m\nKd 1 1 1\n");
     folder.write("one.mtl", "newmtl other\nnewmtl  two words  \nKd 0 0 0\n");
@@ -265,7 +265,7 @@ fn libraries_are_found_by_one_or_several_names() {
         assert_eq!(model.materials[0].roughness, roughness, "{library}");
         assert_eq!(warnings(&model), "", "{library}");
     }
-    // The missing file, and the undefined materials.
+    // Both the missing file and the undefined material are reported.
     folder.write("a.obj", square().replace("a.mtl", "gone.mtl"));
     let model = folder.load("a.obj");
     assert!(

@@ -6,7 +6,7 @@ use gltf_import::{ImportOptions, Limits};
 use model::{Primitive, Topology, codes};
 
 #[test]
-fn references_count_from_the_start_or_backward() {
+fn references_count_forward_or_backward() {
     let forwards = read(format!("{SQUARE}f 1 2 3 4")).unwrap();
     let backwards = read(format!("{SQUARE}f -4 -3 -2 -1\n")).unwrap();
     let ahead = read(format!("f 1 2 3 4\n{SQUARE}")).unwrap();
@@ -26,7 +26,7 @@ fn references_count_from_the_start_or_backward() {
 }
 
 #[test]
-fn invalid_references_are_located_or_skipped_leniently() {
+fn invalid_references_are_located_errors_unless_lenient() {
     for (face, place, message) in [
         ("f 1 2 5", "line 5, column 7", "there is no vertex 5: there are 4 before this line"),
         ("f 1 0 2", "line 5, column 5", "there is no vertex 0: the first vertex is 1"),
@@ -76,7 +76,7 @@ fn corners_with_the_same_references_share_a_vertex() {
     assert_eq!(part.positions[4], part.positions[0]);
     assert_eq!(part.normals.as_ref().unwrap()[4], [0.0, 1.0, 0.0]);
     assert_eq!(part.normals.as_ref().unwrap()[0], [0.0, 0.0, 1.0], "unit length");
-    // In OBJ v points up; here it points down.
+    // In OBJ files, v points up; here it points down.
     assert_eq!(part.uvs[0][..3], [[0.0, 1.0], [1.0, 0.75], [1.0, 0.0]]);
 }
 
