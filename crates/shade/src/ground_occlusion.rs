@@ -9,12 +9,12 @@
 //!  ────●─────┴──────── ground
 //! ```
 //!
-//! Visibility is computed in cells twice as wide. From the center of each, rays run along 16
-//! azimuths over the slabs. The directions that slabs hide are marked in a bitmask of 64 sectors of
-//! equal cosine-weighted solid angle (after Therrien, Levesque and Gilet, *Screen space indirect
-//! lighting with visibility bitmask*, 2023). Neighbors in a block of 2 × 2 have interleaved
-//! azimuths, and their mean removes the pattern again (interleaved sampling, Keller and Heidrich
-//! 2001). The space between the lowest and the highest surface of a cell counts as solid.
+//! Visibility cells are twice as wide as slab cells. From the center of each visibility cell, rays
+//! run along 16 azimuths over the slabs. The directions that slabs hide are marked in a bitmask of
+//! 64 sectors of equal cosine-weighted solid angle (after Therrien, Levesque and Gilet, *Screen
+//! space indirect lighting with visibility bitmask*, 2023). Neighbors in a block of 2 × 2 have
+//! interleaved azimuths, and their mean removes the pattern again (interleaved sampling, Keller and
+//! Heidrich 2001). The space between the lowest and the highest surface of a cell counts as solid.
 
 use super::approximations::floor_to_int;
 use raster::for_each_parallel;
@@ -308,8 +308,8 @@ mod tests {
             HeightSlab { low: height - square.sqrt(), high: height + square.sqrt() }
         });
         for distance in [0.0_f32, 0.3, 0.6, 1.0, 1.6] {
-            // The ball is above the horizon: the squared sine of its angular radius times the
-            // cosine.
+            // Form factor of a ball above the horizon: squared sine of its angular radius, times
+            // the cosine.
             let far = (height * height + distance * distance).sqrt();
             let expected = 1.0 - height * radius * radius / (far * far * far);
             for (x, z) in [(distance, 0.0), (0.0, -distance), (0.6 * distance, 0.8 * distance)] {

@@ -59,7 +59,7 @@ pub enum Light {
 
 /// The light from one source at some fragments.
 ///
-/// Shading needs only this direction and illuminance, not the light's kind or position. Shadows
+/// The BRDF needs only this direction and illuminance, not the light's kind or position. Shadows
 /// reduce the illuminance, and so does sheen for the layers below.
 ///
 /// `lux` does not include the cosine of Lambert's law, because each layer has different normals.

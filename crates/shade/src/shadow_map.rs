@@ -202,8 +202,7 @@ mod tests {
         map.visibility::<1>(&ShadowReceiver { positions, normals }, [true])[0]
     }
 
-    /// Returns the position and normal of a receiver; steps scatter receivers over the map and tilt
-    /// them.
+    /// Returns the position and normal of a receiver at height `y`; both vary with the step.
     fn scattered_receiver(step: usize, y: f32) -> ([f32; 3], [f32; 3]) {
         let [x, z] = [step * 37 % 1000, step * 91 % 1000].map(|c| c as f32 * 0.001);
         let tilt = (step % 7) as f32 * 0.1;
