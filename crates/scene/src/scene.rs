@@ -1,4 +1,4 @@
-//! A resolved scene: models, camera, lights, and the style in which they are drawn.
+//! A resolved scene: models, camera, lights, drawing style, and surroundings.
 
 use super::{Ground, Inset};
 use camera::ViewProjection;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 pub struct Scene {
     /// The models with their transforms.
     pub models: Vec<ModelInstance>,
-    /// Camera and projection.
+    /// The camera and projection.
     pub view_projection: ViewProjection,
     /// The lights.
     pub lights: Vec<Light>,
@@ -23,7 +23,7 @@ pub struct Scene {
     /// Light from all directions.
     pub environment: Option<Arc<Environment>>,
     /// The distance up to which surfaces occlude light from all directions, in world units; `None`
-    /// if they do not.
+    /// without ambient occlusion.
     pub occlusion_radius: Option<f64>,
     /// Exposure and tone mapping.
     pub tone_mapper: ToneMapper,
@@ -42,8 +42,8 @@ pub struct Scene {
     /// Planes that cut the models open in line drawings; their unit normals point to the retained
     /// half.
     pub sections: Vec<Plane<World>>,
-    /// The objects that the planes do not cut, in ascending order: nodes with a mesh, counted over
-    /// all models.
+    /// The indices of the objects that the planes do not cut, in ascending order. Objects are nodes
+    /// with a mesh, counted over all models.
     pub uncut: Vec<u32>,
     /// Whether lines are drawn without work limits.
     pub unlimited_lines: bool,
@@ -53,7 +53,7 @@ impl Scene {
     /// Creates a scene of models seen through a camera, shaded with their own materials, without
     /// lights or surroundings.
     ///
-    /// Other fields can be set on top, as in `Scene { lights, ..Scene::new(…) }`.
+    /// To set other fields, write `Scene { lights, ..Scene::new(…) }`.
     #[must_use]
     pub fn new(
         models: Vec<ModelInstance>,
@@ -124,7 +124,7 @@ impl Scene {
 /// The style of surfaces.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Style {
-    /// Lit, with smooth normals if the file has them.
+    /// Lit, with smooth normals if the model has them.
     Shaded,
     /// Lit, with one normal per triangle.
     Flat,
@@ -136,7 +136,7 @@ pub enum Style {
     Matcap,
     /// Normals as colors.
     Normals,
-    /// Depth: the nearer, the brighter. With a colormap, the nearer, the closer to its last color.
+    /// Depth: nearer surfaces are brighter or, with a colormap, closer to its last color.
     Depth(Option<Colormap>),
     /// A checkerboard from texture coordinates.
     UvChecker,
@@ -153,7 +153,7 @@ pub enum Style {
 }
 
 impl Style {
-    /// Returns the style's widths, dashes and hidden lines.
+    /// Returns the style's settings for lines.
     #[must_use]
     pub const fn line_style(self) -> LineStyle {
         match self {
@@ -169,13 +169,13 @@ impl Style {
         !matches!(self, Self::Wireframe | Self::Lines(_))
     }
 
-    /// Whether colors represent numbers: normals, depths, texture coordinates, parts.
+    /// Whether colors represent data: normals, depths, texture coordinates or parts.
     #[must_use]
     pub const fn is_false_color(self) -> bool {
         matches!(self, Self::Normals | Self::Depth(_) | Self::UvChecker | Self::Ids)
     }
 
-    /// Whether surfaces look different from their materials.
+    /// Whether the style replaces the appearance of the materials.
     #[must_use]
     pub const fn overrides_materials(self) -> bool {
         self.draws_surfaces() && !matches!(self, Self::Shaded | Self::Flat)
@@ -197,10 +197,10 @@ pub struct ImageSpec {
     pub caption_height: u32,
     /// The background color: linear, premultiplied by alpha.
     pub background: [f32; 4],
-    /// Whether the background is the white paper that line drawings have by default, which pages in
-    /// vector formats omit.
+    /// Whether the background is the white paper that line drawings have by default. Pages in
+    /// vector formats omit it.
     pub is_blank_paper: bool,
-    /// The blur of an environment used as the background, from 0 to 1; `None` if it is not visible.
+    /// The blur of the environment as background, from 0 to 1; `None` for another background.
     pub environment_blur: Option<f32>,
     /// Coverage samples per pixel.
     pub samples: Samples,
@@ -212,7 +212,7 @@ pub struct ImageSpec {
 }
 
 impl ImageSpec {
-    /// Creates a picture of this size in pixels on a transparent background, with one sample per
+    /// Specifies a picture of this size in pixels on a transparent background, with one sample per
     /// pixel.
     #[must_use]
     pub const fn new(width: u32, height: u32) -> Self {
@@ -229,7 +229,7 @@ impl ImageSpec {
         }
     }
 
-    /// Returns all pixels of the picture.
+    /// Returns the rectangle of all pixels of the picture.
     #[must_use]
     pub const fn pixel_rect(self) -> PixelRect {
         PixelRect::from_size(self.width, self.height)

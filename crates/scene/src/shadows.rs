@@ -8,10 +8,10 @@ use shade::Shadow;
 
 /// The default number of texels along a shadow map's longer side.
 const DEFAULT_MAP_SIZE: u32 = 2048;
-/// The apparent diameter of the sun from Earth, in degrees.
+/// The default softness: the apparent diameter of the sun from Earth, in degrees.
 const DEFAULT_SOFTNESS_DEGREES: f64 = 0.53;
 
-/// Resolves the shadows from the settings at the end of `path`.
+/// Resolves the shadow settings at `path`.
 pub(super) fn resolve_shadow(
     origin: &Origin,
     file: Option<&ShadowsFile>,

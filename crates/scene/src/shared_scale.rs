@@ -1,10 +1,10 @@
 //! One scale for several views: the same length appears equally long in all of them.
 //!
 //! The scale of a parallel view is the number of pixels per unit of world length parallel to the
-//! picture plane. In an oblique projection this applies to the front; in an isometric projection it
-//! applies to none of the axes, which appear √⅔ as long (AX-1). Perspectives have no scale.
+//! picture plane. In an oblique projection, lengths in the front plane have this scale. In an
+//! isometric projection, axes appear √⅔ as long (AX-1). Perspective views have no scale.
 //!
-//! The shared scale is the smallest of the scales at which each view fits its rectangle.
+//! Each view has a scale at which it fits its rectangle; the shared scale is the smallest of these.
 
 use super::camera_fields::PROJECTION_PATH;
 use super::caption::map_window;
@@ -17,12 +17,12 @@ use scene_file::SceneError;
 use scene_file::file::{CameraFile, ProjectionFile, SceneFile, ViewFile, ViewportsScale};
 
 impl Scene {
-    /// Returns the scale of the view in pixels per world unit, or `None` in perspective, where it
-    /// depends on the distance.
+    /// Returns the scale of the view in pixels per world unit, or `None` in perspective, where the
+    /// scale depends on the distance.
     ///
-    /// It is the smaller singular value of the rows x and y of the map from the world to pixels. In
-    /// an orthographic projection both values are the scale; in an oblique projection the larger
-    /// value applies to the receding lines.
+    /// The scale is the smaller singular value of the rows x and y of the map from the world to
+    /// pixels. In an orthographic projection, both values equal the scale; in an oblique
+    /// projection, receding lines increase the larger value.
     #[must_use]
     pub fn pixels_per_unit(&self) -> Option<f64> {
         let view = &self.view_projection;
@@ -38,7 +38,7 @@ impl Scene {
         (least > 0.0 && least.is_finite()).then_some(least)
     }
 
-    /// Changes the scale of a parallel view about its center; leaves a perspective unchanged.
+    /// Scales a parallel view about its center to this scale; a perspective view stays unchanged.
     pub fn set_pixels_per_unit(&mut self, scale: f64) {
         let Some(own) = self.pixels_per_unit() else { return };
         let (factor, center) = (scale / own, self.image.view_center());
@@ -50,7 +50,7 @@ impl Scene {
 /// Gives the parallel views among the viewports one scale, if the scene requests it.
 ///
 /// # Errors
-/// Returns an error if fewer than two of them are parallel, or if one sets its own scale.
+/// Returns an error if fewer than two viewports are parallel views, or if such a view sets a scale.
 pub(super) fn share_scale_of_viewports(
     origin: &Origin,
     file: &SceneFile,
@@ -65,7 +65,7 @@ pub(super) fn share_scale_of_viewports(
     if scales.len() < 2 {
         let count = if scales.is_empty() { "are none" } else { "is one" };
         let message = format!(
-            "a shared scale needs two parallel views among the viewports, but there {count}"
+            "a shared scale needs at least two parallel views among the viewports, but there {count}"
         );
         let help =
             "choose projections such as Orthographic() or Isometric, or remove `viewports_scale`";
@@ -80,7 +80,7 @@ pub(super) fn share_scale_of_viewports(
             return Err(origin.error_at(&PROJECTION_PATH, message, Some(help)));
         }
     }
-    // The smallest scale, so that every view still shows everything.
+    // Use the smallest scale, so that every view still shows everything.
     let shared = scales.into_iter().fold(f64::INFINITY, f64::min);
     insets.iter_mut().for_each(|inset| inset.scene.set_pixels_per_unit(shared));
     Ok(())

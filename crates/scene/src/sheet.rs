@@ -18,7 +18,7 @@ use sheet::{DimensionUnit, NumberFormat, Sheet, TitleBlockTemplate, TitleBlockTe
 use std::path::PathBuf;
 use viewport::Paper;
 
-/// The content of a drawing sheet, and the settings it takes from the scene.
+/// The content of a drawing sheet, and the scene's settings that affect the sheet.
 #[derive(Clone, Copy, Debug)]
 pub struct SheetContent<'a> {
     /// The models.
@@ -31,13 +31,12 @@ pub struct SheetContent<'a> {
     pub style: Option<LineStyle>,
     /// The overlays of the scene.
     pub overlays: &'a [Overlay],
-    /// The folders, in addition to the scene's, that may contain its title block.
+    /// The folders, in addition to the scene's folder, that may contain the custom title block.
     pub allowed_folders: &'a [PathBuf],
 }
 
 impl<'a> SheetContent<'a> {
-    /// Returns the content of a resolved scene; a title block may only be in the scene's own
-    /// folder.
+    /// Returns the content of a resolved scene; a custom title block must be in the scene's folder.
     #[must_use]
     pub fn from_scene(scene: &'a Scene) -> Self {
         Self {
@@ -51,12 +50,12 @@ impl<'a> SheetContent<'a> {
     }
 }
 
-/// Resolves the drawing sheet of a scene file for its models.
+/// Resolves the drawing sheet of a scene file that has this content.
 ///
 /// Edges, crease angle, hidden lines, fill, color and depth cue come from the scene's line style,
-/// and so does a width in millimeters; the sheet's own settings take precedence. If no orientation
-/// is set, the paper is turned to give the largest scale. If no size is set, the paper is the
-/// smallest that is large enough: [`Sheet::smallest_of`].
+/// and so do line widths in millimeters; the sheet's settings take precedence. If no orientation is
+/// set, the paper is turned to give the largest scale. If no size is set, the paper is the smallest
+/// that is large enough (see [`Sheet::smallest_of`]).
 ///
 /// ```
 /// use import::MemoryFolder;
@@ -84,8 +83,8 @@ impl<'a> SheetContent<'a> {
 /// ```
 ///
 /// # Errors
-/// Returns an error if the scale has a 0, ISO 128 has no line group with the width, the models have
-/// different units, or a dimension names or picks a missing part. The error points into the file.
+/// Returns an error that points into the file, for example if the scale contains a 0, the models
+/// have different units, or a dimension refers to a missing part.
 pub fn resolve_sheet(
     origin: &Origin,
     file: &SheetFile,
@@ -218,7 +217,7 @@ fn resolve_numbers(origin: &Origin, file: &SheetFile) -> Result<NumberFormat, Sc
     Ok(NumberFormat { decimals, decimal_mark: file.decimal_mark })
 }
 
-/// Returns the paper in its orientation, and its name on the sheet.
+/// Returns the paper in its orientation, and the name of its size.
 fn resolve_paper(file: &SheetFile, size: PaperSize) -> (Paper, &'static str) {
     let (paper, name) = match size {
         PaperSize::A0 => (Paper::A0, "A0"),
@@ -237,7 +236,7 @@ fn resolve_paper(file: &SheetFile, size: PaperSize) -> (Paper, &'static str) {
     (if is_portrait { paper } else { paper.rotated() }, name)
 }
 
-/// Returns the unit of the models: the sheet's, otherwise the unit that all of their files share.
+/// Returns the unit of the models: the sheet's unit or else the unit that all models share.
 fn resolve_unit(
     origin: &Origin,
     file: &SheetFile,

@@ -1,5 +1,4 @@
-//! Errors in a scene's sheet, found before drawing: values out of range, views larger than the
-//! paper.
+//! Errors in a scene's sheet, found before drawing, such as views larger than the paper.
 
 use super::assembly::resolve_assembly;
 use super::diagnostics::Diagnostics;
@@ -17,8 +16,8 @@ use scene_file::{SceneError, SceneFile};
 use sheet::SheetError;
 use std::path::PathBuf;
 
-/// Reports the mistakes in a scene's sheet; without models, only those that do not depend on them.
-/// Mistakes in sections and style are found elsewhere.
+/// Reports the mistakes in a scene's sheet; without models, only mistakes that do not depend on
+/// them. Mistakes in sections and style are found elsewhere.
 pub(super) fn check_sheet(
     origin: &Origin,
     file: &SceneFile,
@@ -43,8 +42,8 @@ pub(super) fn check_sheet(
         overlays: &[],
         allowed_folders: allowed,
     };
-    // First without content, to find the mistakes that do not depend on models. The layout is tried
-    // only if there are none.
+    // Resolve the sheet without content first, to find mistakes that do not depend on models. Try
+    // the layout only if there are no such mistakes.
     let nothing = SheetContent { models: &[], sections: &[], uncut: &[], style: None, ..content };
     if faults.take(resolve_sheet(origin, sheet, nothing)).is_some() && !models.is_empty() {
         layout_error(origin, sheet, content).into_iter().for_each(|error| faults.report(error));
@@ -52,7 +51,7 @@ pub(super) fn check_sheet(
 }
 
 /// Returns the error for a sheet whose views are larger than its paper, or that names parts missing
-/// from the models. It is `None` if the description of the sheet is itself invalid.
+/// from the models. Returns `None` if the description of the sheet is invalid.
 fn layout_error(
     origin: &Origin,
     file: &SheetFile,

@@ -12,7 +12,7 @@ use sheet::{SheetError, ViewPlace, ViewRequest, ViewSide};
 /// Resolves the views that a sheet requests.
 ///
 /// # Errors
-/// Returns an error if a scale has a 0; the error points into the file.
+/// Returns an error that points into the file if a scale contains a 0.
 pub(super) fn resolve_sheet_views(
     origin: &Origin,
     file: &SheetFile,

@@ -26,7 +26,7 @@ use scene_file::{SceneError, SceneFile};
 use shade::{Backdrop, Environment, Light, ToneMapper, ToneMapping};
 use std::sync::Arc;
 
-/// The parts of a scene without its insets, each of which may have mistakes.
+/// The parts of a scene without its insets; a part with a mistake is `None`.
 struct SceneParts {
     image: Option<ImageSpec>,
     caption: Option<Option<String>>,
@@ -60,7 +60,7 @@ pub(super) fn resolve_without_insets(
     let is_placed = camera_errors.is_empty();
     camera_errors.into_iter().for_each(|error| faults.report(error));
 
-    // Everything above needs no models, and is checked even if they cannot be loaded.
+    // Nothing above needs the models, so it is checked even if they cannot be loaded.
     let models = models?;
     let uncut = faults.take(resolve_uncut(origin, &file.sections, models));
     let points = || {
@@ -101,8 +101,8 @@ pub(super) fn resolve_without_insets(
 }
 
 impl SceneParts {
-    /// Assembles the scene if all parts are present: adds the ground, and resolves the view again
-    /// if it shows shadows on the ground.
+    /// Assembles the scene if all parts are present: adds the ground, and resolves a framed view
+    /// again so that it includes shadows on the ground.
     fn assemble(
         self,
         origin: &Origin,
@@ -129,11 +129,12 @@ impl SceneParts {
             };
             file.radius.map_or_else(usual, Positive::value)
         });
-        // The studio is calibrated to stay below 1. A model's lights may have any brightness.
+        // The studio keeps colors below 1, by calibration. A model's lights may have any
+        // brightness.
         let has_model_lights = has_default_light(origin, file) && has_lights(models);
         let curve = if has_model_lights { ToneMapping::Neutral } else { ToneMapping::None };
         let curve = file.image.tone_mapping.unwrap_or(curve);
-        // Applied after exposure, which would compensate for it.
+        // Applied after automatic exposure, which would otherwise cancel the intensity.
         scale_lights(&mut lights, file.light_intensity);
         Some(Scene {
             models: models.to_vec(),
@@ -170,7 +171,7 @@ fn framed_points(
     hidden_line::retained_points(models, sections, uncut)
 }
 
-/// Returns the image that a scene renders.
+/// Resolves the picture to render.
 pub(super) fn resolve_image(
     origin: &Origin,
     file: &SceneFile,

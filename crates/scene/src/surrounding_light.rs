@@ -1,7 +1,7 @@
 //! Resolution of the environment: radiance from all directions, prefiltered for shading.
 //!
-//! Prefiltering is the expensive part of a small scene, so the last few environments are cached by
-//! content, across scenes and threads.
+//! Prefiltering takes most of the time for a small scene, so the last few environments are cached
+//! by content, across scenes and threads.
 
 use super::Origin;
 use model::ModelInstance;
@@ -15,9 +15,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// The maximum length of an image file in bytes.
 const MAX_FILE_BYTES: u64 = 256 << 20;
-/// The maximum width in texels of an image that lights a scene, and of an image that is also
-/// visible.
+/// The maximum width in texels of an image that lights a scene.
 const LIGHT_WIDTH: usize = 1024;
+/// The maximum width in texels of an image that is also a sharp background.
 const SEEN_WIDTH: usize = 4096;
 /// The maximum number of environments in the cache.
 const MAX_CACHED_ENVIRONMENTS: usize = 4;
@@ -27,12 +27,12 @@ pub(super) fn has_lights(models: &[ModelInstance]) -> bool {
     models.iter().any(|placed| placed.model.scene_lights().next().is_some())
 }
 
-/// Whether no light is specified, as for a bare model without a scene file.
+/// Whether the default light applies: there is no scene file, and no light is specified.
 pub(super) fn has_default_light(origin: &Origin, file: &SceneFile) -> bool {
     origin.text.is_empty() && file.lights.is_none()
 }
 
-/// Whether the scene may have an environment; the file does not always determine it.
+/// Whether the scene may have an environment, before the style is considered.
 pub(super) fn may_have_environment(origin: &Origin, file: &SceneFile) -> bool {
     match file.environment {
         Some(EnvironmentFile::Dark) => false,
@@ -41,10 +41,10 @@ pub(super) fn may_have_environment(origin: &Origin, file: &SceneFile) -> bool {
     }
 }
 
-/// Returns the environment whose light appears in the style, if any.
+/// Returns the environment that lights the scene in its style, if any.
 ///
-/// A bare model is placed in the studio, because metals show only their surroundings. If it has its
-/// own lights, the studio is dimmed so that they still matter.
+/// A bare model is placed in the studio, because metals show only their surroundings. If it
+/// contains lights, the studio is dimmed so that these remain visible.
 pub(super) fn effective_environment(
     origin: &Origin,
     file: &SceneFile,
@@ -85,11 +85,10 @@ fn cached_environment(key: EnvironmentKey, make: impl FnOnce() -> Environment) -
     made
 }
 
-/// Resolves the environment of a scene, if it requests one. Files may be inside the scene's folder
-/// and the allowed folders.
+/// Resolves the environment of a scene, if it requests one. Files must be inside the scene's folder
+/// or an allowed folder.
 ///
-/// The default studio is equally bright in the picture at any exposure, because automatic exposure
-/// is meant for other lights.
+/// The default studio ignores automatic exposure, which is meant for other lights.
 pub(super) fn resolve_environment(
     origin: &Origin,
     file: &SceneFile,
@@ -174,8 +173,8 @@ fn environment_error(origin: &Origin, message: String, help: Option<String>) -> 
     origin.error_at(&[Field("environment"), Field("path")], message, help)
 }
 
-/// Reads a file that the scene names at `at`. It must be inside the scene's folder or an allowed
-/// folder, and must not be too long.
+/// Reads the file that the scene names in the field `at`. It must be inside the scene's folder or
+/// an allowed folder, and must not be too long.
 pub(super) fn read_image_bytes(
     origin: &Origin,
     at: &[PathStep<'_>],
@@ -222,8 +221,8 @@ impl EnvironmentRotation {
         (kind, [content, self.degrees.to_bits(), u64::from(self.strength.to_bits()), 0])
     }
 
-    /// Returns the light from a direction after the surroundings are rotated counterclockwise, as
-    /// seen from above.
+    /// Returns the radiance from a direction after the surroundings are rotated counterclockwise,
+    /// as seen from above.
     fn rotated_radiance(&self, [x, y, z]: [f32; 3], of: impl Fn([f32; 3]) -> [f32; 3]) -> [f32; 3] {
         let before = [x * self.cosine - z * self.sine, y, x * self.sine + z * self.cosine];
         of(before).map(|c| c * self.strength)

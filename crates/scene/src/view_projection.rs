@@ -5,8 +5,8 @@
 //!  Frame ─► bounds, direction ─────┼─► near and far from the depths of the vertices ─► projection
 //!  FromModel ─► node of the model ─┘    unless the file sets them
 //! ```
-//! Framing finds the eye for which every vertex just fits in the window: in closed form for
-//! perspective, from the box around the projected points for parallel projections.
+//! Framing finds the eye from which all vertices just fit in the window: in closed form for
+//! perspective, and from the box around the projected points for parallel projections.
 
 use super::calibrated_lens::{calibrated_lens, check_calibrated_shape};
 use super::camera_fields::VIEW_PATH;
@@ -76,7 +76,7 @@ pub(super) fn resolve_view_of_points(
     view.map(|view| image.place_view(zoom_view(view, file.zoom)))
 }
 
-/// Returns the view with everything enlarged by a factor, about the center of the picture.
+/// Returns the view magnified by a factor about the center of the picture.
 fn zoom_view(view: ViewProjection, zoom: Positive) -> ViewProjection {
     if zoom == Positive::ONE {
         return view;
@@ -116,8 +116,8 @@ impl<'a> CameraResolver<'a> {
         self.projection_error_with(error.to_string(), Some(help.to_owned()))
     }
 
-    /// Returns the view-projection of a positioned camera; `height` is used for a parallel window
-    /// if the file does not set one.
+    /// Returns the view-projection of a positioned camera; `height` is the height of a parallel
+    /// view's window if the file sets none.
     fn project_from_camera(
         &self,
         camera: Camera,
@@ -144,8 +144,7 @@ impl<'a> CameraResolver<'a> {
                 let (near, far) =
                     span.parallel_planes(near.map(Finite::value), far.map(Finite::value));
                 let [l, r, b, t] = window.unwrap_or_else(|| {
-                    // The height in the file comes first, then the framing's, then one that fits
-                    // the models.
+                    // Prefer the file's height, then the framing's, then one that fits the models.
                     let height = given.map(Positive::value).or(height);
                     let half = 0.5 * height.unwrap_or_else(|| self.fitting_window_height(camera));
                     let right = half * self.aspect;
@@ -196,7 +195,7 @@ impl<'a> CameraResolver<'a> {
         if reach > 0.0 { 2.1 * reach } else { 1.0 }
     }
 
-    /// Returns a camera that looks in a given direction, from where everything just fits.
+    /// Returns the view in a given direction, from a camera placed so that everything just fits.
     fn frame_models(
         &self,
         from: Option<&FromFile>,
@@ -237,7 +236,7 @@ impl<'a> CameraResolver<'a> {
         self.project_from_camera(framed.camera, projection, None)
     }
 
-    /// Returns the borders of a perspective's window one unit ahead of the eye.
+    /// Returns the borders of a perspective view's window, one unit ahead of the eye.
     fn window_slopes(&self, projection: &ProjectionFile) -> Result<Slopes, SceneError> {
         let lens = Lens::from_file(projection);
         if let Some(Lens { fov: Fov::Vertical(angle), .. }) = lens.filter(|lens| lens.is_centered())
@@ -262,8 +261,8 @@ impl<'a> CameraResolver<'a> {
         Ok(Slopes { left, right, bottom, top })
     }
 
-    /// Returns the moved-apex frustum framed around the models: the apex is placed like the eye of
-    /// a centered window, and the camera is placed beside it.
+    /// Returns the moved-apex frustum framed around the models: the apex is placed where the eye of
+    /// a centered window would be, and the camera beside it.
     fn frame_apex_moved(
         &self,
         basis: Basis,
@@ -301,8 +300,8 @@ impl<'a> CameraResolver<'a> {
         }
     }
 
-    /// Returns the projection of a camera in a model. The aspect ratio is the image's: the vertical
-    /// field of view of a perspective is kept, and the window of an orthographic camera is widened.
+    /// Returns the projection of a camera in a model, with the image's aspect ratio. A perspective
+    /// camera keeps its vertical field of view; the window of an orthographic camera is extended.
     fn project_through_lens(
         &self,
         camera: Camera,

@@ -22,8 +22,8 @@
 //! The pattern is anchored to the whole picture, so that separately rendered parts join seamlessly.
 //!
 //! Fragments do not search for horizons themselves. A fragment that does not cover the center of
-//! its pixel is next to the surface there, and would find itself below other surfaces and become a
-//! dark dot. Instead it uses the visibility of the surrounding pixels that show its surface.
+//! its pixel is not on the surface stored there. It would appear to be below other surfaces and
+//! become a dark dot. It therefore uses the visibility of surrounding pixels that show its surface.
 
 mod denoise;
 mod horizon_search;
@@ -57,7 +57,7 @@ pub struct AmbientOcclusion {
 }
 
 impl AmbientOcclusion {
-    /// Computes the ambient visibility of the nearest surfaces of a picture, rows from the top.
+    /// Computes the ambient visibility of the nearest surfaces of a picture, in rows from the top.
     ///
     /// Uses up to `threads` threads, with the same result for any number, and reuses the memory of
     /// the `last` picture.
@@ -96,7 +96,7 @@ impl AmbientOcclusion {
     /// Computes the ambient visibility, 0 to 1, of positions in the world with these unit normals.
     ///
     /// This is a mean over the nine pixels around each position, weighted by how close their
-    /// surfaces are to the fragment's plane (a joint bilateral lookup).
+    /// surfaces are to the position's plane (a joint bilateral lookup).
     #[inline(always)]
     pub(super) fn visibility<const N: usize>(
         &self,
@@ -126,7 +126,7 @@ impl AmbientOcclusion {
     }
 }
 
-/// Computes the visibilities of eight pixels one by one, for processors without wide kernels.
+/// Computes the visibilities of eight pixels one by one, for SIMD levels without wide kernels.
 #[inline(never)]
 fn search_one_by_one(
     space: &ScreenSpace,

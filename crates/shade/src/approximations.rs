@@ -1,9 +1,9 @@
 //! Polynomial approximations of elementary functions, and rounding. They are accurate to about six
 //! digits and, unlike `libm`, can be compiled to vector instructions.
 //!
-//! The logarithm and the power split a number into exponent and mantissa, as stored in IEEE 754;
-//! only the mantissa needs a polynomial. The cosine removes whole turns. All machines produce the
-//! same bits.
+//! The logarithm splits a number into exponent and mantissa, as stored in IEEE 754, and the power
+//! combines them; only the mantissa needs a polynomial. The cosine removes whole turns. All
+//! machines produce the same bits.
 
 use std::f32::consts::LN_2;
 
@@ -12,7 +12,7 @@ use std::f32::consts::LN_2;
 /// Adding 3 · 2²² leaves the nearest integer in the low bits of the sum. All of this compiles to
 /// vector instructions; `as i32` would convert lane by lane, with a test for NaN.
 #[inline(always)]
-#[expect(clippy::manual_clamp, reason = "unlike `clamp`, this replaces NaN by a bound")]
+#[expect(clippy::manual_clamp, reason = "unlike `clamp`, this replaces NaN with a bound")]
 pub(crate) fn floor_to_int(x: f32) -> i32 {
     const SHIFT: f32 = 12_582_912.0;
     let shifted = x.max(-4_194_303.0).min(4_194_303.0) + SHIFT;
@@ -47,7 +47,7 @@ pub(crate) fn log2_approx(x: f32) -> f32 {
 
 /// Computes two to the power of a number, clamped to −126 to 127, to about six digits.
 #[inline(always)]
-#[expect(clippy::manual_clamp, reason = "unlike `clamp`, this replaces NaN by a bound")]
+#[expect(clippy::manual_clamp, reason = "unlike `clamp`, this replaces NaN with a bound")]
 pub(crate) fn exp2_approx(power: f32) -> f32 {
     // 2^t from −½ to ½, fitted at the zeros of a Chebyshev polynomial.
     const COEFFICIENTS: [f32; 6] =
@@ -67,7 +67,7 @@ pub(crate) fn exp2_approx(power: f32) -> f32 {
 /// Computes the cosine of an angle of up to a million turns. The error is at most 10⁻⁶ plus the
 /// rounding error of the angle.
 #[inline(always)]
-#[expect(clippy::manual_clamp, reason = "unlike `clamp`, this replaces NaN by a bound")]
+#[expect(clippy::manual_clamp, reason = "unlike `clamp`, this replaces NaN with a bound")]
 pub(crate) fn cosine_of_turns(turns: f32) -> f32 {
     // cos(2π √u) for u up to ¼, fitted at the zeros of a Chebyshev polynomial.
     const COEFFICIENTS: [f32; 7] =

@@ -1,5 +1,4 @@
-//! Vertex attributes: fetches them for the vertices of the fragments' primitives and interpolates
-//! them.
+//! Vertex attributes, fetched for the primitives of fragments and interpolated.
 //!
 //! The rasterizer writes a visibility buffer: the primitive of each fragment and the barycentric
 //! weights of its vertices. Attributes are fetched only when a fragment is shaded, and only once
@@ -42,7 +41,8 @@ pub(super) enum PrimitiveIndices<const N: usize> {
 }
 
 impl<const N: usize> PrimitiveIndices<N> {
-    /// Returns the vertices of each primitive by calling a function with its index.
+    /// Returns the vertices of each primitive, which `vertices_of` finds from the primitive's
+    /// index.
     #[inline(always)]
     pub(super) fn vertex_indices(
         &self,
@@ -80,7 +80,7 @@ impl<const N: usize> VertexIndices<N> {
                 }
             }
             Self::Each(vertices) => {
-                // A gather, lane by lane, because each vertex is in a different cache line.
+                // A gather, lane by lane, because each vertex may be in a different cache line.
                 for (lane, vertices) in vertices.iter().enumerate() {
                     for (attribute, &vertex) in attributes.iter_mut().zip(vertices) {
                         let value = &values[vertex];

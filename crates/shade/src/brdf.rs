@@ -10,8 +10,8 @@
 //!                     and blurred; tinted                _ior, _dispersion
 //! ```
 //!
-//! Each layer scales the layers below by the energy that it leaves: the clearcoat by its Fresnel
-//! reflectance, sheen by its directional albedo, and the base specular by Fresnel.
+//! Each layer scales the layers below by one minus its reflectance: Fresnel reflectance for the
+//! clearcoat and the base specular, and directional albedo for sheen.
 //!
 //! | file | term |
 //! | --- | --- |

@@ -24,7 +24,7 @@ pub fn srgb_to_linear(srgb: f64) -> f64 {
     if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
 }
 
-/// Computes a table of the linear light, 0 to 1, of each 8-bit sRGB value.
+/// Returns the table of the linear light, 0 to 1, of each 8-bit sRGB value.
 #[must_use]
 pub fn srgb_to_linear_table() -> &'static [f32; 256] {
     static TABLE: OnceLock<[f32; 256]> = OnceLock::new();
@@ -42,7 +42,7 @@ const MIN_LIGHT_BITS: u32 = 0x3900_0000;
 /// ```
 ///
 /// A float's upper 16 bits, the exponent and seven bits of the mantissa, identify one of 128 steps
-/// in each octave. Codes are farther apart than that, so a step contains at most one threshold
+/// in each octave. Codes are farther apart than steps, so a step contains at most one threshold
 /// between two codes. The upper half of its table entry is the code at the beginning of the step.
 /// The lower half is chosen so that adding the float's lower bits carries into the upper half from
 /// the threshold on.
@@ -139,7 +139,7 @@ impl Encode<[u8; 4]> for &SrgbEncoder {
     }
 }
 
-/// Returns for each code the smallest linear light for which it is the nearest code. The first
+/// Returns, for each code, the smallest linear light for which it is the nearest code. The first
 /// entry is `f32::MIN`, so every value reaches at least code 0.
 fn code_thresholds() -> [f32; 256] {
     let threshold = |code: usize| srgb_to_linear((code as f64 - 0.5) / 255.0) as f32;

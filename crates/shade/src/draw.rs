@@ -32,7 +32,7 @@ pub struct Draw<'a> {
     pub part_id: u32,
     /// The indices, and the attributes that are not in [`vertices`](Self::vertices).
     pub primitive: &'a Primitive,
-    /// The material of the whole surface.
+    /// The material of the primitive.
     pub material: &'a Material,
     /// The textures of the material.
     pub textures: MaterialTextures<'a>,
@@ -43,7 +43,7 @@ pub struct Draw<'a> {
     pub tangents: Tangents,
     /// Whether shading interpolates vertex normals; otherwise each triangle has a flat normal.
     pub is_smooth: bool,
-    /// The index of the texture coordinate set in `vertices`, if it has any.
+    /// The index of the texture coordinate set in `vertices`, if there is one.
     pub uv_set: Option<usize>,
     /// The linear vertex colors, if there are any.
     pub colors: Option<Cow<'a, [[f32; 4]]>>,
@@ -91,7 +91,7 @@ pub struct DrawList<'a> {
 }
 
 impl<'a> DrawList<'a> {
-    /// Finds the draw that an id belongs to by binary search, and returns it with the first id of
+    /// Finds, by binary search, the draw that an id belongs to, and returns it with the first id of
     /// the next draw.
     #[inline(always)]
     pub(crate) fn find_draw(&self, id: u32) -> (&Draw<'a>, u32) {
@@ -125,8 +125,8 @@ impl<'a> DrawList<'a> {
 }
 
 impl Draw<'_> {
-    /// Returns the vertices of a point, line or triangle. Points and lines repeat their last vertex
-    /// with weight 0.
+    /// Returns the vertices of a point, line or triangle. For points and lines, the last vertex is
+    /// repeated, with weight 0.
     #[inline(always)]
     fn primitive_vertices(&self, primitive: usize) -> [usize; 3] {
         let indices = &self.primitive.indices;

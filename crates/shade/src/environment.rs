@@ -13,8 +13,8 @@
 //! as a mip chain prefiltered for increasing roughness. The second sum is the directional albedo of
 //! the BRDF.
 //!
-//! Directions are mapped to a square by the octahedral map (Engelhardt and Dachsbacher 2008) and
-//! sampled at the nodes of a grid. The borders fold onto themselves, so there is no seam.
+//! The octahedral map (Engelhardt and Dachsbacher 2008) maps directions to a square, and radiance
+//! is sampled at the nodes of a grid. The borders fold onto themselves, so there is no seam.
 
 mod irradiance;
 mod octahedral_map;
@@ -164,8 +164,8 @@ mod tests {
 
     #[test]
     fn a_bright_hemisphere_lights_the_surfaces_that_face_it() {
-        // The irradiance from a bright hemisphere is π for a normal at its pole, and π (1 + cosθ) /
-        // 2 otherwise.
+        // The irradiance from a bright hemisphere is π (1 + cosθ) / 2 for a normal at an angle θ
+        // from its pole.
         let half =
             Environment::from_radiance(|[_, y, _]| [if y > 0.0 { 1.0 } else { 0.0 }, 0.5, 0.0]);
         for cosine in [1.0_f32, 0.5, 0.0, -0.5, -1.0] {

@@ -9,9 +9,8 @@ use raster::{Fragment, Fragments, LANES};
 
 /// The vertex weights of some fragments' primitives.
 ///
-/// This is implemented for single fragments, for packets of eight, and by shading styles for a
-/// fragment at a vertex. Weights and derivatives always refer to the whole triangle, even if it was
-/// clipped.
+/// This is implemented for single fragments, packets of eight, and the vertex fragments of shading
+/// styles. Weights and derivatives always refer to the whole triangle, even if it was clipped.
 pub(super) trait FragmentLanes<const N: usize> {
     /// Returns the perspective-correct barycentric weights of the three vertices.
     fn weights(&self) -> [Lanes<N>; 3];

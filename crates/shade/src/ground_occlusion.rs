@@ -9,12 +9,12 @@
 //!  ────●─────┴──────── ground
 //! ```
 //!
-//! From every second cell of the ground, rays run along 16 azimuths over the slabs of the other
-//! cells. The directions that these hide are marked in a bitmask of 64 sectors of equal
-//! cosine-weighted solid angle (after Therrien, Levesque and Gilet, *Screen space indirect lighting
-//! with visibility bitmask*, 2023). Neighbors in a block of 2 × 2 have interleaved azimuths, and
-//! their mean removes the pattern again (interleaved sampling, Keller and Heidrich 2001). The space
-//! between the lowest and the highest surface of a cell counts as solid.
+//! Visibility cells are twice as wide as slab cells. From the center of each visibility cell, rays
+//! run along 16 azimuths over the slabs. The directions that slabs hide are marked in a bitmask of
+//! 64 sectors of equal cosine-weighted solid angle (after Therrien, Levesque and Gilet, *Screen
+//! space indirect lighting with visibility bitmask*, 2023). Neighbors in a block of 2 × 2 have
+//! interleaved azimuths, and their mean removes the pattern again (interleaved sampling, Keller and
+//! Heidrich 2001). The space between the lowest and the highest surface of a cell counts as solid.
 
 use super::approximations::floor_to_int;
 use raster::for_each_parallel;
@@ -59,8 +59,8 @@ pub struct GroundOcclusion {
 const AZIMUTHS: usize = 16;
 /// The side length, in cells, of a block of cells with different azimuths.
 const BLOCK: usize = 2;
-/// The number of ground cells along the side of a visibility cell, which can be larger because
-/// visibility is smoother than the occluders.
+/// The number of ground cells along the side of a visibility cell. Visibility cells can be larger
+/// because visibility is smoother than the occluders.
 const COARSENESS: usize = 2;
 /// The number of sectors per azimuth.
 const SECTORS: f32 = 64.0;
@@ -259,7 +259,7 @@ fn average_blocks(values: &[f32], [columns, rows]: [usize; 2], step: [usize; 2])
 mod tests {
     use super::*;
 
-    /// Returns a grid of 192 × 192 cells around the origin, with slabs given by `slab`.
+    /// Returns the occlusion on 192 × 192 cells around the origin, with slabs given by `slab`.
     fn grid_of(half: f32, slab: impl Fn(f32, f32) -> HeightSlab) -> GroundOcclusion {
         let cell = half / 96.0;
         let grid = GroundGrid { corner: [-half; 2], cell, size: [192; 2], fade: 0.2 * half };
@@ -308,7 +308,8 @@ mod tests {
             HeightSlab { low: height - square.sqrt(), high: height + square.sqrt() }
         });
         for distance in [0.0_f32, 0.3, 0.6, 1.0, 1.6] {
-            // The ball is entirely above the horizon, so this is its solid angle times the cosine.
+            // Form factor of a ball above the horizon: squared sine of its angular radius, times
+            // the cosine.
             let far = (height * height + distance * distance).sqrt();
             let expected = 1.0 - height * radius * radius / (far * far * far);
             for (x, z) in [(distance, 0.0), (0.0, -distance), (0.6 * distance, 0.8 * distance)] {

@@ -1,4 +1,4 @@
-//! Kernel parts: shading is split into functions at these points, so that it compiles faster.
+//! Kernel parts: functions into which shading is split so that it compiles faster.
 //!
 //! Everything that a kernel calls is inlined into it, and LLVM's compile time grows faster than
 //! linearly with the size of a function. A part is compiled separately, with the kernel's

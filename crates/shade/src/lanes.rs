@@ -31,7 +31,7 @@
 
 use std::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, MulAssign, Neg, Sub};
 
-/// The lanes for which a condition holds. Both branches are computed, and one is selected.
+/// The lanes for which a condition holds. Both alternatives are computed, and the mask selects one.
 pub(crate) type Mask<const N: usize> = [bool; N];
 
 /// One `f32` for each of `N` fragments.
@@ -259,8 +259,8 @@ where
 
 /// Maps the items of an array to lanes.
 ///
-/// In kernels this replaces the `map` of arrays, which is sometimes too large to be inlined, and is
-/// then a call to code without the kernel's vector instructions.
+/// In kernels this replaces the `map` of arrays, which is sometimes too large to be inlined. It
+/// would then be compiled without the kernel's vector instructions.
 #[inline(always)]
 pub(crate) fn map_to_lanes<T: Copy, const N: usize, const K: usize>(
     items: &[T; K],
@@ -461,7 +461,7 @@ mod tests {
     const A: [f32; 4] = [0.1, -3.0, 7.7, f32::NAN];
     const B: [f32; 4] = [0.7, 0.3, -1e-3, 2.0];
 
-    /// Returns the bits of lanes, because NaN is not equal to itself.
+    /// Returns the bits of lanes for comparison, because NaN is not equal to itself.
     fn bits(lanes: Lanes<4>) -> [u32; 4] {
         lanes.0.map(f32::to_bits)
     }

@@ -59,8 +59,8 @@ pub enum Light {
 
 /// The light from one source at some fragments.
 ///
-/// The BRDF does not depend on the light's kind or position, only on this direction and
-/// illuminance. Shadows reduce it, and so does sheen for the layers below.
+/// The BRDF needs only this direction and illuminance, not the light's kind or position. Shadows
+/// reduce the illuminance, and so does sheen for the layers below.
 ///
 /// `lux` does not include the cosine of Lambert's law, because each layer has different normals.
 #[derive(Clone, Copy, Debug)]
@@ -91,7 +91,7 @@ impl Light {
         }
     }
 
-    /// Computes the light that arrives at positions in the world, ignoring shadows. Returns `None`
+    /// Computes the light that arrives at positions in the world, ignoring shadows. Returns zeros
     /// for ambient light, which has no direction.
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
     #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
@@ -118,7 +118,7 @@ impl Light {
 }
 
 impl<const N: usize> IncidentLight<N> {
-    /// Multiplies the light by its visibility in its shadow maps.
+    /// Multiplies the illuminance by the light's visibility according to its shadow maps.
     #[inline(always)]
     pub(super) fn apply_shadow(&mut self, shadow: &LightShadow, receiver: &ShadowReceiver<N>) {
         // Light from behind does not arrive, even where a normal map suggests it, so no lookup is
@@ -130,8 +130,8 @@ impl<const N: usize> IncidentLight<N> {
 }
 
 /// Computes the light from a point: inverse-square falloff with a smooth window up to the range, 1
-/// − (d / range)⁴ (KHR_lights_punctual). `attenuation` is the fraction that is emitted in a
-/// direction.
+/// − (d / range)⁴ (KHR_lights_punctual). `attenuation` returns the fraction of the intensity
+/// emitted in a direction.
 #[inline(always)]
 fn light_from_point<const N: usize>(
     position: [f32; 3],

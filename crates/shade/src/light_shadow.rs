@@ -5,7 +5,7 @@ use super::shadow_cube::ShadowCube;
 use super::shadow_map::ShadowMap;
 use super::shadow_receiver::ShadowReceiver;
 
-/// The scene depths as seen from a light, which shading uses to find shadows.
+/// The depths of the scene as seen from a light, from which shading finds shadows.
 #[derive(Clone, Debug)]
 pub enum LightShadow {
     /// The map of a directional or spot light.

@@ -168,8 +168,8 @@ impl<const N: usize> MaterialInputs<N> {
 }
 
 impl<const N: usize> LayerInputs<N> {
-    /// Returns the factors of the extensions, without textures. They are arbitrary for absent
-    /// extensions.
+    /// Returns the factors of the extensions, without textures. The factors of absent extensions
+    /// are arbitrary.
     #[inline(always)]
     fn from_factors(extensions: &MaterialExtensions) -> Self {
         let clearcoat = extensions.clearcoat.as_deref().copied().unwrap_or_default();

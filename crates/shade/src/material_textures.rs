@@ -21,7 +21,7 @@ pub struct MaterialTexture<'a> {
     pub info: TextureInfo,
     /// The texels.
     pub mip_chain: &'a MipChain<'a>,
-    /// Whether shading reads alpha.
+    /// Whether shading reads the texture's alpha.
     needs_alpha: bool,
     /// Whether the texture is in the same group as the previous texture.
     joins_previous: bool,
@@ -42,8 +42,7 @@ impl<'a> MaterialTextures<'a> {
     /// Collects the textures of a material for which `mip_chain` returns texels. For an unlit
     /// material, only the base color is used.
     ///
-    /// `anisotropy` is the maximum number of texels read along the longer axis of a pixel's
-    /// footprint.
+    /// `anisotropy` is the maximum number of taps along the longer axis of a pixel's footprint.
     pub fn new(
         material: &Material,
         anisotropy: u32,

@@ -25,7 +25,7 @@ pub struct PreethamSky {
     ground: [f32; 3],
 }
 
-/// The haziness of the air: 2 is very clear, 10 is mist.
+/// The turbidity (haziness) of the air: 2 is very clear, 10 is mist.
 const TURBIDITY: f32 = 2.5;
 
 /// The coefficients A to E of Perez's distribution for Y, x and y, each as a factor of the
@@ -111,13 +111,13 @@ impl PreethamSky {
     }
 }
 
-/// Computes Perez's distribution for a component (Y, x or y), from the cosine to the zenith and the
-/// angle to the sun in radians.
+/// Computes Perez's distribution for a component (Y, x or y), from the cosine of the angle to the
+/// zenith and the angle to the sun in radians.
 ///
 /// Perez, Seals and Michalsky 1993, with five coefficients that are linear in the turbidity.
 fn perez_distribution(component: usize, cosine: f32, gamma: f32) -> f32 {
-    // A is the gradient near the horizon, and B its width. C and D are the glow around the sun. E
-    // is the backscatter.
+    // A sets the gradient near the horizon, and B its width. C and D set the glow around the sun. E
+    // sets the backscatter.
     let [a, b, c, d, e] = PEREZ[component].map(|[factor, constant]| factor * TURBIDITY + constant);
     let sun_cosine = libm::cosf(gamma);
     let horizon = 1.0 + a * libm::expf(b / cosine);

@@ -8,8 +8,8 @@
 //! ```
 //!
 //! The rasterizer requests the colors of eight fragments at once from [`Shading`]. If these belong
-//! to several draws, they are shaded for one draw after another, and each lane takes the color for
-//! its draw. Shading runs after visibility, so its cost does not grow with the number of hidden
+//! to several draws, all eight are shaded for one draw after another, and each lane takes the color
+//! for its draw. Shading runs after visibility, so its cost does not grow with the number of hidden
 //! triangles.
 
 use super::ambient_occlusion::AmbientOcclusion;
@@ -163,8 +163,7 @@ impl<'d> DrawList<'d> {
     }
 }
 
-/// The kernel that shades eight fragments, with one function per SIMD level and all of shading
-/// inlined.
+/// The kernel that shades eight fragments, compiled once per SIMD level.
 struct ShadeEight<'a> {
     shading: &'a Shading<'a>,
     fragments: &'a Fragments<'a>,
@@ -340,7 +339,7 @@ impl Shading<'_> {
     }
 
     /// Computes the reflection of lights and environment with the layered BRDF of a draw, and the
-    /// refraction of light from behind. Ambient occlusion darkens `inputs`.
+    /// refraction of light from behind. Stores the ambient occlusion in `inputs`.
     ///
     /// The geometry has smooth normals; the BRDF applies normal maps to a copy, layer by layer.
     #[inline(always)]
@@ -359,7 +358,7 @@ impl Shading<'_> {
         }
         // The tangent frame for normal maps and anisotropy.
         let tangents = draw.interpolate_tangents(primitives, &fragments.weights());
-        // The offset positions for shadow maps, if there are any.
+        // The offset positions for shadow maps, if there are shadow maps.
         let mut receiver = None;
         if !self.shadows.is_empty() {
             let vertices = draw.vertex_indices(primitives);
@@ -375,7 +374,7 @@ impl Shading<'_> {
         if let Some(framebuffer) = self.framebuffer_behind(draw) {
             behind = kernel_part!(N, brdf.add_light_behind(draw, framebuffer));
         }
-        // The BRDF is large, so do not return it, which would copy it.
+        // Do not return the BRDF, because it is large and would be copied.
         SurfaceLight { radiance: brdf.finish(), transmission: brdf.transmission, behind }
     }
 

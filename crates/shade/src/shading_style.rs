@@ -3,7 +3,7 @@
 //!
 //! Styles use the same normals, weights and lights as shaded pictures; only the last step, which
 //! turns these into a color, differs. False colors are decoded so that the sRGB code in the picture
-//! is the number, as long as a pixel has the color of a single sample.
+//! is the number itself, wherever a pixel has the color of a single sample.
 
 mod false_colors;
 
@@ -21,7 +21,7 @@ use model::{AlphaMode, Colormap};
 use raster::{F32x8, Fragment, Fragments, Kernel, LANES, Surface, shade_each};
 use std::f32::consts::FRAC_1_PI;
 
-/// The look of surfaces that are not shaded by their material.
+/// The look of surfaces that are not shaded with their material.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum ShadingStyle {
     /// Gouraud shading: diffuse light computed at the vertices of each triangle and interpolated,
@@ -149,7 +149,7 @@ impl Surface for StyledShading<'_> {
 }
 
 impl ShadingStyle {
-    /// Returns whether the style uses the material's textures or alpha. These styles are shaded one
+    /// Returns whether the style uses the material's textures or alpha. Such styles are shaded one
     /// fragment at a time.
     const fn needs_material(self) -> bool {
         matches!(self, Self::Gouraud | Self::Toon | Self::XRay)
@@ -290,7 +290,7 @@ impl StyledShading<'_> {
         [r, g, b, alpha]
     }
 
-    /// Interpolates light computed per vertex, with the base color per fragment.
+    /// Computes Gouraud shading: light per vertex, interpolated, times the base color per fragment.
     fn shade_gouraud(&self, draw: &Draw<'_>, fragment: &Fragment<'_>) -> [f32; 4] {
         let primitive = draw.primitive_indices(&[fragment.id], true);
         let mut light = [0.0; 3];
@@ -306,7 +306,7 @@ impl StyledShading<'_> {
         self.material_color(draw, fragment, light)
     }
 
-    /// Computes the base color in steps of light.
+    /// Computes toon shading: the base color in steps of light.
     ///
     /// The luminance of the diffuse light is quantized to three tones, and the hue of the base
     /// color is preserved.

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Composited over a picture of white ground, black with this alpha makes the ground as dark as the
-//! lights would. Colored lights are summed over their channels, so shadows have no color.
+//! shadows would. Colored lights are summed over their channels, so shadows have no color.
 
 use super::attributes::PrimitiveIndices;
 use super::fragment_lanes::FragmentLanes;
@@ -37,7 +37,7 @@ impl Shading<'_> {
         if let Some(occlusion) = self.occlusion {
             visibility = occlusion.visibility(positions, normals);
         }
-        // Both detect nearby objects, so use the minimum instead of the product.
+        // Both kinds of occlusion detect nearby objects, so use the minimum instead of the product.
         if let Some(occlusion) = self.ground_occlusion {
             let contact = Lanes::from_fn(|lane| occlusion.visibility_at(positions.lane(lane)));
             visibility = visibility.min_lanes(contact);
@@ -56,7 +56,7 @@ impl Shading<'_> {
             }
             shadowed += channel_sum(incident.lux) * n_dot_l;
         }
-        // Without any light this is NaN, and there is no shadow.
+        // Without any light, this is NaN, and alpha becomes 0.
         let alpha = (1.0 - shadowed / unshadowed)
             .map(|alpha| if alpha > 0.0 { alpha.min(1.0) } else { 0.0 });
         [Lanes::ZERO, Lanes::ZERO, Lanes::ZERO, alpha]

@@ -13,7 +13,7 @@
 //! A disc of texels would be an ellipse of directions, with a different shape beyond the border of
 //! a face. The disc is therefore defined in directions, in a frame that varies continuously with
 //! them, and is projected onto the face. Distances are measured along the direction of the
-//! receiver, not along the axis of the face. Both ensure that the two sides of a border agree.
+//! receiver, not along the axis of the face. These two choices make both sides of a border agree.
 //! Depth planes, biases and the growth of the penumbra work as in [`ShadowMap`].
 
 use super::lanes::Vec3Lanes;
@@ -27,9 +27,10 @@ pub struct ShadowCube {
     pub position: [f32; 3],
     /// The maps along +x, −x, +y, −y, +z and −z, with `None` where nothing casts a shadow.
     ///
-    /// Each map must extend beyond its 90° by the disc of [`MAX_PENUMBRA`](Self::MAX_PENUMBRA).
+    /// Each map must extend beyond its 90° by a disc of radius
+    /// [`MAX_PENUMBRA`](Self::MAX_PENUMBRA).
     pub faces: [Option<ShadowMap>; 6],
-    /// The tangent of half the angle that the light subtends, or 0 for sharp borders.
+    /// The tangent of half the angle that the light subtends, or 0 for hard shadow edges.
     pub spread: f32,
     /// A distance from the light, greater than 0, within which nothing casts a shadow.
     pub nearest: f32,

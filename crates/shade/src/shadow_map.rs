@@ -40,8 +40,8 @@ pub(super) use receiver_planes::ReceiverPlane;
 pub struct Shadow {
     /// The number of texels along the longer side of the shadow map.
     pub resolution: u32,
-    /// The angular diameter of the light in radians, as seen from the receiver, or 0 for sharp
-    /// borders.
+    /// The angular diameter of the light in radians, as seen from the receiver, or 0 for hard
+    /// shadow edges.
     pub softness: f32,
 }
 
@@ -156,7 +156,7 @@ impl ShadowMap {
     }
 
     /// Returns the index of the texel at a column and row, or an index beyond the last texel if
-    /// outside the map.
+    /// they are outside the map.
     #[inline(always)]
     fn texel_index(&self, column: i32, row: i32) -> usize {
         let [width, height] = self.size;
@@ -202,7 +202,7 @@ mod tests {
         map.visibility::<1>(&ShadowReceiver { positions, normals }, [true])[0]
     }
 
-    /// Returns receivers all over the map at one height, with varying tilt.
+    /// Returns the position and normal of a receiver at height `y`; both vary with the step.
     fn scattered_receiver(step: usize, y: f32) -> ([f32; 3], [f32; 3]) {
         let [x, z] = [step * 37 % 1000, step * 91 % 1000].map(|c| c as f32 * 0.001);
         let tilt = (step % 7) as f32 * 0.1;
@@ -235,7 +235,7 @@ mod tests {
                 let (position, normal) = scattered_receiver(step, 0.1);
                 let expected = visibility(&searched, position, normal);
                 let actual = visibility(&bounded, position, normal);
-                // If the depths are known, the search is narrower and finds more.
+                // With known depths, the search is narrower and finds more of the blockers.
                 assert!((actual - expected).abs() < 0.25, "{position:?} {actual} {expected}");
             }
         }
@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn penumbras_grow_with_the_distance_of_the_caster() {
+    fn penumbras_grow_with_the_distance_to_the_caster() {
         // With 40 texels per unit of depth, the penumbra is 40 texels wide at 0.5 below the caster,
         // and 4 at 0.05.
         let map = map(0.5, 40.0);
@@ -269,7 +269,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slope_does_not_shade_itself() {
+    fn a_slope_does_not_shadow_itself() {
         let mut map = map(0.5, 30.0);
         for slope in [0.001_f32, 0.05, 0.9] {
             for (at, texel) in map.texels.iter_mut().enumerate() {

@@ -7,9 +7,10 @@
 //! ```
 //!
 //! Normals are smooth, but triangles are not. Near the border between light and shade, whole
-//! triangles face away from a light that their normals still face, and would shadow themselves, one
-//! by one. The position for the lookup is therefore moved onto the tangent planes of the vertices,
-//! where the surface bulges (Hanika, *Hacking the shadow terminator*, Ray Tracing Gems II, 2021).
+//! triangles face away from a light that their vertex normals still face. Each would shadow itself
+//! entirely. The position for the lookup is therefore moved onto the tangent planes of the
+//! vertices, where the surface bulges (Hanika, *Hacking the shadow terminator*, Ray Tracing Gems
+//! II, 2021).
 
 use super::Draw;
 use super::attributes::{NORMAL, VertexIndices, interpolate};
@@ -53,7 +54,7 @@ impl<const N: usize> ShadowReceiver<N> {
         for vertex in 0..3 {
             let normal = Vec3Lanes::from(vertex_normals[vertex]) * sign;
             let offset = positions - Vec3Lanes::from(vertex_positions[vertex]);
-            // The distance of the fragment below the vertex's tangent plane, at most 0.
+            // The signed height of the fragment over the vertex's tangent plane, at most 0.
             let depth = offset.dot(normal).min(0.0);
             // Move onto the tangent plane, weighted like the vertex.
             moved = moved - normal * (weights[vertex] * depth);

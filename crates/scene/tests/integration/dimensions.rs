@@ -1,4 +1,4 @@
-//! Dimensions from the text of a scene: the points they measure, and the positions of mistakes.
+//! Tests dimensions in scene files: the points that they measure, and the locations of errors.
 
 #![allow(clippy::panic, clippy::unwrap_used, reason = "tests may panic")]
 
@@ -30,7 +30,7 @@ fn sheet_with(dimensions: &str) -> Result<Sheet, SceneError> {
     resolve_sheet(&origin, &file.sheet.expect("a sheet"), content)
 }
 
-/// Returns the points that the only dimension measures.
+/// Returns the points that a dimension measures.
 fn points(dimension: &str) -> Vec<[f64; 3]> {
     let sheet = sheet_with(&format!("[{dimension}]")).unwrap_or_else(|error| panic!("{error}"));
     let [Dimension { measure, .. }] = sheet.measures.as_slice() else { panic!("{dimension}") };
@@ -95,7 +95,7 @@ fn angles_are_between_edges_faces_and_points() {
 }
 
 #[test]
-fn mistakes_are_located() {
+fn errors_point_at_the_mistakes() {
     for (dimension, at, message, help) in [
         (
             "Length(from: Node(name: \"rof\"), to: Point((0, 0, 0)))",

@@ -1,5 +1,5 @@
 //! Compares lenses and windows in scene files with the formulas of the sources (FOV-1, OR-1, LW-1),
-//! and checks that hand-written values are read back.
+//! and checks that hand-written values survive formatting.
 
 use glam::DMat4;
 use import::{ImportOptions, load};
@@ -18,7 +18,7 @@ fn text(camera: &str) -> String {
     format!("Scene(models: [(path: \"crate.glb\")], camera: ({camera}), image: (size: (400, 200)))")
 }
 
-/// Returns the scene of a camera, in a picture twice as wide as it is high.
+/// Returns a scene with this camera, in a picture twice as wide as it is high.
 fn scene(camera: &str) -> Scene {
     let text = text(camera);
     let file = parse_scene("lens.ron", &text).expect("a scene");
@@ -39,7 +39,7 @@ fn check_close(actual: f64, expected: f64) {
     assert!((actual - expected).abs() < 1e-12, "{actual} is not {expected}");
 }
 
-/// FOV-1: the angle is between the midpoints of opposite borders, or between corners.
+/// FOV-1: the angle is between the midpoints of opposite borders, or between opposite corners.
 #[test]
 fn horizontal_and_diagonal_fields_of_view_match_fov_1() {
     for degrees in [20.0_f64, 60.0, 110.0] {
@@ -51,7 +51,7 @@ fn horizontal_and_diagonal_fields_of_view_match_fov_1() {
         let [x, y] = [1.0 / diagonal.x_axis.x, 1.0 / diagonal.y_axis.y];
         check_close(x, 2.0 * y);
         check_close(libm::hypot(x, y), slope);
-        // The same field of view can be specified in three ways.
+        // The same field of view can also be specified vertically.
         let vertical = 2.0 * libm::atan(slope / 2.0).to_degrees();
         let by_height = matrix(&format!("Perspective(fov_y_degrees: {vertical:?})"));
         check_close(by_height.x_axis.x, across.x_axis.x);
@@ -70,7 +70,7 @@ fn a_shift_moves_the_window_by_fractions_of_the_longer_side() {
         let instance = ModelInstance { model: crate_model(), model_to_world };
         let scene = Scene::from_models(&origin, &file, &[instance]).expect("a scene");
         let shifted = scene.view_projection.view_to_clip.raw();
-        // The side of the picture is 2 in NDC, and the point straight ahead is (0, 0, −1).
+        // The picture's sides have length 2 in NDC, and the point straight ahead is (0, 0, −1).
         let [x, y] = longer;
         check_close(-shifted.z_axis.x, -0.1 * x);
         check_close(-shifted.z_axis.y, 0.25 * y);
@@ -95,7 +95,7 @@ fn orthographic_windows_match_or_1() {
     check_close(m.w_axis.x, -(r + l) / (r - l));
     check_close(m.y_axis.y, 2.0 / (t - b));
     check_close(m.w_axis.y, -(t + b) / (t - b));
-    // The chapter's n = −3 and f = −11, with near at +1.
+    // The chapter's n = −3 and f = −11, with the near plane at +1.
     check_close(m.z_axis.z, 2.0 / 8.0);
     check_close(m.w_axis.z, 14.0 / 8.0);
 }
@@ -116,7 +116,7 @@ fn the_lesson_frustum_moves_its_apex() {
     assert_eq!(rows.w_axis.to_array(), [0.0, 0.0, -1.0, 0.0]);
 }
 
-/// Framing respects the window: everything is in the picture and touches its margin.
+/// Framing respects the window: the models are inside the picture and touch its margin.
 #[test]
 fn framed_views_fill_the_window_of_every_lens() {
     for projection in [
@@ -184,7 +184,7 @@ fn intrinsics_and_extrinsics_match_calibration() {
     }
 }
 
-/// Compares pixels to one part in a billion.
+/// Checks that pixel coordinates agree to within 10⁻⁹.
 fn check_near(actual: f64, expected: f64) {
     assert!((actual - expected).abs() < 1e-9, "{actual} is not {expected}");
 }

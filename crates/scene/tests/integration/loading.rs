@@ -1,4 +1,4 @@
-//! Tests that count how often model files are read.
+//! Tests of how often model files are read, and of the memory budget that they share.
 
 use import::MemoryFolder;
 use model::Timings;
@@ -7,7 +7,7 @@ use scene_file::parse_scene;
 
 const TRIANGLE: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-/// Returns the number of mistakes in a scene, and of model files parsed to find them.
+/// Returns the numbers of mistakes in a scene and of model files parsed to find them.
 fn mistakes_and_loads(text: &str, is_check: bool) -> (usize, usize) {
     let mut folder = MemoryFolder::default();
     folder.insert("a.obj", TRIANGLE.to_vec());

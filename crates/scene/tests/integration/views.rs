@@ -1,5 +1,5 @@
 //! Tests scenes with several views, a shared scale and captions. The extents of a 2 × 1 × 3 box
-//! match the projections' formulas.
+//! must match the formulas of the projections.
 
 use glam::DVec2;
 use homog::Point;
@@ -37,7 +37,7 @@ fn mistake(fields: &str) -> String {
     resolve(fields).map(drop).expect_err(fields).to_string()
 }
 
-/// Returns four quarters of the picture with these cameras; the box is in the middle of each.
+/// Returns viewports with these cameras for the four quarters of the picture.
 fn quarters(cameras: [&str; 4]) -> String {
     let corners = ["0, 0", "0.5, 0", "0, 0.5", "0.5, 0.5"];
     let views = corners.iter().zip(cameras).map(|(corner, camera)| {
@@ -46,7 +46,7 @@ fn quarters(cameras: [&str; 4]) -> String {
     format!("viewports: [{}]", views.collect::<Vec<_>>().join(", "))
 }
 
-/// Returns the pixels of a view from the smallest to the largest coordinate of the box.
+/// Returns the smallest and largest pixel coordinates of the box in a view.
 fn image_bounds(scene: &Scene) -> [DVec2; 2] {
     let size = DVec2::new(scene.image.width.into(), scene.image.height.into());
     let nothing = DVec2::splat(f64::INFINITY);
@@ -94,7 +94,7 @@ fn equal_lengths_appear_equal_in_all_parallel_views() {
             assert!(low.min_element() >= 0.0 && (view - high).min_element() >= 0.0);
             assert!(((low + high) * 0.5 - view * 0.5).abs().max_element() < 1e-6);
         }
-        // It is as large as possible: without sharing, some view has that scale.
+        // The shared scale is as large as possible: without sharing, some view has that scale.
         let free = self::scene(&views);
         let scales = free.insets.iter().map(|inset| inset.scene.pixels_per_unit().expect("one"));
         let least = scales.fold(f64::INFINITY, f64::min);
@@ -103,7 +103,7 @@ fn equal_lengths_appear_equal_in_all_parallel_views() {
 }
 
 #[test]
-fn a_shared_scale_does_not_change_perspectives() {
+fn a_shared_scale_does_not_change_perspective_views() {
     let views = quarters([FRONT, TOP, LEFT, "view: Frame(from: ThreeQuarter)"]);
     let shared = scene(&format!("viewports_scale: Shared, {views}"));
     let free = scene(&views);
@@ -124,7 +124,7 @@ fn impossible_shared_scales_are_mistakes() {
     assert!(mistake("viewports_scale: Shared").contains("there are none"));
 }
 
-/// The part above the caption equals the picture of a scene of that size without a caption.
+/// The part above the caption equals a picture of that size without a caption.
 #[test]
 fn a_view_above_a_caption_matches_a_shorter_picture() {
     for camera in [

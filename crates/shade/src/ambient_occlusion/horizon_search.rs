@@ -196,8 +196,8 @@ impl<const N: usize> HorizonSearch<'_, N> {
     /// Finds the cosines of the angles from the view down to the horizons, ahead and behind.
     ///
     /// Each surface blocks the light between its height and the height of earlier surfaces.
-    /// Occlusion falls off with the square of the distance. If a surface faces the viewer, the
-    /// light below a height is proportional to the square of the height.
+    /// Occlusion falls off as 1 − (distance / radius)². If a surface faces the viewer, the light
+    /// below a height is proportional to the square of the height.
     #[inline(always)]
     fn find_horizons(&self, surfaces: &Surfaces<N>, slice: &Slice<N>) -> [Lanes<N>; 2] {
         let inv_radius = 1.0 / self.space.radius();
@@ -251,7 +251,8 @@ impl<const N: usize> HorizonSearch<'_, N> {
     }
 }
 
-/// Returns the pixels that contain coordinates. Coordinates outside the picture move to the margin.
+/// Returns the pixels that contain coordinates. Coordinates outside the picture are clamped to the
+/// margin.
 #[inline(always)]
 fn containing_pixels<const N: usize>(coordinates: Lanes<N>, side: u32) -> [i32; N] {
     let mut pixels = [0; N];
@@ -264,9 +265,9 @@ fn containing_pixels<const N: usize>(coordinates: Lanes<N>, side: u32) -> [i32; 
 
 /// Computes the change in depth per pixel to the right and down on the surface of each pixel.
 ///
-/// Depth is linear on a plane, so of the two neighbors, the one that is more nearly collinear with
-/// the pixel beyond it is used. At a silhouette this is the neighbor on the same surface, and at a
-/// crease it is on one of the two faces.
+/// Depth is linear on a plane, so this uses the neighbor that is more nearly collinear with the
+/// pixel and the next pixel in that direction. At a silhouette, that neighbor is on the same
+/// surface; at a crease, it is on one of the two faces.
 #[inline(always)]
 pub(super) fn depth_slopes<const N: usize>(
     grid: &PixelGrid,

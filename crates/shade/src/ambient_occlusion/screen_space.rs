@@ -100,7 +100,7 @@ impl ScreenSpace {
         } * inv_w
     }
 
-    /// Computes the relative positions in the world of screen positions with depths.
+    /// Converts screen positions with depths to relative positions in the world.
     #[inline(always)]
     pub(super) fn unproject<const N: usize>(
         &self,
@@ -167,8 +167,8 @@ where
     x * row[0] + y * row[1] + z * row[2] + row[3]
 }
 
-/// A number for each pixel of a picture, surrounded by a margin of zeros, so that pixels outside
-/// the picture can be read without a test.
+/// A number for each pixel of a picture, surrounded by a margin of zeros, so that pixels just
+/// outside the picture can be read without a special case.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PixelGrid {
     /// Width and height of the picture.
@@ -179,7 +179,7 @@ pub(super) struct PixelGrid {
     values: Vec<f32>,
 }
 
-/// The width of the margin in pixels on each side, which is how far denoising reaches beyond the
+/// The width of the margin in pixels on each side, more than filters and lookups reach beyond the
 /// border.
 const MARGIN: usize = LANES;
 

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   ┌───────────┐     The gradient line passes through the center at an angle. Colors are
-//!   │╲ color 0  │     constant across it; the first and last are reached where their lines
+//!   │╲ color 0  │     constant perpendicular to it; the first and last occur where their lines
 //!   │ ╲         │     of constant color touch the corners of the picture.
 //!   │  ╲ ──►    │
 //!   │   ╲color 1│
@@ -11,7 +11,7 @@
 
 use crate::color::srgb_to_linear;
 
-/// Number of steps in the table. With linear interpolation, they are finer than 16 bits can
+/// Number of steps in the table. With linear interpolation, the error is smaller than 16 bits can
 /// resolve.
 const TABLE_STEPS: usize = 1024;
 

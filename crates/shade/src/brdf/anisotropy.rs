@@ -6,11 +6,9 @@
 //!  V = ½ / (n·l Λ(v) + n·v Λ(l)),  Λ(w)² = (αt t·w)² + (αb b·w)² + (n·w)²  Heitz 2014
 //! ```
 //!
-//! The α along the bitangent comes from the roughness; along the tangent it grows to 1 with the
-//! square of the strength.
-//!
-//! The α along the tangent is αt = α + (1 − α) · strength², as defined by KHR_materials_anisotropy.
-//! With strength 0, both formulas reduce to isotropic GGX.
+//! The α along the bitangent, αb, is the α of the roughness. The α along the tangent is
+//! αt = α + (1 − α) · strength², as defined by KHR_materials_anisotropy. With strength 0, both
+//! formulas reduce to isotropic GGX.
 
 use super::microfacet::ShadingAngles;
 use crate::lanes::{Lanes, Vec3Lanes};
@@ -86,8 +84,8 @@ impl<const N: usize> Anisotropy<N> {
         bent * (1.0 / bent.dot(bent).max(1e-12).sqrt())
     }
 
-    /// Computes the anisotropic GGX lobe without Fresnel, times the cosine of the light: `D · V ·
-    /// n·l`, with `alpha` along the bitangent.
+    /// Computes the anisotropic GGX lobe with the cosine factor but without Fresnel: `D · V · n·l`,
+    /// with `alpha` along the bitangent.
     ///
     /// The isotropic lobe is `ShadingAngles::ggx_lobe` in `microfacet.rs`.
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]

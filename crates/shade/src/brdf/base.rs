@@ -56,7 +56,7 @@ pub(super) struct BaseBrdf<const N: usize> {
 impl<const N: usize> BaseBrdf<N> {
     /// Resolves the BRDF of a material in its workflow (metallic-roughness or specular-glossiness).
     ///
-    /// The order is roughness and α, F0 and F90 of the workflow, the thin film over F0, then
+    /// The order is: roughness and α, F0 and F90 of the workflow, the thin film, and finally
     /// everything that depends on the directional albedo.
     #[inline(always)]
     pub(super) fn new(
@@ -95,7 +95,7 @@ impl<const N: usize> BaseBrdf<N> {
         brdf
     }
 
-    /// Sets the metallic-roughness workflow: a mix of dielectric and metal by metalness
+    /// Sets the parameters of the metallic-roughness workflow: a mix of dielectric and metal
     /// (KHR_materials_ior, KHR_materials_specular).
     ///
     /// Mixing F0 and F90 instead of two BRDFs gives one lobe instead of two. F is exactly the mix
@@ -123,8 +123,8 @@ impl<const N: usize> BaseBrdf<N> {
         self.f90 = specular.lerp(Lanes::ONE, metallic);
     }
 
-    /// Sets the specular-glossiness workflow: F0 is specified as a color, and the diffuse part is
-    /// the energy left by its largest channel (KHR_materials_pbrSpecularGlossiness).
+    /// Sets the parameters of the specular-glossiness workflow: F0 is a color, and the diffuse part
+    /// is scaled by one minus its largest channel (KHR_materials_pbrSpecularGlossiness).
     ///
     /// Glossiness is 1 − roughness. The workflow has no metalness or index of refraction.
     #[inline(always)]
@@ -136,11 +136,11 @@ impl<const N: usize> BaseBrdf<N> {
         self.f0 = specular.map(|channel| channel.min(1.0));
     }
 
-    /// Replaces a fraction of F0 by the F0 of a thin film over the interface
+    /// Replaces a fraction of F0 with the F0 of a thin film over the interface
     /// (KHR_materials_iridescence).
     ///
-    /// The Fresnel reflectance of a film varies with the angle in a different way, so this F0 makes
-    /// Schlick's approximation yield the film's reflectance for the current view.
+    /// Schlick's approximation does not describe a film. This F0 makes the approximation yield the
+    /// film's reflectance for the current view.
     #[inline(always)]
     fn apply_thin_film(
         &mut self,
@@ -159,11 +159,10 @@ impl<const N: usize> BaseBrdf<N> {
         self.dielectric_f0 = self.dielectric_f0.max_lanes(film.max_channel());
     }
 
-    /// Makes diffuse reflection translucent, and returns the share of the light behind the surface
-    /// that is visible through it (KHR_materials_transmission).
+    /// Removes the transmitted fraction from diffuse reflection, and returns the share of the light
+    /// behind the surface that is visible through it (KHR_materials_transmission).
     ///
-    /// Light passes only through dielectric surfaces, and only the part that Fresnel reflection
-    /// leaves.
+    /// Only dielectric surfaces transmit light, and only the part that Fresnel reflection leaves.
     #[inline(always)]
     pub(super) fn transmit_diffuse(
         &mut self,

@@ -68,7 +68,7 @@ impl<const N: usize> Clearcoat<N> {
     /// Adds the prefiltered radiance of the environment in the mirror direction.
     ///
     /// This is the split sum with a Fresnel factor instead of the directional albedo; for a smooth
-    /// layer, which is the common case, both agree.
+    /// layer, which is the common case, the two agree.
     #[inline(always)]
     pub(super) fn add_environment(&mut self, environment: &Environment) {
         let SurfaceGeometry { normals, views, .. } = self.geometry;
@@ -83,8 +83,8 @@ impl<const N: usize> Clearcoat<N> {
 
     /// Composites the layer over the light from below.
     ///
-    /// Linear interpolation conserves energy: the light that the layer reflects is subtracted from
-    /// the light below.
+    /// Linear interpolation conserves energy: the light below is reduced by the fraction of light
+    /// that the layer reflects.
     #[inline(always)]
     pub(super) fn composite_over(&self, below: Rgb<N>) -> Rgb<N> {
         below.zip(self.specular_light, |below, light| below.lerp(light, self.reflectance))

@@ -12,10 +12,10 @@
 //! `A` and `B` are the scale and bias of Karis (*Real shading in Unreal Engine 4*, 2013), often
 //! stored as a DFG or BRDF integration texture. They have three uses here: the weight of an
 //! environment's prefiltered radiance, the light left for the layers below, and the energy that the
-//! single-bounce model loses. If everything were reflected, `A + B` would be 1; the rest, up to
-//! 60%, is multiple scattering between facets. A factor restores this energy (Turquin, *Practical
-//! multiple scattering compensation for microfacet models*, 2019), so that rough metals are not too
-//! dark:
+//! single-bounce model loses. If everything were reflected, `A + B` would be 1; the missing part,
+//! up to 60%, is multiple scattering between facets. A factor restores this energy (Turquin,
+//! *Practical multiple scattering compensation for microfacet models*, 2019), so that rough metals
+//! are not too dark:
 //!
 //! ```text
 //!  energy compensation = 1 + F0 · (1 / (A + B) − 1)
@@ -44,15 +44,15 @@ impl<const N: usize> DirectionalAlbedo<N> {
     ///
     /// The table's columns are equal steps of the square root of the cosine, and its rows are the
     /// midpoints of sixteenths of the roughness. Beyond the first and last rows the value is
-    /// clamped, as in the textures of other renderers. Rows at the ends would be exact, but they
+    /// clamped, as in the textures of other renderers. Rows at both ends would be exact, but would
     /// push three of the reference pictures beyond their limits.
     #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
     #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(super) fn lookup(roughness: Lanes<N>, n_dot_v: Lanes<N>) -> Self {
         let (rows, s) = locate_entries(roughness * 16.0 - 0.5);
         let (columns, t) = locate_entries(n_dot_v.sqrt() * 15.0);
-        // Gather `A` and `B` of the four entries around each lane: upper left and right, then
-        // lower. Each lane's quad takes one index and one bounds check.
+        // Gather `A` and `B` of the four entries around each position: upper left and right, then
+        // lower left and right. Each quad takes one index and one bounds check.
         let mut entries = [[Lanes::ZERO; 2]; 4];
         for lane in 0..N {
             let quad = &QUADS[(rows[lane] * 15 + columns[lane]) as usize & 255];
@@ -74,8 +74,8 @@ impl<const N: usize> DirectionalAlbedo<N> {
     }
 }
 
-/// The four entries around each position of the table: upper left and right, then lower. There are
-/// 15 × 15 such quads, padded so that any byte is a valid index.
+/// The four entries around each position of the table: upper left and right, then lower left and
+/// right. There are 15 × 15 such quads, padded so that any byte is a valid index.
 static QUADS: [[[f32; 2]; 4]; 256] = quads();
 
 const fn quads() -> [[[f32; 2]; 4]; 256] {
@@ -105,9 +105,9 @@ pub(super) fn locate_entries<const N: usize>(positions: Lanes<N>) -> ([i32; N], 
     (entries, fractions)
 }
 
-/// Computes the energy compensation, a factor that restores the loss of single scattering, for a
-/// surface with reflectance `f0` at normal incidence, whose albedo as a white metal would be
-/// `white_albedo` = `A + B`.
+/// Computes the energy compensation, a factor that restores the energy lost by single scattering.
+/// `f0` is the surface's reflectance at normal incidence; `white_albedo`, `A + B`, is its albedo if
+/// it were a white metal.
 ///
 /// For F0 = 1, the factor makes the albedo exactly 1 (white furnace test); for F0 = 0, it is 1.
 /// Kulla and Conty (2017) add a lobe for the lost energy; Turquin's factor scales the existing

@@ -27,7 +27,7 @@ use crate::transmission::{TransmissionFramebuffer, TransmittedShare};
 use crate::{Draw, Tangents};
 use std::f32::consts::FRAC_1_PI;
 
-/// The BRDF of the surfaces at some fragments, and the radiance that it has reflected so far.
+/// The BRDF of the surfaces at some fragments, and the radiance reflected so far.
 ///
 /// It is created once per fragment. Then lights are added one by one, with the environment last,
 /// and [`finish`](Self::finish) composites the clearcoat over the sum.
@@ -55,8 +55,8 @@ pub(crate) struct LayeredBrdf<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> LayeredBrdf<'a, N> {
-    /// Creates the BRDF of a draw's material on surfaces with these smooth normals. Initially they
-    /// only emit light.
+    /// Creates the BRDF of a draw's material on surfaces with these smooth normals. Its radiance is
+    /// initially the emitted light.
     ///
     /// The normal map affects the base, sheen and anisotropy; shadows and ambient occlusion use the
     /// smooth normals.
@@ -99,7 +99,7 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
     /// Adds the light from a scene's lights, reduced in shadow.
     ///
     /// `shadows` contains the shadow maps of the first lights in order; `receiver` is present if
-    /// there are any.
+    /// there are shadow maps.
     ///
     /// Lights have no size, so each takes one evaluation of the BRDF. They are summed in scene
     /// order, which determines the bits of the result.
@@ -141,11 +141,11 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
     /// radiance reflected specularly.
     ///
     /// In the split-sum approximation, `Σ L · BRDF` becomes `prefiltered L(r, roughness)` times the
-    /// specular albedo `F0 · A + F90 · B`. It is exact for a uniform environment; otherwise its
+    /// specular albedo `F0 · A + F90 · B`. This is exact for a uniform environment; otherwise, the
     /// accuracy depends on how representative the light around the mirror direction is.
     ///
-    /// The diffuse part is multiplied by the ambient occlusion, and the specular part by a fit to
-    /// it that depends on the viewing angle.
+    /// The diffuse part is multiplied by the ambient occlusion; the specular part is multiplied by
+    /// a function of ambient occlusion and viewing angle.
     #[inline(always)]
     pub(crate) fn add_environment(&mut self, environment: &Environment) {
         let SurfaceGeometry { normals, views, n_dot_v, .. } = self.geometry;

@@ -21,7 +21,7 @@ use crate::lanes::{Lanes, Vec3Lanes};
 use std::f32::consts::FRAC_1_PI;
 use std::ops::Mul;
 
-/// The minimum perceptual roughness. Below it, the highlight of a light without size would be
+/// The minimum perceptual roughness, because at 0 the highlight of a punctual light would be
 /// infinitely small.
 ///
 /// The GGX peak 1 / (π α²) is then about 78,000, well within `f32`.
@@ -45,8 +45,8 @@ pub(super) struct ShadingAngles<const N: usize> {
 }
 
 impl<const N: usize> ShadingAngles<N> {
-    /// Computes the angles between unit vectors: the normal, the direction to the viewer and the
-    /// direction to the light.
+    /// Computes the cosines of the angles between unit vectors: the normal, and the directions to
+    /// the viewer and the light.
     ///
     /// The half vector is the normal of the microfacets that reflect l to v.
     #[inline(always)]
@@ -64,8 +64,7 @@ impl<const N: usize> ShadingAngles<N> {
         }
     }
 
-    /// Computes the GGX specular lobe without Fresnel, times the cosine of the light: `D · V ·
-    /// n·l`.
+    /// Computes the GGX specular lobe with the cosine factor but without Fresnel: `D · V · n·l`.
     #[inline(always)]
     pub(super) fn ggx_lobe(&self, alpha: Lanes<N>) -> Lanes<N> {
         // GGX depends only on α².
@@ -93,8 +92,8 @@ pub(super) fn pow5<T: Copy + Mul<Output = T>>(x: T) -> T {
     square * square * x
 }
 
-/// Returns the GGX α for a perceptual roughness, which is its square, bounded from below by
-/// [`MIN_ROUGHNESS`].
+/// Returns the GGX α, the square of the perceptual roughness, after the roughness is raised to at
+/// least [`MIN_ROUGHNESS`].
 ///
 /// Squaring makes equal steps of the parameter look equal (Burley 2012; glTF 2.0, Appendix B).
 #[inline(always)]

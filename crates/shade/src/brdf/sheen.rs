@@ -87,7 +87,7 @@ impl<const N: usize> Sheen<N> {
     }
 }
 
-/// Computes the Charlie lobe of white sheen, times the cosine of the light: `D · V · n·l`.
+/// Computes the Charlie lobe of white sheen with the cosine factor: `D · V · n·l`.
 ///
 /// The distribution of Estevez and Kulla 2017 has its maximum at grazing half vectors: fibers are
 /// perpendicular to the surface and light up at silhouettes.
@@ -125,7 +125,7 @@ fn charlie_lambda(cosine: f32, alpha: f32) -> f32 {
 }
 
 /// Looks up the directional albedo of white sheen, the integral of the lobe over the hemisphere,
-/// with bilinear interpolation in the table. It is at most 1.
+/// with bilinear interpolation in the table. The result is at most 1.
 ///
 /// The table has sixteen roughness values by sixteen square roots of the cosine; the root puts more
 /// entries near grazing angles.

@@ -93,8 +93,8 @@ fn schlick_fresnel<const N: usize>(f0: Lanes<N>, cosine: Lanes<N>) -> Lanes<N> {
 /// nanometers. This is the Fourier transform of the CIE 1931 curves, fitted by Gaussians (Belcour
 /// and Barla 2017).
 ///
-/// XYZ are weighted with separate phase shifts in turns, one per channel of the base, and converted
-/// to sRGB.
+/// X, Y and Z use separate phase shifts in turns, one per channel of the base, and are converted to
+/// sRGB.
 #[inline(always)]
 fn spectral_sensitivity<const N: usize>(path: Lanes<N>, shifts: Rgb<N>) -> Rgb<N> {
     // In meters; the product with a wave number is a phase in turns.

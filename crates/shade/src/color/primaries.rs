@@ -1,4 +1,4 @@
-//! Color space matrices: CIE XYZ and linear sRGB.
+//! The color space matrix from CIE XYZ to linear sRGB, and matrix multiplication.
 
 use std::ops::{Add, Mul};
 

@@ -2,7 +2,7 @@
 //!
 //! The thresholds between codes are in a table. A float's exponent and the first seven bits of its
 //! mantissa identify one of 128 steps in each octave, and a second table has the code at the
-//! beginning of each step. At most about 180 thresholds are left for a binary search.
+//! beginning of each step. A binary search then covers at most about 180 thresholds.
 
 use super::srgb_to_linear;
 use raster::Encode;

@@ -37,8 +37,8 @@ fn basis_functions([x, y, z]: [f64; 3]) -> [f64; 9] {
 
 /// Irradiance over π by direction, as the coefficients of the nine functions for each channel.
 ///
-/// They include the factors of projection, convolution and reconstruction, so that a lookup is a
-/// polynomial in the normal with 15 multiplications per channel.
+/// The coefficients include the factors of projection, convolution and reconstruction, so that a
+/// lookup is a polynomial in the normal with 15 multiplications per channel.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct IrradianceHarmonics {
     coefficients: [[f32; 9]; 3],
@@ -98,7 +98,7 @@ impl IrradianceHarmonics {
 #[inline(always)]
 fn sum_harmonics<const N: usize>(f: &[f32; 9], normals: Vec3Lanes<N>) -> Lanes<N> {
     let Vec3Lanes { x, y, z } = normals;
-    // Bands 0 and 1, then the five functions of band 2.
+    // Degrees 0 and 1, then the five functions of degree 2.
     let linear = f[0] + f[1] * x + f[2] * y + f[3] * z;
     let mixed = f[4] * x * y + f[5] * y * z + f[7] * x * z;
     let squares = f[6] * (3.0 * z * z - 1.0) + f[8] * (x * x - y * y);

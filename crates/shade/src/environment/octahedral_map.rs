@@ -79,8 +79,8 @@ pub(super) fn encode_octahedral<const N: usize>(directions: Vec3Lanes<N>) -> [La
     [u * 0.5 + 0.5, v * 0.5 + 0.5]
 }
 
-/// The four nodes around a position in all lanes: the column and row of the first, and the
-/// fractions toward the next.
+/// The four nodes around the position of each lane: the column and row of the first node, and the
+/// fractions of the way to the next.
 pub(super) struct BilinearNodes<const N: usize> {
     columns: [i32; N],
     rows: [i32; N],
@@ -124,8 +124,8 @@ impl OctahedralMap {
         lerp_texels(lerp_texels(a, b, s), lerp_texels(c, d, s), t)
     }
 
-    /// Computes the next mip level, with half as many nodes per side, with a tent filter over 3 × 3
-    /// nodes.
+    /// Computes the next mip level, with half as many intervals per side, by a tent filter over 3 ×
+    /// 3 nodes.
     ///
     /// Nodes keep their positions, so that levels differ in sharpness but are not shifted.
     pub(super) fn downsample(&self) -> Self {
@@ -171,8 +171,8 @@ pub(super) fn node_coordinate(node: usize, side: usize) -> f32 {
     2.0 * node as f32 / (side - 1) as f32 - 1.0
 }
 
-/// Decodes the direction at a position in the square, with coordinates from −1 to 1, as a point on
-/// the octahedron, not normalized.
+/// Converts a position in the square, with coordinates from −1 to 1, to a direction: a point on the
+/// octahedron, not normalized.
 pub(super) fn decode_octahedral(u: f32, v: f32) -> [f32; 3] {
     let y = 1.0 - u.abs() - v.abs();
     if y >= 0.0 {

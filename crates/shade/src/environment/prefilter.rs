@@ -22,7 +22,7 @@ use std::sync::OnceLock;
 /// The number of prefiltered levels, for roughness 0, 0.2, …, 1.
 pub(super) const LEVEL_COUNT: usize = 6;
 /// Number of nodes per side of each level except the first, which is the environment itself. In the
-/// sharpest of these, the distance between nodes is half the width of the lobe for its roughness.
+/// sharpest of these levels, the distance between nodes is half the width of the level's lobe.
 const LEVEL_SIDES: [usize; LEVEL_COUNT - 1] = [65, 65, 33, 33, 17];
 /// Number of mip levels that samples are read from.
 const MIP_COUNT: usize = 7;
@@ -37,11 +37,11 @@ const SAMPLE_COUNT: u32 = 64;
 pub(super) struct PrefilteredLevels {
     /// The mip chain of the environment, with sides halved from level to level.
     mip_chain: Vec<OctahedralMap>,
-    /// The levels from 1, each computed on demand by the first thread that needs it.
+    /// The levels from 1 on, each computed on demand by the first thread that needs it.
     filtered: [OnceLock<OctahedralMap>; LEVEL_COUNT - 1],
 }
 
-/// Equal environments have equal levels, whether computed or not.
+/// Compares only the environments, because equal environments have equal levels.
 impl PartialEq for PrefilteredLevels {
     fn eq(&self, other: &Self) -> bool {
         self.mip_chain == other.mip_chain
@@ -114,11 +114,12 @@ impl SamplePacket {
 /// Returns the directions in which a surface with this α reflects a view along its normal, with
 /// their mip levels.
 ///
-/// The level is half the base-2 logarithm of the sample's solid angle over a texel's, plus one. The
-/// added one is a bias against noise; the lost sharpness would not be visible at this roughness.
+/// The level is half the base-2 logarithm of the ratio between the solid angles of the sample and a
+/// texel, plus one. The added one reduces noise; the lost sharpness would not be visible at this
+/// roughness.
 ///
 /// The sample set is computed once per level, in the frame of the normal. With n = v = r the lobe
-/// has no preferred azimuth, at the cost of stretched highlights at grazing angles.
+/// has no preferred azimuth, but highlights are not stretched at grazing angles.
 fn importance_sample_ggx(alpha: f32, mip_chain: &[OctahedralMap]) -> Vec<SamplePacket> {
     let alpha_squared = alpha * alpha;
     let texel_solid_angle = 4.0 * PI / (mip_chain[0].side * mip_chain[0].side) as f32;

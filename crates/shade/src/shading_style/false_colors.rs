@@ -78,7 +78,7 @@ pub(super) fn part_color(part: u32) -> [f32; 3] {
     })
 }
 
-/// Maps numbers from 0 to 1 to a colormap, as sRGB codes from 0 to 1.
+/// Maps numbers from 0 to 1 to the colors of a colormap, as sRGB codes scaled to [0, 1].
 #[inline(always)]
 pub(super) fn map_colors<const N: usize>(colormap: Colormap, numbers: Lanes<N>) -> Rgb<N> {
     let mut colors = Rgb::ZERO;

@@ -42,7 +42,8 @@ static DISCS: LazyLock<[[Lanes<LANES>; 2]; 12]> = LazyLock::new(|| {
     })
 });
 
-/// Returns the positions for the search. There are fewer in a narrow disc, which has few texels.
+/// Returns the positions for the search. A narrow disc has fewer positions, because it covers few
+/// texels.
 #[inline(always)]
 pub(super) fn search_disc(radius: f32) -> Disc<'static> {
     let range = match radius {
@@ -64,7 +65,7 @@ pub(super) fn filter_disc(radius: f32) -> Disc<'static> {
     Disc(DISCS.get(range).unwrap_or_default())
 }
 
-/// The blockers found.
+/// The number of blockers found, and the sum of their depths.
 pub(super) struct Blockers {
     pub(super) count: f32,
     pub(super) depth_sum: f32,

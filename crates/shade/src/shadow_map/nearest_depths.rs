@@ -1,4 +1,4 @@
-//! The nearest depths around blocks of texels: a bound on the possible casters for a receiver.
+//! The nearest depths around blocks of texels: a bound on the depths of a receiver's casters.
 //!
 //! ```text
 //!   ┌──┬──┬──┬──┐
@@ -28,7 +28,7 @@ pub(super) struct NearestDepths {
     size: [usize; 2],
     /// The maximum depth of each block and the eight blocks around it, in rows from the top.
     depths: Vec<f32>,
-    /// The depths before the last step of the computation, stored to reuse their memory.
+    /// The depths before the last step of the computation, kept to reuse their memory.
     earlier: Vec<f32>,
 }
 

@@ -11,7 +11,7 @@ const MAX_PLANE_SLOPE: f32 = 4.0;
 /// Surfaces on a shadow map: their positions in texels and depth, and their planes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ReceiverPlanes<const N: usize> {
-    /// The positions in texels.
+    /// The positions: x and y in texels, and depth.
     pub(super) x: Lanes<N>,
     pub(super) y: Lanes<N>,
     pub(super) depth: Lanes<N>,
@@ -61,8 +61,8 @@ impl<const N: usize> ReceiverPlanes<N> {
 impl ShadowMap {
     /// Projects surfaces and their planes onto the map.
     ///
-    /// Positions and planes are transformed by a matrix and its inverse transpose. Both are in
-    /// `f32` relative to the center of the scene, which minimizes rounding errors.
+    /// Positions are transformed by a matrix, and planes by its inverse transpose. Both matrices
+    /// are in `f32` relative to the center of the scene, which minimizes rounding errors.
     #[inline(always)]
     pub(crate) fn project_receivers<const N: usize>(
         &self,
@@ -83,8 +83,8 @@ impl ShadowMap {
             let is_finite = slope.abs().is_below(f32::INFINITY);
             slope.clamp(-MAX_PLANE_SLOPE, MAX_PLANE_SLOPE).select(&is_finite, Lanes::ZERO)
         });
-        // Rounding moves positions by a fraction of the scene's size, which near a spot light is a
-        // larger fraction of its depth range.
+        // Rounding moves positions by a fraction of the scene's size. Near a spot light, this
+        // changes depth more than far away.
         let bias = DEPTH_BIAS * self.nearness_lanes(depth).max(0.1)
             + SLOPE_BIAS * (slope[0].abs() + slope[1].abs());
         let [width, height] = self.size.map(|side| side as f32);

@@ -12,9 +12,9 @@ impl ShadowMap {
     /// Computes the visibility of the light, 0 to 1, from the receivers in the `wanted` lanes.
     /// Other lanes are 0.
     ///
-    /// For sharp shadows, four texels are compared. For soft shadows there are up to 24
-    /// comparisons, and up to 48 more within a penumbra. Outside the map and behind the light,
-    /// nothing is in shadow.
+    /// For hard shadows, four texels are compared. For soft shadows there are up to 24 comparisons,
+    /// and up to 48 more within a penumbra. Outside the map and behind the light, nothing is in
+    /// shadow.
     #[inline(always)]
     pub(crate) fn visibility<const N: usize>(
         &self,
@@ -67,8 +67,8 @@ impl<const N: usize> Kernel for FindVisibility<'_, N> {
 }
 
 impl ShadowMap {
-    /// Computes the visibility inside or outside a penumbra. Returns `None` if the penumbra is too
-    /// narrow to be visible.
+    /// Computes the visibility with soft shadow edges. Returns `None` if there is no visible
+    /// penumbra.
     #[inline(always)]
     fn soft_visibility(&self, receiver: &ReceiverPlane) -> Option<f32> {
         let search_radius = self.search_radius(receiver)?;
@@ -95,7 +95,7 @@ impl ShadowMap {
     }
 
     /// Computes the radius of the blocker search: the penumbra radius of the nearest possible
-    /// blocker. Returns `None` if nothing can shade the receiver.
+    /// blocker. Returns `None` if nothing can cast a shadow on the receiver.
     #[inline(always)]
     fn search_radius(&self, receiver: &ReceiverPlane) -> Option<f32> {
         let widest = self.penumbra_radius(receiver.depth, 1.0).clamp(1.5, MAX_FILTER_RADIUS);
