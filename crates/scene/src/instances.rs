@@ -71,8 +71,8 @@ fn checked_instance_count(
 
 /// Places the instances of a model, which all share its data.
 ///
-/// model_to_world = T · I · R · S: the model's scale and rotation, the transform of the instance,
-/// the model's translation.
+/// model_to_world = T · I · R · S: first the model's scale and rotation, then the transform of the
+/// instance, then the model's translation.
 ///
 /// # Errors
 /// Returns an error if the instances have too many vertices in total, or the axis of a circle is

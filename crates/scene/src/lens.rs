@@ -107,7 +107,7 @@ pub(super) fn given_window(projection: &ProjectionFile) -> Option<[f64; 4]> {
     Some(sides.map(Finite::value))
 }
 
-/// Returns lens and window errors that do not depend on models: mutually exclusive fields, and
+/// Returns a lens or window error that does not depend on models: mutually exclusive fields, or
 /// planes or borders in the wrong order.
 pub(super) fn check_lens(origin: &Origin, projection: &ProjectionFile) -> Option<SceneError> {
     check_lens_fields(origin, projection).or_else(|| {

@@ -12,7 +12,7 @@ use std::sync::Arc;
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Origin {
     source: SceneSource,
-    /// The location of its model files.
+    /// The location of the scene's model files.
     pub(super) models: ModelSource,
 }
 

@@ -4,7 +4,7 @@ use super::{Lint, Linter};
 use scene_file::PathStep::{Field, Index};
 use scene_file::file::InstancesFile;
 
-/// Warns about instances of a model with the same transform, such as in a grid with a step of 0.
+/// Warns about instances of a model with the same transform, as in a grid with a step of 0.
 ///
 /// Sorting makes equal transforms neighbors, in O(n log n) for n instances.
 pub(super) fn lint_coincident_instances(adviser: &Linter<'_>) -> Vec<Lint> {
