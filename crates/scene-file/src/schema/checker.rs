@@ -285,7 +285,7 @@ impl<'a> Checker<'a> {
             }
             self.scopes.pop();
         }
-        // An unexplained field may be intended as a missing one.
+        // An unexplained field may be a badly misspelled missing one.
         let has_unexplained = unknown > meant.len();
         for field in declared.iter().filter(|_| !has_unexplained) {
             let is_there = field.is_optional || meant.contains(&field.name);
@@ -330,7 +330,7 @@ impl<'a> Checker<'a> {
     /// Reports an undeclared field. Returns the field of the same struct that is probably meant.
     ///
     /// The suggestion is based on the fields of this struct, of the whole language, of other
-    /// programs and of older versions of this one.
+    /// programs and of older scene files.
     fn report_unknown_field(
         &mut self,
         item: &SyntaxItem<'_>,
@@ -348,7 +348,7 @@ impl<'a> Checker<'a> {
             self.told_lists.push(item.value.span.start);
         }
         let message = format!("unexpected field `{}` in `{}`", key.name, owner.shown);
-        // `top` and `bottom` of a gradient are two mistakes with one fix.
+        // `top` and `bottom` of a gradient are two mistakes with one fix, which is shown once.
         let around = self.scopes.iter().rev().nth(1).map_or(0, |outer| outer.start);
         let is_known = self
             .mistakes

@@ -46,7 +46,7 @@ impl Data {
     /// Returns the value of a field, or its default if it was omitted.
     ///
     /// # Errors
-    /// Returns an error if there is neither, because the field is required.
+    /// Returns an error if the value cannot be read, or if the field is required but was omitted.
     pub(crate) fn field<T: SceneValue>(
         &self,
         name: &str,

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 
 /// A struct, an enum or a variant, with the text of a scene around it.
 struct Site {
-    /// `Model`, or `View::LookAt`.
+    /// The name: `Model`, or `View::LookAt`.
     owner: String,
     /// The text of a scene before its contents, such as `camera: (view: LookAt(`.
     before: String,

@@ -1,4 +1,4 @@
-//! Values of RON literals: string escapes and number notations.
+//! Reads RON literals: string escapes and number notations.
 
 /// Decodes a string literal: `"…"` with escapes, or `r"…"` and `r#"…"#` verbatim.
 ///

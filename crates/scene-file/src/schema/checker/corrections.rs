@@ -1,4 +1,4 @@
-//! Values in other forms, rewritten as the structs they represent.
+//! Rewrites values in other forms as the structs they represent.
 
 use crate::color::Color;
 use crate::file::MaterialFile;
