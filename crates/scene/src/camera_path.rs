@@ -68,7 +68,7 @@ impl CameraPath {
         let angled = path.keys.iter().position(|key| key.fov_y_degrees.is_some());
         if let (None, Some(at)) = (usual, angled) {
             let message = "the scene's projection has no vertical field of view".to_owned();
-            let help = "remove it, or choose Perspective(), with or without fov_y_degrees";
+            let help = "remove fov_y_degrees from the keys, or choose projection: Perspective()";
             return Err(fault(&[Index(at), Field("fov_y_degrees")], message, help));
         }
         // Without an angle this value is unused, because the check above rejects keys that set one.

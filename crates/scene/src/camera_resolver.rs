@@ -67,7 +67,7 @@ impl CameraResolver<'_> {
         self.view_error(message, help)
     }
 
-    /// Returns the center of the box around everything.
+    /// Returns the center of the bounding box of the models.
     pub(super) fn bounds_center(&self) -> Option<Point<World>> {
         homog::Bounds::from_points(self.points.iter().copied()).map(homog::Bounds::center)
     }

@@ -13,7 +13,7 @@ use scene_file::{SceneError, SceneErrors};
 #[derive(Debug, Default)]
 pub(super) struct Diagnostics {
     errors: Vec<SceneError>,
-    /// A failure that is not a mistake in the scene's text.
+    /// The first failure that is not a mistake in the scene's text.
     failure: Option<ResolveError>,
 }
 

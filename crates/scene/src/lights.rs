@@ -185,8 +185,8 @@ fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec
     lights
 }
 
-/// Returns a directional light high above the ground and to the left of the view. Visible sides
-/// then differ in brightness, and shadows fall to the right, where they are visible.
+/// Returns a directional light high above the ground and to the left of the view, so that visible
+/// sides differ in brightness and shadows fall to the right, where they are visible.
 ///
 /// The light follows the up direction of the world, y, rather than the camera's, so that a camera
 /// that looks down does not move the light below the horizon.

@@ -272,10 +272,10 @@ impl Linter<'_> {
         let effect = if place == "projection" {
             "everything is stretched"
         } else {
-            "it shows more or less at the sides"
+            "the picture shows more or less at the sides"
         };
         let message =
-            format!("{what} is {shape:.3} : 1, but the picture is {picture:.3} : 1: {effect}");
+            format!("{what} is {shape:.3} : 1, but the picture is {picture:.3} : 1, so {effect}");
         let width = libm::round(view_size.y * shape).max(1.0);
         let help = format!(
             "for a picture of that shape, write image: (size: ({width}, {}))",

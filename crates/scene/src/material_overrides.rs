@@ -136,7 +136,7 @@ impl MaterialOverride<'_> {
         }
     }
 
-    /// Replaces the emitted light: the color, its strength, or both. Shading uses their product.
+    /// Replaces the color of the emitted light, its strength, or both. Shading uses their product.
     fn apply_emission(&self, material: &mut Material) {
         let strength = self.file.emissive_strength.map(|strength| strength.value() as f32);
         if let Some(color) = self.file.emissive.map(Color::to_linear) {

@@ -21,7 +21,7 @@ use std::path::PathBuf;
 /// in order. Sheets, passes and the camera path are also validated. Models are loaded once.
 ///
 /// A model that cannot be loaded is a mistake, and the parts that depend on the models are then not
-/// validated. The crate `gltf-check` reports everything else that is wrong with a model's file.
+/// validated. The crate `gltf-check` reports all other mistakes in a model's file.
 #[must_use]
 pub fn validate_scene(
     origin: &Origin,

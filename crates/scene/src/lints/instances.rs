@@ -35,7 +35,7 @@ pub(super) fn lint_coincident_instances(adviser: &Linter<'_>) -> Vec<Lint> {
                 (&path[..], "set a nonzero `step` along each axis whose count is more than 1")
             }
             Some(InstancesFile::Circle { .. }) => {
-                (&path[..3], "set a larger `radius`, and `sweep_degrees` to less than a full turn")
+                (&path[..3], "increase `radius`, and set `sweep_degrees` to less than a full turn")
             }
             _ => (&path[..3], "set a different `translation` for each, or remove the duplicates"),
         };

@@ -33,7 +33,7 @@ pub(super) struct VisibilitySurvey {
     pub(super) before_near: usize,
     /// Vertices that only the far plane keeps out of the picture.
     pub(super) behind_far: usize,
-    /// The smallest and largest distance of a vertex along the gaze.
+    /// The smallest and largest distances of vertices along the gaze.
     depth_range: Option<(f64, f64)>,
     /// The smallest and largest x and y of the parts inside, in a window from −1 to 1.
     window: Option<[f64; 4]>,
@@ -77,8 +77,8 @@ impl VisibilitySurvey {
         self.total > 0 && self.inside == 0
     }
 
-    /// Returns the smallest and largest distance of a vertex along the line of sight, or `None`
-    /// without vertices.
+    /// Returns the smallest and largest distances of vertices along the gaze, or `None` without
+    /// vertices.
     pub(super) fn depth_range(&self) -> Option<(f64, f64)> {
         self.depth_range
     }
