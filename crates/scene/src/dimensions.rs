@@ -44,7 +44,7 @@ fn path_of<'a>(index: usize, steps: &[PathStep<'a>]) -> Vec<PathStep<'a>> {
 ///
 /// # Errors
 /// Returns an error if a name does not exist, nothing can be picked, or the picked parts have no
-/// distance or angle.
+/// distance or angle between them.
 pub(super) fn resolve_dimensions(
     origin: &Origin,
     file: &SheetFile,
@@ -250,7 +250,7 @@ impl DimensionResolver<'_> {
         Ok(points.map(Point::from_raw))
     }
 
-    /// Returns the diameters of the largest full circles.
+    /// Returns the diameters of the largest full circles, one for each radius.
     fn largest_diameters(&self, count: usize, decimals: Option<u32>) -> Vec<Dimension> {
         let mut circles: Vec<WorldCircle> = self.picking.picker.circles(None).collect();
         circles.retain(|circle| TAU - circle.sweep < 1e-6);

@@ -19,7 +19,7 @@ const BRIGHTER_SHARE: usize = 10;
 /// Returns the exposure of a scene in stops, from the file if it is set there. Otherwise it is 0,
 /// or less if a bare model's own lights are too bright.
 ///
-/// The brightness of lights is their total illuminance, unshadowed and at normal incidence, that
+/// The brightness is the total illuminance of all lights, unshadowed and at normal incidence, that
 /// nine in ten vertices do not exceed.
 pub(super) fn resolve_exposure(
     origin: &Origin,

@@ -35,7 +35,7 @@ pub(super) fn check_instance_counts(origin: &Origin, file: &SceneFile) -> Result
         if total > MAX_INSTANCES {
             let message =
                 format!("too many model instances: {total}; at most {MAX_INSTANCES} are allowed");
-            let help = Some("use fewer instances, or combine several models in one".to_owned());
+            let help = Some("use fewer instances, or combine several models into one".to_owned());
             return Err(origin.error_at(&instances_path(number, &[]), message, help));
         }
     }

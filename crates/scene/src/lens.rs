@@ -19,11 +19,11 @@ use scene_file::PathStep::Field;
 use scene_file::SceneError;
 use scene_file::file::{FieldOfView, Finite, Positive, ProjectionFile};
 
-/// The lens of a perspective: its field of view and its sideways shift.
+/// The lens of a perspective: its field of view and its shift.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Lens {
     pub(super) fov: Fov,
-    /// To the right and up, in fractions of the picture's longer side.
+    /// The shift to the right and up, in fractions of the picture's longer side.
     shift: [f64; 2],
 }
 
