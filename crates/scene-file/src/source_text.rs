@@ -26,7 +26,7 @@ struct SharedText {
     root: OnceLock<Option<Place>>,
 }
 
-/// The position of a value and of the values inside it, in bytes of a text of less than 4 GiB.
+/// The byte range of a value and the places of the values inside it, in a text of less than 4 GiB.
 struct Place {
     start: u32,
     end: u32,
@@ -34,7 +34,7 @@ struct Place {
 }
 
 struct PlaceItem {
-    /// The name of a field.
+    /// The bytes of a field's name.
     key: Option<[u32; 2]>,
     value: Place,
 }
@@ -69,7 +69,7 @@ impl SourceText {
         (index + 1, start..end)
     }
 
-    /// Returns the bytes of the value at the end of a path, or of the last value on it that exists.
+    /// Returns the bytes of the value at the end of a path, or of its last existing ancestor.
     pub(super) fn span_of(&self, path: &[PathStep<'_>]) -> Range<usize> {
         let Some(mut place) = self.root() else { return 0..0 };
         for step in path {

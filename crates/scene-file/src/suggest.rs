@@ -14,7 +14,7 @@ pub fn closest_name<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
     (similarity(best) > SIMILAR).then_some(best)
 }
 
-/// Returns `expected one of …` with all names.
+/// Returns `expected one of …` with all names, or `the only one is …`.
 pub(super) fn list_names<S: AsRef<str>>(names: &[S]) -> String {
     let names: Vec<String> = names.iter().map(|name| format!("`{}`", name.as_ref())).collect();
     match names.as_slice() {

@@ -1,11 +1,11 @@
-//! Scene file syntax: splits RON text into tokens, and parses them to a tree in which every node
+//! Scene file syntax: splits RON text into tokens, and parses them into a tree in which every node
 //! records its byte range.
 //!
 //! ```text
-//!  text ─► tokens ─► tree of nodes ─► checked against the declarations of `scene::file`
+//!  text ─► tokens ─► tree of nodes ─► checked against the declarations of `scene_file::file`
 //!             └────► groups of items with comments ─► formatted text
 //! ```
-//! The parser does not stop at an error: it reports it, resynchronizes at the next comma or
+//! The parser does not stop at an error: it reports the error, resynchronizes at the next comma or
 //! bracket, and continues.
 
 mod literal;

@@ -1,8 +1,8 @@
 //! Words that people bring from other programs and from older scene files, with the scene file
 //! words to use instead.
 //!
-//! A word is looked up together with its struct or enum. If that has the intended field or variant,
-//! its name is suggested; if another part of the scene has it, the suggestion shows where.
+//! A word is looked up together with its struct or enum. If that declares the intended field or
+//! variant, its name is suggested; if another part of the scene does, the suggestion shows where.
 
 mod advice;
 mod foreign;
@@ -26,16 +26,16 @@ pub(super) struct Suggestion {
 /// The way a suggestion was found.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum SuggestionKind {
-    /// The word is in a table, or means a field or variant elsewhere.
+    /// The word is in a table, or names a field or variant elsewhere.
     Known,
-    /// It resembles one of the allowed names.
+    /// The word resembles one of the allowed names.
     Similar,
-    /// It lists the allowed names.
+    /// The suggestion lists the allowed names.
     List,
 }
 
 impl Suggestion {
-    /// Whether the word is in one of the tables.
+    /// Whether the word is in a table, or names a field or variant elsewhere.
     pub(super) fn is_known(&self) -> bool {
         self.kind == SuggestionKind::Known
     }
@@ -72,7 +72,7 @@ pub(super) fn suggest_field(
     let is_very_similar = similar.is_some_and(|name| strsim::jaro_winkler(word, name) > 0.9);
     if !is_very_similar && same_spelling.is_none() {
         // A field with exactly this name takes precedence over the word's meaning in other
-        // programs, unless that meaning is nearer or is in the tables.
+        // programs, unless that meaning is nearer or is itself such a field.
         let is_field = |name: &str| name.starts_with(char::is_lowercase);
         let same_name =
             targets.iter().filter(|(_, name)| is_field(name) && normalize(name) == normalize(word));
@@ -99,7 +99,7 @@ pub(super) fn suggest_field(
     }
 }
 
-/// Suggests a variant name for an undeclared one, or for a struct of another type.
+/// Suggests a correction for an undeclared variant name, or for the name of a wrong struct.
 pub(super) fn suggest_variant(
     entry: &'static TypeEntry,
     word: &str,
@@ -184,7 +184,7 @@ fn example_elsewhere(targets: &[Target], top_level: Option<&str>) -> Option<Stri
     nearest_example(&examples.collect::<Vec<_>>(), top_level)
 }
 
-/// Returns examples of fields with this name in other structs.
+/// Returns examples of the fields with this name, in any struct.
 fn declared_elsewhere(word: &str) -> Vec<String> {
     let word = normalize(word);
     let fields = fields_where(SceneFile::ENTRY, |field| normalize(field) == word);
@@ -203,7 +203,7 @@ fn variant_inside(entry: &'static TypeEntry, word: &str) -> Option<String> {
 
 /// Returns examples of variants with exactly this name.
 fn variants_elsewhere(word: &str) -> Vec<String> {
-    // These names are too generic to be misplaced variants.
+    // These names are too generic to be recognized as misplaced variants.
     if matches!(word, "None" | "Some" | "All" | "Name" | "Index" | "On" | "Off") {
         return Vec::new();
     }

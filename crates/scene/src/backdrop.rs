@@ -1,7 +1,7 @@
 //! Resolution of the background: a color, or a backdrop with a gradient or an image.
 //!
 //! ```text
-//!  none                 white in line drawings, else as Transparent
+//!  none                 white in line drawings, else like Transparent
 //!  Transparent          0, 0, 0, 0
 //!  Color                linear color, alpha 1
 //!  Environment          drawn by the renderer along the view rays
@@ -38,11 +38,11 @@ fn background_error(
     origin.error_at(&[&BACKGROUND_PATH, rest].concat(), message, help.map(str::to_owned))
 }
 
-/// Returns the clear color of all samples: linear, premultiplied by alpha.
+/// Returns the clear color of all samples, linear and premultiplied by alpha.
 ///
-/// Behind a gradient it is the gradient's center color, behind an image the color specified with
-/// the image. It is visible where the image does not cover the frame, and automatic line colors are
-/// chosen to contrast with it.
+/// Behind a gradient, it is the gradient's center color; behind an image, the color specified with
+/// the image, visible where the image does not cover the frame. Automatic line colors contrast with
+/// the clear color.
 ///
 /// # Errors
 /// Returns an error if the background is the environment but the scene has none.

@@ -43,7 +43,7 @@ impl Scene {
 }
 
 impl SceneBuilder {
-    /// Adds a model at the original positions of its nodes.
+    /// Adds a model with its nodes at their original positions.
     #[must_use]
     pub fn model(self, model: impl Into<Arc<Model>>) -> Self {
         self.model_at(model, Affine::IDENTITY)

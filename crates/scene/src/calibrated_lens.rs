@@ -7,7 +7,7 @@ use scene_file::PathStep::Field;
 use scene_file::SceneError;
 use scene_file::file::{Finite, Positive, ProjectionFile};
 
-/// Picture sizes with the same aspect ratio differ by at most this many pixels due to rounding.
+/// The rounding error in pixels that picture sizes with the same aspect ratio may have.
 const SHAPE_TOLERANCE: f64 = 1.0;
 
 /// Returns the lens of a projection with intrinsic parameters, for a picture of `picture_size`, or
@@ -33,7 +33,7 @@ pub(super) fn calibrated_lens(
     )
 }
 
-/// Creates the error for intrinsic parameters of pictures with a different aspect ratio.
+/// Returns an error if the intrinsic parameters are for pictures with a different aspect ratio.
 pub(super) fn check_calibrated_shape(
     origin: &Origin,
     projection: &ProjectionFile,
@@ -52,7 +52,7 @@ pub(super) fn check_calibrated_shape(
     let message = format!(
         "the intrinsics are for pictures of {width} x {height} pixels, but {columns} x {rows} has a different aspect ratio"
     );
-    let help = format!("make the image {width} x {height}, or a multiple of it");
+    let help = format!("make the image {width} x {height}, or a multiple of that size");
     let path = [&PROJECTION_PATH[..], &[Field("size")]].concat();
     Some(origin.error_at(&path, message, Some(help)))
 }

@@ -3,8 +3,8 @@
 //! ```text
 //!  keys (tᵢ, vᵢ) ─► v(t), ten numbers: eye, target, up, field of view ─► LookAt + projection
 //! ```
-//! Each number is interpolated separately. The eye and the target are splines that determine the
-//! orientation, so the target stays in the center of the picture between keys too. A path whose
+//! Each number is interpolated separately. The eye and the target move along splines and determine
+//! the orientation, so the target stays in the center of the picture between keys too. A path whose
 //! last key repeats the values of its first is closed: its spline is periodic and is smooth at that
 //! key too.
 
@@ -20,8 +20,8 @@ use scene_file::file::{
 
 /// The maximum number of keyframes in a path.
 const MAX_KEYS: usize = 10_000;
-/// The values of a keyframe: eye, target and view-up vector in world space (three each), vertical
-/// field of view in degrees.
+/// The values of a keyframe: eye, target and view-up vector in world space (three each), and the
+/// vertical field of view in degrees.
 type KeyValues = [f64; 10];
 
 /// The path of a camera over time.
@@ -68,7 +68,7 @@ impl CameraPath {
         let angled = path.keys.iter().position(|key| key.fov_y_degrees.is_some());
         if let (None, Some(at)) = (usual, angled) {
             let message = "the scene's projection has no vertical field of view".to_owned();
-            let help = "remove it, or choose Perspective(), with or without fov_y_degrees";
+            let help = "remove fov_y_degrees from the keys, or choose projection: Perspective()";
             return Err(fault(&[Index(at), Field("fov_y_degrees")], message, help));
         }
         // Without an angle this value is unused, because the check above rejects keys that set one.
@@ -84,7 +84,7 @@ impl CameraPath {
         [time(self.keys.first()), time(self.keys.last())]
     }
 
-    /// Returns the camera at a time in seconds; outside the range, the first or last keyframe.
+    /// Returns the camera at a time in seconds; outside the range, at the first or last keyframe.
     ///
     /// A cubic curve can overshoot its keys, so the field of view is clamped to 0.01° … 179°.
     #[must_use]
@@ -188,7 +188,7 @@ impl CameraPath {
     }
 }
 
-/// Returns the vertical field of view of a perspective, or `None` if another angle is set.
+/// Returns the vertical field of view of `Perspective`, or `None` if another angle is set.
 fn vertical_field_of_view(projection: &ProjectionFile) -> Option<FieldOfView> {
     match projection {
         ProjectionFile::Perspective {
@@ -295,8 +295,8 @@ mod tests {
         for count in [3, 4, 8, 12] {
             let path = circle(count);
             let distance = |time: f64| glam::DVec3::from(eye(&path, time)).length();
-            // The middle of the Hermite curve with slopes along the circle; h is half the angle
-            // between keys.
+            // The distance of the middle of the Hermite curve with slopes along the circle. The
+            // sine and cosine are of half the angle between keys.
             let (sine, cosine) = libm::sincos(core::f64::consts::PI / f64::from(count));
             let expected = cosine * (1.0 + 0.5 * sine * sine);
             for segment in 0..count {

@@ -3,13 +3,13 @@
 use camera::{Camera, CameraError, Extrinsics};
 use scene_file::file::{CameraChoice, Finite, FromFile, RotationFile, Triple, ViewFile};
 
-/// The position of the camera.
+/// The way the camera is placed.
 pub(super) enum CameraPlacement<'a> {
     /// As specified in the file.
     Placed(Camera),
     /// Framed so that all models just fit in the picture.
     Framed {
-        /// The direction, if specified.
+        /// The direction from which the models are seen, if specified.
         from: Option<&'a FromFile>,
         /// The margin, as a fraction of the picture's width or height.
         padding: f64,

@@ -22,7 +22,7 @@ pub(super) struct CameraResolver<'a> {
 }
 
 impl CameraResolver<'_> {
-    /// Creates an error in the camera frame, such as a view-up vector along the line of sight.
+    /// Creates the error for an invalid camera, such as a view-up vector along the line of sight.
     pub(super) fn camera_error(&self, error: &camera::CameraError) -> SceneError {
         self.view_error(error.to_string(), None)
     }
@@ -36,12 +36,12 @@ impl CameraResolver<'_> {
         self.origin.error_at(&VIEW_PATH, message, help)
     }
 
-    /// Creates an error in the projection, such as a far plane in front of the near plane.
+    /// Creates the error for an invalid projection, such as a far plane in front of the near plane.
     pub(super) fn projection_error(&self, error: &ProjectionError) -> SceneError {
         self.projection_error_with(error.to_string(), None)
     }
 
-    /// Creates an error in the projection as a whole.
+    /// Creates an error that points at the projection.
     pub(super) fn projection_error_with(
         &self,
         message: impl Into<String>,
@@ -67,7 +67,7 @@ impl CameraResolver<'_> {
         self.view_error(message, help)
     }
 
-    /// Returns the center of the box around everything.
+    /// Returns the center of the bounding box of the models.
     pub(super) fn bounds_center(&self) -> Option<Point<World>> {
         homog::Bounds::from_points(self.points.iter().copied()).map(homog::Bounds::center)
     }

@@ -113,7 +113,7 @@ impl CameraResolver<'_> {
         padding: f64,
     ) -> Result<ViewProjection, SceneError> {
         let fault = |error: ProjectionError| self.projection_error(&error);
-        // The rows of the rotation are the eye's axes, for the side from which the models are seen.
+        // The rows of the rotation are the eye's axes, relative to the basis `from`.
         let rows = construction.world_to_view().raw().transpose();
         let axis = |row: glam::DVec4| from.to_world(Vector::from_raw(row.truncate()));
         let basis = Basis::from_gaze(-axis(rows.z_axis), axis(rows.y_axis))
@@ -163,7 +163,7 @@ pub(super) fn check_classical_projection(
     Some(origin.error_at(&PROJECTION_PATH, error.to_string(), None))
 }
 
-/// Creates the error for a perspective from vanishing points with a camera position.
+/// Creates the error for a perspective from vanishing points that has a camera position too.
 fn own_eye_error(origin: &Origin) -> SceneError {
     let help = "use Frame(from: …), or remove the view".to_owned();
     let message = "a perspective from vanishing points determines its own eye position";
@@ -196,15 +196,14 @@ fn vanishing_point_construction(
 
 /// Returns the projection onto the picture plane.
 ///
-/// `radius` is the largest distance of a vertex from the camera. An n-point perspective divides p,
-/// q and r by it, so that their effect does not depend on the size of the models. Projections
-/// without parameters cannot fail.
+/// `radius` is the largest distance of a vertex from the camera. In an n-point perspective, p, q
+/// and r are divided by it, so that their effect does not depend on the size of the models.
+/// Projections without parameters cannot fail.
 fn picture_plane_projection(
     projection: &ProjectionFile,
     radius: f64,
 ) -> Result<Classical, ProjectionError> {
-    // Files specify the direction in which depth recedes; the builder expects the opposite
-    // direction.
+    // Files specify the direction in which depth recedes; `Oblique` expects the opposite direction.
     let phi = |degrees: Finite| (degrees.value() + 180.0).to_radians();
     Ok(match *projection {
         ProjectionFile::Isometric => Axonometric::isometric().into(),
@@ -263,9 +262,9 @@ impl ProjectedBounds {
 
     /// Returns the orthographic volume around the box, with the picture's aspect ratio.
     ///
-    /// The window grows along the shorter direction and by the margin, h / (1 − 2 padding). The
-    /// near and far planes get a margin of 1% of the depth, so that no vertex is on a plane. Flat
-    /// boxes fall back to their depth or to 1.
+    /// The window grows along the shorter direction, then by 1 / (1 − 2 padding). The near and far
+    /// planes get a margin of 1% of the larger of depth and height, so that no vertex is on a
+    /// plane. A box without width and height gets its depth as its height, but at least 1.
     fn view_volume(self, aspect: f64, padding: f64) -> Result<Orthographic, ProjectionError> {
         let (size, middle) = (self.high - self.low, (self.high + self.low) * 0.5);
         let height = size.y.max(size.x / aspect);

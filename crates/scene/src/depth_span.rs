@@ -35,7 +35,7 @@ impl DepthSpan {
     ///
     /// The near distance is at least 1e-5 times the far distance, because depth resolution falls as
     /// the far-to-near ratio grows (ZP-1). Planes that the file sets are used unchanged. The result
-    /// always has near < far, unless both are set.
+    /// always has near < far, unless `far` is set.
     #[must_use]
     pub fn perspective_planes(self, near: Option<f64>, far: Option<f64>) -> (f64, f64) {
         let farthest =
@@ -47,8 +47,8 @@ impl DepthSpan {
 
     /// Returns the near and far planes of a parallel projection; they may be behind the eye.
     ///
-    /// The margin is 1% of the depth range, with a lower bound for flat scenes relative to their
-    /// distance, so that the planes stay apart in floating point.
+    /// The margin is 1% of the depth range, with a lower bound relative to the distance of flat
+    /// scenes, so that the planes stay apart in floating point.
     #[must_use]
     pub fn parallel_planes(self, near: Option<f64>, far: Option<f64>) -> (f64, f64) {
         let size = self.nearest_depth.abs().max(self.farthest_depth.abs());

@@ -13,7 +13,7 @@ use scene_file::{SceneError, SceneErrors};
 #[derive(Debug, Default)]
 pub(super) struct Diagnostics {
     errors: Vec<SceneError>,
-    /// A failure that is not a mistake in the scene's text.
+    /// The first failure that is not a mistake in the scene's text.
     failure: Option<ResolveError>,
 }
 
@@ -36,7 +36,7 @@ impl Diagnostics {
         self.errors.is_empty() && self.failure.is_none()
     }
 
-    /// Drops the mistakes that should not be kept.
+    /// Keeps only the mistakes that `is_kept` accepts.
     pub(super) fn retain(&mut self, is_kept: impl FnMut(&SceneError) -> bool) {
         self.errors.retain(is_kept);
     }

@@ -38,13 +38,13 @@ fn path_of<'a>(index: usize, steps: &[PathStep<'a>]) -> Vec<PathStep<'a>> {
     start.into_iter().chain(steps.iter().copied()).collect()
 }
 
-/// Resolves whether a sheet has overall dimensions, and its other dimensions.
+/// Returns whether a sheet has overall dimensions, and resolves its other dimensions.
 ///
 /// Without models, only the description itself is checked.
 ///
 /// # Errors
 /// Returns an error if a name does not exist, nothing can be picked, or the picked parts have no
-/// distance or angle.
+/// distance or angle between them.
 pub(super) fn resolve_dimensions(
     origin: &Origin,
     file: &SheetFile,
@@ -72,7 +72,7 @@ pub(super) fn resolve_dimensions(
 /// Resolves one dimension.
 struct DimensionResolver<'a> {
     picking: &'a Picking<'a>,
-    /// Its index in the list.
+    /// The dimension's index in the list.
     index: usize,
 }
 
@@ -80,7 +80,7 @@ struct DimensionResolver<'a> {
 type PointPath<'a> = (&'a PickFile, Vec<PathStep<'static>>);
 
 impl DimensionResolver<'_> {
-    /// Creates an error in a part of the dimension.
+    /// Creates an error that points at a part of the dimension.
     fn error(
         &self,
         steps: &[PathStep<'_>],
@@ -130,7 +130,7 @@ impl DimensionResolver<'_> {
         }
     }
 
-    /// Checks whether a dimension line in this direction can be on the given side.
+    /// Checks that a dimension line in this direction can be on the given side.
     fn check_side(
         &self,
         direction: LengthDirection,
@@ -204,7 +204,7 @@ impl DimensionResolver<'_> {
         Dimension { measure, view: view.map(named_view), side, decimals, name }
     }
 
-    /// Finds the part that a pick names; errors point at its position in the scene file.
+    /// Finds the part that a pick names; errors point at the pick in the scene file.
     fn pick(&self, pick: &PickFile, steps: &[PathStep<'static>]) -> Result<Picked, SceneError> {
         self.picking.pick(pick, &path_of(self.index, steps))
     }
@@ -222,7 +222,7 @@ impl DimensionResolver<'_> {
         self.picking.circle(place, &path_of(self.index, &[Field("circle")]))
     }
 
-    /// Returns the two points between which the distance of two picks is measured.
+    /// Returns the two points that determine the distance between two picks.
     fn distance(&self, from: &PickFile, to: &PickFile) -> Result<Vec<Point<World>>, SceneError> {
         let picked = [self.pick(from, &[Field("from")])?, self.pick(to, &[Field("to")])?];
         let feet = picked[0].perpendicular_to(&picked[1]).ok_or_else(|| {
@@ -250,7 +250,7 @@ impl DimensionResolver<'_> {
         Ok(points.map(Point::from_raw))
     }
 
-    /// Returns the diameters of the largest full circles.
+    /// Returns the diameters of the largest full circles, one for each radius.
     fn largest_diameters(&self, count: usize, decimals: Option<u32>) -> Vec<Dimension> {
         let mut circles: Vec<WorldCircle> = self.picking.picker.circles(None).collect();
         circles.retain(|circle| TAU - circle.sweep < 1e-6);

@@ -11,7 +11,7 @@ use shade::Light;
 use std::f32::consts::PI;
 
 /// The radiance of matte white above which automatic exposure darkens the picture. The tone curve
-/// brings it below 1.
+/// maps this radiance to less than 1.
 const MAX_WHITE: f32 = 1.5;
 /// One vertex in this many may be brighter.
 const BRIGHTER_SHARE: usize = 10;
@@ -19,8 +19,8 @@ const BRIGHTER_SHARE: usize = 10;
 /// Returns the exposure of a scene in stops, from the file if it is set there. Otherwise it is 0,
 /// or less if a bare model's own lights are too bright.
 ///
-/// The brightness is the illuminance from all lights, unshadowed and at normal incidence, that nine
-/// in ten vertices do not exceed.
+/// The brightness is the total illuminance of all lights, unshadowed and at normal incidence, that
+/// nine in ten vertices do not exceed.
 pub(super) fn resolve_exposure(
     origin: &Origin,
     file: &SceneFile,

@@ -30,7 +30,7 @@ impl FileAccess<'_> {
         }
     }
 
-    /// Returns the environment of a scene. Without a file it depends on the models' lights.
+    /// Returns the environment of a scene. The default one depends on the models' lights.
     pub(super) fn environment(
         self,
         origin: &Origin,

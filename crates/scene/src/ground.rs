@@ -53,7 +53,7 @@ const FRAMED_MARGIN: f64 = 0.5;
 /// shows the models.
 const MAX_SHADOW_DIAGONALS: f64 = 20.0;
 
-/// Resolves the ground of a scene; returns `None` if it does not request one or has no models.
+/// Resolves the ground of a scene; returns `None` if the file requests none or there are no models.
 ///
 /// The rectangle is the bounding box of the models seen from above, extended by the shadows of its
 /// eight corners under each light, and by 5% on each side. The shadow of a convex box is within the
@@ -94,7 +94,7 @@ pub(super) fn resolve_ground(
 }
 
 /// Returns the part of the ground that models within a bounding box occlude, or `None` if they are
-/// not above it or the scene turns shadows off.
+/// not above the ground or the scene turns shadows off.
 fn occlusion_area(
     file: &SceneFile,
     least: DVec3,
@@ -113,8 +113,8 @@ fn occlusion_area(
     (margin > 0.0).then_some(OcclusionArea { low, high, margin })
 }
 
-/// Returns the shadows of the models' points on the ground, in world space, for a camera that
-/// frames them too.
+/// Returns the shadows of the models' points on the ground, in world space, for a camera that also
+/// frames the shadows.
 ///
 /// These are the shadows of directional light from above, and the darkest part of the occlusion by
 /// the models. A shadow is at most as long as the diagonal of the models' bounding box. The picture

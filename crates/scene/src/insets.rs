@@ -1,7 +1,7 @@
 //! Resolves viewports and stereo pairs to insets, which are scenes within the scene.
 //!
 //! ```text
-//!   ┌───────────────┬───────┐   Each is a separate scene with the models of the
+//!   ┌───────────────┬───────┐   An inset is a separate scene with the models of the
 //!   │               │ inset │   main view, but its own camera, style, background,
 //!   │  the scene    ├───────┘   and an image of the rectangle's size.
 //!   └───────────────┘
@@ -40,7 +40,7 @@ pub struct Inset {
     /// Whether only green and blue are written, over the red of the view below, for the right eye
     /// of an anaglyph.
     pub cyan_only: bool,
-    /// The scene that it shows; its image has the rectangle's size.
+    /// The scene that the inset shows; its image has the rectangle's size.
     pub scene: Scene,
 }
 
@@ -182,8 +182,8 @@ fn resolve_border(
     Ok(Some((border.color.0, border.width)))
 }
 
-/// Returns the two insets of a stereo pair. Unlike toed-in cameras, their off-axis projections have
-/// no vertical parallax.
+/// Returns the two insets of a stereo pair. Their off-axis projections cause no vertical parallax,
+/// unlike toed-in cameras.
 ///
 /// ```text
 ///  side by side   left half, right half       the halves of an odd width share a column
@@ -217,8 +217,8 @@ fn resolve_stereo(
     if beside && width < 2 {
         return Err(fault("the picture is too narrow for two views", "make it wider").into());
     }
-    // With an odd number of columns, both halves share the middle one, and the right eye's is
-    // visible.
+    // With an odd number of columns, both halves share the middle column, which shows the right
+    // eye's picture.
     let half = if beside { width.div_ceil(2) } else { width };
     let half = PixelRect { x: 0, y: 0, width: half, height };
     let areas = [half, PixelRect { x: if beside { width - half.width } else { 0 }, ..half }];
@@ -265,7 +265,7 @@ fn models_center_depth(view_projection: ViewProjection, models: &[ModelInstance]
 /// camera's at distance `plane`.
 ///
 /// x' = x − aside · z / plane in view space: the shear moves a point at depth D = −z to the right
-/// by aside · D / plane, against the translation of −aside from moving the eye. They cancel at D =
+/// by aside · D / plane, and moving the eye shifts the point by −aside. The two cancel at D =
 /// plane, the plane of zero parallax.
 fn shift_eye(view_projection: ViewProjection, aside: f64, plane: f64) -> Option<ViewProjection> {
     let camera = view_projection.camera.moved(view_projection.camera.u() * aside).ok()?;

@@ -35,7 +35,7 @@ pub(super) fn check_instance_counts(origin: &Origin, file: &SceneFile) -> Result
         if total > MAX_INSTANCES {
             let message =
                 format!("too many model instances: {total}; at most {MAX_INSTANCES} are allowed");
-            let help = Some("use fewer instances, or combine several models in one".to_owned());
+            let help = Some("use fewer instances, or combine several models into one".to_owned());
             return Err(origin.error_at(&instances_path(number, &[]), message, help));
         }
     }
@@ -71,8 +71,8 @@ fn checked_instance_count(
 
 /// Places the instances of a model, which all share its data.
 ///
-/// model_to_world = T · I · R · S: the model's scale and rotation, the transform of the instance,
-/// the model's translation.
+/// model_to_world = T · I · R · S: first the model's scale and rotation, then the transform of the
+/// instance, then the model's translation.
 ///
 /// # Errors
 /// Returns an error if the instances have too many vertices in total, or the axis of a circle is

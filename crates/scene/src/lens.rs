@@ -19,11 +19,11 @@ use scene_file::PathStep::Field;
 use scene_file::SceneError;
 use scene_file::file::{FieldOfView, Finite, Positive, ProjectionFile};
 
-/// The lens of a perspective: its field of view and its sideways shift.
+/// The lens of a perspective: its field of view and its shift.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Lens {
     pub(super) fov: Fov,
-    /// To the right and up, in fractions of the picture's longer side.
+    /// The shift to the right and up, in fractions of the picture's longer side.
     shift: [f64; 2],
 }
 
@@ -107,7 +107,7 @@ pub(super) fn given_window(projection: &ProjectionFile) -> Option<[f64; 4]> {
     Some(sides.map(Finite::value))
 }
 
-/// Returns lens and window errors that do not depend on models: mutually exclusive fields, and
+/// Returns a lens or window error that does not depend on models: mutually exclusive fields, or
 /// planes or borders in the wrong order.
 pub(super) fn check_lens(origin: &Origin, projection: &ProjectionFile) -> Option<SceneError> {
     check_lens_fields(origin, projection).or_else(|| {

@@ -1,4 +1,4 @@
-//! Resolution of scene files: models are loaded, angles become radians, every default is filled in.
+//! Resolution of scene files: models are loaded, angles become radians, and defaults are filled in.
 //!
 //! ```text
 //!  text ─► SceneFile ─► Scene ─► renderer, line drawings

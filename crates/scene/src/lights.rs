@@ -35,7 +35,7 @@ const MAX_SHADOW_TEXELS: u64 = 1 << 26;
 /// The minimum number of texels along the side of a shadow map.
 const LEAST_SHADOW_SIDE: u32 = 64;
 
-/// Resolves the scene's shadows. A ground that shows only shadows turns them on.
+/// Resolves the scene's shadows. A ground that shows only shadows turns them on by default.
 pub(super) fn resolve_scene_shadow(
     origin: &Origin,
     file: &SceneFile,
@@ -185,11 +185,11 @@ fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec
     lights
 }
 
-/// Returns a directional light high above the ground and to the left of the view. Visible sides
-/// then differ in brightness, and shadows fall to the right, where they are visible.
+/// Returns a directional light high above the ground and to the left of the view, so that visible
+/// sides differ in brightness and shadows fall to the right, where they are visible.
 ///
-/// It follows the up direction of the world, y, rather than the camera's, so that a camera that
-/// looks down does not move the light below the horizon.
+/// The light follows the up direction of the world, y, rather than the camera's, so that a camera
+/// that looks down does not move the light below the horizon.
 fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<Shadow>) -> Light {
     let camera = view_projection.camera;
     let level = |axis: Vector<World>| {
@@ -208,9 +208,9 @@ fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<
 /// Resolves a light from the file, with the scene's shadows unless it sets its own; returns
 /// `Some(None)` for `FromModels`.
 ///
-/// Directional and ambient lights are in lux, point and spot lights in candela; the color scales
-/// them. Numbers are converted to f32, the precision of shading. It is an error if the direction is
-/// 0, or the cone or the shadow settings are invalid.
+/// Intensities are in lux for directional and ambient lights, and in candela for point and spot
+/// lights; the color scales them. Numbers are converted to f32, the precision of shading. It is an
+/// error if the direction is 0, or the cone or the shadow settings are invalid.
 fn resolve_light(
     origin: &Origin,
     index: usize,

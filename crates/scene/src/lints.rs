@@ -67,7 +67,7 @@ pub struct Lint {
     pub error: SceneError,
 }
 
-/// Lints a scene that could be resolved, in file order.
+/// Returns the lints of a resolved scene, in file order.
 ///
 /// The cost is one pass over all vertices, O(vertices + primitives), for the scene and for each
 /// viewport with a separate camera, without rendering. Lints never make a scene invalid. `options`
@@ -131,7 +131,7 @@ fn lint_viewports(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint>
     advice
 }
 
-/// Returns the lints of a scene file that do not depend on its models, even if it has mistakes.
+/// Returns the lints of a scene file that do not depend on models, even if the file has mistakes.
 #[must_use]
 pub fn lint_description(origin: &Origin, file: &SceneFile) -> Vec<Lint> {
     let mut advice: Vec<Lint> = camera_path::lint_camera_path(origin, file).into_iter().collect();
@@ -272,10 +272,10 @@ impl Linter<'_> {
         let effect = if place == "projection" {
             "everything is stretched"
         } else {
-            "it shows more or less at the sides"
+            "the picture shows more or less at the sides"
         };
         let message =
-            format!("{what} is {shape:.3} : 1, but the picture is {picture:.3} : 1: {effect}");
+            format!("{what} is {shape:.3} : 1, but the picture is {picture:.3} : 1, so {effect}");
         let width = libm::round(view_size.y * shape).max(1.0);
         let help = format!(
             "for a picture of that shape, write image: (size: ({width}, {}))",

@@ -12,7 +12,7 @@ use scene_file::{SceneError, SceneErrors, suggest_name};
 /// Changes the materials of the model with this index in the scene.
 ///
 /// # Errors
-/// Returns every override for materials that the model does not have.
+/// Returns an error for every override of materials that the model does not have.
 pub(super) fn override_materials(
     origin: &Origin,
     number: usize,
@@ -36,7 +36,7 @@ pub(super) fn override_materials(
     SceneErrors::from_list(errors).map_or(Ok(()), Err)
 }
 
-/// Returns the path of an override in the file.
+/// The path of an override in the file.
 struct OverridePath<'a> {
     origin: &'a Origin,
     path: [PathStep<'a>; 4],
@@ -105,7 +105,7 @@ struct MaterialOverride<'a> {
 
 impl MaterialOverride<'_> {
     /// Replaces the fields of a material that the override sets. Drops the textures of replaced
-    /// fields, unless `keep_textures` multiplies them by the new values.
+    /// fields, unless `keep_textures` is set; the new values then multiply them.
     fn apply_to(&self, material: &mut Material) {
         let Self { file, .. } = self;
         if let Some([r, g, b]) = file.base_color.map(Color::to_linear) {
@@ -136,7 +136,7 @@ impl MaterialOverride<'_> {
         }
     }
 
-    /// Replaces the emitted light: the color, its strength, or both. Shading uses their product.
+    /// Replaces the color of the emitted light, its strength, or both. Shading uses their product.
     fn apply_emission(&self, material: &mut Material) {
         let strength = self.file.emissive_strength.map(|strength| strength.value() as f32);
         if let Some(color) = self.file.emissive.map(Color::to_linear) {

@@ -33,7 +33,7 @@ struct ColoredModel<'a> {
 #[derive(Default)]
 struct LoadedModels<'a> {
     by_pose: BTreeMap<Pose, Vec<ColoredModel<'a>>>,
-    /// The size of their arrays and images in bytes.
+    /// The size of the models' arrays and images in bytes.
     bytes: u64,
 }
 
@@ -42,7 +42,7 @@ struct LoadedModels<'a> {
 const SCRATCH_BYTES: u64 = 1 << 20;
 
 impl<'a> LoadedModels<'a> {
-    /// Returns the model of an entry, already loaded or new.
+    /// Returns the model of an entry, and loads it if necessary.
     fn load(
         &mut self,
         origin: &Origin,
@@ -144,7 +144,7 @@ pub(super) fn check_model_paths(
     }
 }
 
-/// Returns an error if the models up to this one take more memory than a scene may use.
+/// Creates the error for a model with which the models take more memory than a scene may use.
 fn scene_bytes_error(origin: &Origin, number: usize, most: u64) -> SceneError {
     let message = format!("with this model, the scene's models take more than {} MiB", most >> 20);
     let help = "remove models, simplify them or use smaller textures; or raise `--max-scene-bytes`";
@@ -327,7 +327,7 @@ fn choice_error(
     origin.error_at(&at, message, error.diagnostic.help).into()
 }
 
-/// Returns the index of the selected animation, or of the first one.
+/// Returns the index of the selected animation, or of the first one if none is selected.
 ///
 /// # Errors
 /// Returns a message and a suggested fix if there is no such animation.

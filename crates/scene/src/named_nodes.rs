@@ -5,8 +5,8 @@ use model::{Model, ModelInstance};
 /// Returns all objects below the nodes with a matching name: one list per such node, in the order
 /// of the models and their nodes.
 ///
-/// A node without a name takes its mesh's name. Objects are counted as in line drawings: nodes with
-/// a mesh, one model after another.
+/// A node without a name takes its mesh's name. Objects are numbered as in line drawings: the nodes
+/// with a mesh, model by model.
 pub(super) fn objects_below(
     models: &[ModelInstance],
     is_meant: impl Fn(&str) -> bool,

@@ -7,12 +7,12 @@ use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The origin of a scene, which errors quote. It derefs to the [`SceneSource`] with the scene's
-/// text.
+/// The origin of a scene, which errors quote. It dereferences to the [`SceneSource`] with the
+/// scene's text.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Origin {
     source: SceneSource,
-    /// The location of its model files.
+    /// The location of the scene's model files.
     pub(super) models: ModelSource,
 }
 

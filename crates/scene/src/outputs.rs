@@ -19,7 +19,7 @@ impl Outputs {
     /// Returns the outputs that a scene file requests.
     ///
     /// # Errors
-    /// Returns an error if it requests an unsupported number of bits; the error points at it.
+    /// Returns an error that points at the number of bits if it is unsupported.
     pub fn from_scene_file(origin: &Origin, file: &SceneFile) -> Result<Self, SceneError> {
         let bits = file.image.bits;
         if bits != 8 && bits != 16 {

@@ -11,8 +11,9 @@ use scene_file::SceneError;
 use scene_file::file::{Finite, OverlayFile, Positive};
 use shade::color::SrgbEncoder;
 
-/// The offset of labels in pixels, without and with a leader line: up and to the right.
+/// The offset of labels without a leader line, in pixels: up and to the right.
 const OFFSET: DVec2 = DVec2::new(5.0, -5.0);
+/// The offset of labels with a leader line.
 const LEADER_OFFSET: DVec2 = DVec2::new(24.0, -24.0);
 
 /// Resolves the overlays, with the view-projection of each camera whose view volume is drawn.

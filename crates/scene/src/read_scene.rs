@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 impl Origin {
     /// Reads and parses a scene file and the files it includes, which must be inside its folder.
-    /// The returned scene contains everything they include, and includes nothing itself.
+    /// The returned scene contains everything in these files, and includes nothing itself.
     ///
     /// # Errors
     /// Returns every mistake in their texts, or an error if a file cannot be read, is not UTF-8 or

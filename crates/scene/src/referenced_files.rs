@@ -1,5 +1,5 @@
 //! The files that a model refers to: glTF buffers and images, OBJ material libraries and their
-//! textures, PLY textures.
+//! textures, and PLY textures.
 //!
 //! A quick scan of the text finds them without the importer, so meshes are not parsed. Extra names
 //! are harmless: at worst, a change in an unrelated file causes a picture to be rendered again.
@@ -35,7 +35,7 @@ pub fn referenced_files(name: &str, bytes: &[u8]) -> Vec<String> {
 /// Returns the external buffers and images of a glTF file.
 ///
 /// Embedded `data:` URIs are part of the file itself and are omitted, as are buffers without a URI,
-/// the binary chunk of a GLB. Invalid JSON refers to nothing.
+/// which refer to the binary chunk of a GLB. Invalid JSON refers to nothing.
 fn gltf_files(bytes: &[u8]) -> Vec<String> {
     let Ok(json) = serde_json::from_slice::<Value>(json_chunk(bytes)) else { return Vec::new() };
     let list = |name: &str| json.get(name).and_then(Value::as_array).cloned().unwrap_or_default();
@@ -66,7 +66,7 @@ fn obj_files(bytes: &[u8]) -> Vec<String> {
 }
 
 /// Returns the textures of a material library. They are looked up next to the library and next to
-/// the model, where the last part of their name is also enough.
+/// the model, where the last part of a name is also enough.
 fn mtl_files(name: &str, bytes: &[u8]) -> Vec<String> {
     let folder = name.rfind('/').map_or("", |slash| &name[..=slash]);
     let is_texture =

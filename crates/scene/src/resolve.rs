@@ -18,10 +18,10 @@ use scene_file::{SceneError, SceneFile};
 use std::path::PathBuf;
 
 /// Returns the scene in a parsed file, unless it cannot be resolved, and every mistake in the file,
-/// in order. This includes sheets, passes and the camera path. Models are loaded once.
+/// in order. Sheets, passes and the camera path are also validated. Models are loaded once.
 ///
 /// A model that cannot be loaded is a mistake, and the parts that depend on the models are then not
-/// validated. The crate `gltf-check` reports everything else that is wrong with a model's file.
+/// validated. The crate `gltf-check` reports all other mistakes in a model's file.
 #[must_use]
 pub fn validate_scene(
     origin: &Origin,
@@ -98,7 +98,7 @@ fn resolve_parts(
 ) -> Option<Scene> {
     let scene = resolve_without_insets(origin, file, models, access, faults);
     if models.is_none() {
-        // The models affect the brightness of the default, but not whether its file can be read.
+        // Models affect the default environment's brightness, but not whether a file can be read.
         let _ = faults.take(access.environment(origin, file, &[], 0.0));
         if resolve_image_size(origin, file).is_ok() {
             let _ = faults.take(access.backdrop(origin, file));
@@ -134,7 +134,7 @@ impl Scene {
     /// the file's own models are ignored.
     ///
     /// # Errors
-    /// Returns an error if a value is invalid; the errors point at its position in the file.
+    /// Returns every invalid value, as an error that points at its position in the file.
     pub fn from_models(
         origin: &Origin,
         file: &SceneFile,

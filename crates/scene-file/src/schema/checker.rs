@@ -1,7 +1,7 @@
-//! Checks a syntax tree against the declarations, after `ron` failed to read it.
+//! Checks a syntax tree against the declarations, after `ron` failed to read the text.
 //!
-//! Every mistake is reported once, at its position. Its consequences are not reported: a value that
-//! could not be read has no other mistakes, and a field with a misspelled name is not also missing.
+//! Every mistake is reported once, at its position, without its consequences: an unreadable value
+//! has no other mistakes, and a misspelled field is not reported as missing.
 //!
 //! ```text
 //!  check ─► find_struct  ─► find_fields ─► check_fields ─► check …
@@ -9,8 +9,8 @@
 //!       ├─► check_list, check_tuple
 //!       └─► Notation: numbers, strings, colors, vectors
 //! ```
-//! The checker holds the path to the value, for messages, and the scope, which is the innermost
-//! field or element around it. Resolution later skips errors in a scope that already has one.
+//! The checker keeps the path to the value, for messages, and the scope of its mistakes: the
+//! innermost field or element around it. Resolution later skips errors in a scope with a mistake.
 
 mod corrections;
 mod fields;
@@ -126,7 +126,7 @@ impl<'a> Checker<'a> {
     /// Returns the path of the value that is being read, such as `camera.view.LookAt.eye[1]`; empty
     /// for the whole scene.
     ///
-    /// Indices have no point before them; names have one, except for the first.
+    /// A point precedes every name except the first; indices have none.
     fn path_text(&self) -> String {
         let mut text = String::new();
         for segment in &self.path {
@@ -138,7 +138,7 @@ impl<'a> Checker<'a> {
         }
         text
     }
-    /// Returns the quoted path of the value, with which messages begin; empty for the whole scene.
+    /// Returns the quoted path with which a message begins, or nothing for the whole scene.
     fn path_prefix(&self) -> String {
         let path = self.path_text();
         if path.is_empty() { path } else { format!("`{path}`: ") }
@@ -215,12 +215,12 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Reports a struct name that is not the name of its type. Returns whether it is probably that
-    /// type anyway.
+    /// Reports a struct name that differs from the expected type's. Returns whether the struct is
+    /// probably of that type anyway.
     ///
-    /// The result is `Some` for an unknown name, such as a misspelling: its fields are then checked
-    /// too. It is `None` for a name that the language uses elsewhere, whose fields would all be
-    /// wrong.
+    /// The result is `Some` for an unknown name, such as a misspelling; the struct's fields are
+    /// then checked too. It is `None` for a name that the language uses elsewhere, since none of
+    /// its fields would be right.
     fn report_struct_name(&mut self, name: &Key<'_>, entry: &'static TypeEntry) -> Option<()> {
         let message = format!("expected `{}`, found `{}`", entry.name, name.name);
         let suggestion = suggest_variant(entry, name.name, self.top_level_field());
@@ -237,8 +237,8 @@ impl<'a> Checker<'a> {
     ///
     /// A missing field is reported only if every unknown field has another explanation: `modles:
     /// […]` is reported as a misspelling of `models`, and `models` is not reported as missing too.
-    /// If no item has a name, the brackets hold a tuple or a list, and one message says so. The
-    /// time is linear in items × declared fields, of which there are at most a few dozen.
+    /// If no item has a name, the brackets hold a tuple or a list, and only the first item is
+    /// reported. The time is proportional to items × declared fields.
     fn find_fields<'n>(
         &mut self,
         group: &'n Group<'n>,
@@ -285,7 +285,7 @@ impl<'a> Checker<'a> {
             }
             self.scopes.pop();
         }
-        // An unexplained field may be intended as a missing one.
+        // An unexplained field may be a badly misspelled missing one.
         let has_unexplained = unknown > meant.len();
         for field in declared.iter().filter(|_| !has_unexplained) {
             let is_there = field.is_optional || meant.contains(&field.name);
@@ -330,7 +330,7 @@ impl<'a> Checker<'a> {
     /// Reports an undeclared field. Returns the field of the same struct that is probably meant.
     ///
     /// The suggestion is based on the fields of this struct, of the whole language, of other
-    /// programs and of older versions of this one.
+    /// programs and of older scene files.
     fn report_unknown_field(
         &mut self,
         item: &SyntaxItem<'_>,
@@ -348,7 +348,7 @@ impl<'a> Checker<'a> {
             self.told_lists.push(item.value.span.start);
         }
         let message = format!("unexpected field `{}` in `{}`", key.name, owner.shown);
-        // `top` and `bottom` of a gradient are two mistakes with one fix.
+        // `top` and `bottom` of a gradient are two mistakes with one fix, which is shown once.
         let around = self.scopes.iter().rev().nth(1).map_or(0, |outer| outer.start);
         let is_known = self
             .mistakes
@@ -402,8 +402,8 @@ impl<'a> Checker<'a> {
     /// Reports a value that does not name a variant, and suggests a variant that can hold it, if
     /// any.
     ///
-    /// A string where a color's variant is expected gets the hint `Color("…")`; a number gets the
-    /// variant that contains a number.
+    /// For a string in place of a color, the hint is `Color("…")`; for a number, it is the variant
+    /// that contains a number.
     fn report_no_variant(
         &mut self,
         node: &Node<'_>,
@@ -479,7 +479,7 @@ fn variant_with_path(name: &str, variants: &[VariantEntry]) -> Option<String> {
     Some(format!("{}(path: \"{name}\")", variant.name))
 }
 
-/// Returns the first variant that has all fields of a group without a variant name.
+/// Returns the first variant that declares every field in a group without a variant name.
 fn variant_with_fields(group: &Group<'_>, variants: &[VariantEntry]) -> Option<&'static str> {
     let has = |variant: &VariantEntry, item: &SyntaxItem<'_>| {
         let is_key =

@@ -1,7 +1,7 @@
 //! Scene file values without their Rust types.
 //!
 //! ```text
-//!  formats of serde ◄─► Data ◄─► scene_struct!, scene_enum!
+//!  serde's formats ◄─► Data ◄─► scene_struct!, scene_enum!
 //! ```
 //! One reader and one writer per format then serve all types ([`serialized`](super::serialized)).
 //! Readers generated for each type took a third of this crate's compile time.
@@ -26,7 +26,7 @@ pub(crate) enum Data {
     List(Vec<Self>),
     /// A fixed number of values. Reading treats it as a list.
     Tuple(Vec<Self>),
-    /// Named fields in declaration order, except those with default values.
+    /// Named fields. Those with default values are omitted when written.
     Fields(Vec<(&'static str, Self)>),
     /// A variant with its fields or its value.
     Variant(&'static str, Box<Self>),
@@ -46,7 +46,7 @@ impl Data {
     /// Returns the value of a field, or its default if it was omitted.
     ///
     /// # Errors
-    /// Returns an error if there is neither, because the field is required.
+    /// Returns an error if the value cannot be read, or if the field is required but was omitted.
     pub(crate) fn field<T: SceneValue>(
         &self,
         name: &str,

@@ -4,8 +4,8 @@
 //!  scene_struct!  struct with fields           scene_enum!   variants with fields or a value
 //!  named_enum!    variants without fields      named_values! names for a foreign enum
 //! ```
-//! Doc comments are matched as `#[doc = "…"]` literals: rustdoc and the printed reference show the
-//! same text. The macros expand to absolute `$crate` paths, since they are used in many modules.
+//! Doc comments are matched as `#[doc = "…"]` literals, so that rustdoc and the printed reference
+//! show the same text. The macros expand to absolute `$crate` paths, for use in many modules.
 
 /// Joins the lines of a doc comment into paragraphs, with a blank line between them. Links to Rust
 /// items mean nothing to scene authors, so ``[`a`](b)`` and ``[`a`]`` become `` `a` ``.
@@ -37,8 +37,8 @@ fn remove_links(text: &str) -> String {
     plain + rest
 }
 
-/// Doc comments of a type, for the reference of the scene language. Without the feature `terminal`
-/// nothing prints them.
+/// Joins doc comments for the reference of the scene language. Without the feature `terminal`,
+/// which prints it, the result is empty.
 macro_rules! documentation {
     ($($line:literal),* $(,)?) => {
         if cfg!(feature = "terminal") { concat!($($line),*) } else { "" }
@@ -212,8 +212,8 @@ macro_rules! scene_enum {
     };
 }
 
-/// Builds the declaration of a field. A field with a default is optional; for any other, its type
-/// decides.
+/// Builds the declaration of a field. A field with a default is optional; any other field is
+/// optional if its type is.
 macro_rules! field_entry {
     ([$($doc:literal)*] $field:ident: $type:ty = $default:expr) => {
         $crate::schema::FieldEntry {
@@ -236,7 +236,7 @@ macro_rules! field_entry {
 }
 
 /// Builds the function that returns the value of an omitted field: the declared default, or else
-/// the type's, which is `None` for required fields.
+/// the type's default, which is `None` for required fields.
 macro_rules! default_value {
     ($type:ty = $default:expr) => {
         || -> Option<$type> { Some($default) }
@@ -256,7 +256,7 @@ macro_rules! inner_type {
     };
 }
 
-/// The name of the value in a variant's brackets, in a pattern.
+/// Expands to the name that a pattern binds to the value in a variant's brackets.
 macro_rules! variant_value {
     ($value:ident, $inner:ty) => {
         $value
@@ -378,7 +378,7 @@ macro_rules! named_values {
     };
 }
 
-/// Declares an enum without fields, with named values.
+/// Declares an enum without fields and names its values.
 macro_rules! named_enum {
     (
         $(#[doc = $doc:literal])*

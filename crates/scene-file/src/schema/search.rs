@@ -2,19 +2,18 @@
 //!
 //! Suggestions start at the scene's own brackets, such as `camera: (projection:
 //! Perspective(fov_y_degrees: …))`, so that they can be pasted. A breadth-first search over the
-//! types finds the positions: the shortest path to each type is its example.
+//! types finds the shortest path to each type, which becomes its example.
 
 use super::{Shape, TypeEntry, ValueType};
 use std::collections::BTreeSet;
 
-/// A pair of brackets in the language: a struct, an enum or a variant, with the text of a scene up
-/// to it.
+/// A struct, an enum or a variant, with the text of a scene around it.
 struct Site {
-    /// `Model`, or `View::LookAt`.
+    /// The name: `Model`, or `View::LookAt`.
     owner: String,
-    /// The text of a scene up to its brackets, such as `camera: (view: LookAt(`.
+    /// The text of a scene before its contents, such as `camera: (view: LookAt(`.
     before: String,
-    /// The closing brackets that end the scene after it.
+    /// The closing brackets after its contents.
     after: String,
     /// Its field names.
     fields: Vec<&'static str>,
@@ -64,10 +63,10 @@ pub(crate) fn example_of(root: &'static TypeEntry, owner: &str, name: &str) -> O
     Some(format!("{before}{name}{}{after}", if has_brackets { "(…)" } else { "" }))
 }
 
-/// Returns every struct and variant with brackets, each at its shortest path from the root.
+/// Returns every struct, enum and variant with brackets, each at its shortest path from the root.
 ///
-/// Breadth first, with one queue per depth. A type is entered once, at its first and therefore
-/// shortest path; this would also stop cycles if types ever referred to each other.
+/// The search is breadth-first, with one queue per depth. A type is entered once, at its first and
+/// therefore shortest path; this would also stop cycles if types ever referred to each other.
 fn sites(root: &'static TypeEntry) -> Vec<Site> {
     let mut sites: Vec<Site> = Vec::new();
     let mut seen = BTreeSet::new();

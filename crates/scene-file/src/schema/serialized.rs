@@ -211,7 +211,7 @@ impl<'de> Visitor<'de> for FieldsVisitor {
     }
 }
 
-/// Prefixes the error of a value with the field or element that contains it, as in ``
+/// Prefixes a value's error with the field or element that holds the value, as in ``
 /// `camera.projection.near`: expected … ``.
 fn error_in<E: Error>(place: &str, error: &E) -> E {
     let text = error.to_string();
@@ -249,8 +249,8 @@ impl<'de> Visitor<'de> for VariantVisitor {
     }
 }
 
-/// Reads the index of a name in the list that a function returns: from the name, or from the index
-/// itself in formats without names. Unknown names and indices are rejected.
+/// Reads a name as its index, or the index itself in formats without names. The first member is the
+/// kind of name; the second returns the name with an index. Unknown names and indices are rejected.
 struct NameOf<'a>(&'static str, &'a dyn Fn(usize) -> Option<&'static str>);
 
 impl<'de> DeserializeSeed<'de> for NameOf<'_> {
@@ -405,7 +405,7 @@ impl Serialize for WrittenField<'_> {
     }
 }
 
-/// Writes a number, without a decimal point if it is whole, as people write it.
+/// Writes a number as people do, without a decimal point if it is whole.
 fn write_number<S: Serializer>(number: f64, serializer: S) -> Result<S::Ok, S::Error> {
     // Up to 2⁵³ all whole numbers are exact. Negative zero has no integer form.
     let is_small = number.abs() <= 9_007_199_254_740_992.0;

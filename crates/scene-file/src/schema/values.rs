@@ -2,7 +2,7 @@
 
 use super::{Checker, Data, Form, Notation, SceneValue, ValueType};
 
-/// Declares a number type that allows only some values. `"…"` describes them in messages.
+/// Declares a number type that allows only some values, which `$expected` describes in messages.
 ///
 /// The number is finite and satisfies `$allowed`. Each range has its own type, so that resolution
 /// needs no checks. The doc comment is the entry in the reference.
@@ -74,7 +74,7 @@ macro_rules! checked_number {
 
 pub(crate) use checked_number;
 
-/// Implements [`SceneValue`] for a Rust type: its name in words, its checks and its form.
+/// Implements [`SceneValue`] for a Rust type, given its name in words, its check and its form.
 macro_rules! plain_value {
     ($type:ty, $words:literal, $check:ident, $form:ident($value:ident) => $read:expr, $write:expr) => {
         impl SceneValue for $type {
@@ -99,7 +99,7 @@ macro_rules! plain_value {
     };
 }
 
-/// Whether a value without parts can be read.
+/// Checks that a value without parts can be read.
 pub(crate) fn read_plain<T: SceneValue>(data: &Data) -> Result<(), String> {
     T::from_data(data).map(drop)
 }

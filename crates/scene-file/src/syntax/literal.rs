@@ -1,4 +1,4 @@
-//! Values of RON literals: string escapes and number notations.
+//! Reads RON literals: string escapes and number notations.
 
 /// Decodes a string literal: `"…"` with escapes, or `r"…"` and `r#"…"#` verbatim.
 ///
@@ -60,8 +60,8 @@ fn is_hexadecimal(digits: &str) -> bool {
     !digits.is_empty() && digits.chars().all(|digit| digit.is_ascii_hexdigit())
 }
 
-/// Whether a word looks like a number, valid or not: it begins with a digit, or with a sign or
-/// point followed by one.
+/// Whether a word looks like a number, valid or not: it begins with a digit after an optional sign
+/// and point, or is `inf` or `NaN`.
 pub(crate) fn looks_like_number(word: &str) -> bool {
     let unsigned = word.strip_prefix(['+', '-']).unwrap_or(word);
     let digits = unsigned.strip_prefix('.').unwrap_or(unsigned);

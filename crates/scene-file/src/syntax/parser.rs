@@ -65,7 +65,7 @@ struct Parser<'a> {
     open: Vec<Token<'a>>,
     errors: Vec<Mistake>,
     is_unreliable: bool,
-    /// The position where a group ended without its bracket, and where no comma is expected.
+    /// The index of a token that needs no comma, because a group ended there without its bracket.
     resumed_at: Option<usize>,
 }
 
@@ -111,15 +111,15 @@ impl<'a> Parser<'a> {
             }
             _ => return,
         };
-        // After a missing quotation mark, everything outside strings is taken for a string. The
-        // first string that spans lines is the likely culprit.
+        // After a missing quotation mark, strings and the text between them are swapped. The first
+        // string that spans lines is the likely culprit.
         let spans_lines =
             |token: &&Token<'_>| token.kind == TokenKind::Word && token.text.contains('\n');
         let first = tokens.iter().find(spans_lines).filter(|_| last.kind == TokenKind::Word);
         let start = first.unwrap_or(last).start;
         self.is_unreliable = true;
         self.report(start..start + 1, message, help);
-        // The rest of the text is not worth reporting.
+        // Errors in the rest of the text are not worth reporting.
         self.tokens.retain(|token| token.start < start);
     }
 
@@ -238,8 +238,8 @@ impl<'a> Parser<'a> {
         Node { span: start..end, kind: NodeKind::Group(Group { name, open, items }) }
     }
 
-    /// Moves past the bracket `close`, if it closes the innermost group or replaces the bracket
-    /// that would. Returns the end of the group.
+    /// Moves past the bracket `close`, if it closes the innermost group or is written in place of
+    /// the bracket that would. Returns the end of the group.
     fn close_group(&mut self, close: Token<'a>) -> usize {
         let open = self.open.last().copied().unwrap_or(close);
         if close.text == closing(open.text) {

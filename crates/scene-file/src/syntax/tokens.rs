@@ -76,7 +76,7 @@ fn token_kind_and_length(rest: &str, first: char) -> (TokenKind, usize) {
         '"' => (TokenKind::Word, 1 + string_length(&rest[1..])),
         '/' if rest.starts_with("//") => (TokenKind::LineComment, line()),
         '/' if rest.starts_with("/*") => (TokenKind::BlockComment, block_comment_length(rest)),
-        // An equals sign or a semicolon is never valid. It is a separate word so that the parser
+        // Equals signs and semicolons are never valid. Each is a separate word, so that the parser
         // can point at it.
         '=' | ';' => (TokenKind::Word, 1),
         _ => (TokenKind::Word, raw_string_length(rest).unwrap_or_else(|| word_length(rest, first))),

@@ -69,8 +69,8 @@ impl<'a> Node<'a> {
 /// A step from a value to one inside it. Variant names are not steps.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum PathStep<'a> {
-    /// The field of a struct or of an enum's variant.
+    /// A field of a struct or of an enum's variant, by name.
     Field(&'a str),
-    /// The element of a list or tuple, from 0.
+    /// An element of a list or tuple, counted from 0.
     Index(usize),
 }

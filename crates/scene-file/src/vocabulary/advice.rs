@@ -127,7 +127,7 @@ const ADVICE: &[(&str, &str, &str)] = &[
     (
         "Lines",
         "stroke line pen",
-        "write width: Px(2) for the line width, color: \"black\" for the line color",
+        "write width: Px(2) for the line width and color: \"black\" for the line color",
     ),
     (
         "Light",
@@ -157,7 +157,7 @@ const ADVICE: &[(&str, &str, &str)] = &[
     (
         "CameraPath",
         "duration seconds length loop closed time times fps frames speed",
-        "the times of the keys set the duration: the path ends at the last key, and closes if the last key repeats the first: keys: [(time: 0, eye: (0, 2, 6), target: (0, 0, 0)), (time: 2, eye: (6, 2, 0), target: (0, 0, 0))]",
+        "the times of the keys set the duration: the path ends at the last key, and closes if that key repeats the first; write keys: [(time: 0, eye: (0, 2, 6), target: (0, 0, 0)), (time: 2, eye: (6, 2, 0), target: (0, 0, 0))]",
     ),
     (
         "Viewport",

@@ -6,8 +6,8 @@
 /// - the struct, variant or enum that has the field or variant they mean;
 /// - the name of that field or variant.
 ///
-/// If a word has several rows, the row with the struct around the word comes first, then rows in
-/// the same scene field, then the first row.
+/// If a word has several rows, the row with the struct around the word takes precedence, then a row
+/// in the same scene field, then the first row.
 pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
     // Cameras: three.js PerspectiveCamera and OrthographicCamera, glTF camera.perspective, Blender
     // and f3d's --camera-… options.

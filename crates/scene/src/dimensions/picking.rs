@@ -13,7 +13,7 @@ use scene_file::{SceneError, suggest_name};
 /// Faces that meet at more than this angle, in radians, have a pickable edge.
 const CREASE_ANGLE: f64 = core::f64::consts::FRAC_PI_6;
 
-/// Directions are parallel if the sine of their angle is at most this.
+/// Directions are parallel if the sine of the angle between them is at most this.
 const PARALLEL_SINE: f64 = 1e-4;
 
 /// A part of the models at which a dimension begins or ends.
@@ -46,7 +46,7 @@ impl Picked {
     }
 
     /// Returns the nearest points of this part and another, on the line or plane that each
-    /// represents, or `None` if these are not parallel.
+    /// represents, or `None` if edges or faces are not parallel.
     pub(super) fn perpendicular_to(&self, other: &Self) -> Option<[DVec3; 2]> {
         let (a, b) = (self.point(), other.point());
         let direction = |feature: &PickedFeature| feature.direction.raw();
@@ -193,7 +193,7 @@ impl<'a> Picking<'a> {
         self.picker.bounds(objects).ok_or_else(nothing)
     }
 
-    /// Returns the objects below the named node; the name is in the field at the end of a path.
+    /// Returns the objects below the named node; `field` inside `path` contains the name.
     fn objects(
         &self,
         name: &str,

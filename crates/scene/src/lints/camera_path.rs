@@ -9,8 +9,8 @@ use scene_file::file::ViewFile;
 
 /// The number of steps at which the path between two keyframes is examined.
 const STEPS: u32 = 64;
-/// If the gaze is shorter than this fraction of the longest gaze near it, the eye has passed
-/// through its target. Two directions are parallel if the sine of their angle is below it.
+/// If the gaze is at most this fraction as long as one step earlier, the eye is at its target. Two
+/// directions are parallel if the sine of the angle between them is at most this.
 const DEGENERATE: f64 = 1e-6;
 
 /// Warns about a path whose eye meets its target, or whose gaze becomes parallel to the view-up

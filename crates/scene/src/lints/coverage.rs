@@ -4,7 +4,7 @@ use super::{Lint, Linter, VisibilitySurvey};
 use scene_file::PathStep::{Field, Index};
 
 /// Models are specks if the width and height of their bounding rectangle are below this fraction of
-/// the picture's, so that it covers less than a thousandth of the area.
+/// the picture's, so that the rectangle covers less than a thousandth of the area.
 const LEAST_SIDE: f64 = 0.0316;
 /// One of several models is a speck if it is smaller than this in both directions, in pixels.
 const LEAST_PIXELS: f64 = 2.0;

@@ -40,11 +40,11 @@ pub(super) fn lint_depth_clipping(adviser: &Linter<'_>) -> Vec<Lint> {
     advice
 }
 
-/// Warns about a perspective whose near plane is far in front of everything. It wastes depth
-/// resolution on empty space, since most depth steps are just beyond the near plane (ZP-1).
+/// Warns about a perspective whose near plane is far in front of everything. Such a plane wastes
+/// depth resolution on empty space, since most depth steps are just beyond the near plane (ZP-1).
 ///
-/// There is only one warning per scene, with the distance of the nearest vertex. The suggested
-/// plane is 1% in front of that.
+/// There is only one warning per scene, with the distance of the nearest vertex. The suggested near
+/// plane is 1% closer.
 pub(super) fn lint_depth_range(adviser: &Linter<'_>) -> Option<Lint> {
     let near = near_distance(adviser)?;
     let spans = adviser.surveys.iter().filter_map(super::VisibilitySurvey::depth_range);

@@ -4,7 +4,7 @@ use super::{Lint, Linter};
 use scene_file::PathStep::{Field, Index};
 use scene_file::file::InstancesFile;
 
-/// Warns about instances of a model with the same transform, such as in a grid with a step of 0.
+/// Warns about instances of a model with the same transform, as in a grid with a step of 0.
 ///
 /// Sorting makes equal transforms neighbors, in O(n log n) for n instances.
 pub(super) fn lint_coincident_instances(adviser: &Linter<'_>) -> Vec<Lint> {
@@ -35,7 +35,7 @@ pub(super) fn lint_coincident_instances(adviser: &Linter<'_>) -> Vec<Lint> {
                 (&path[..], "set a nonzero `step` along each axis whose count is more than 1")
             }
             Some(InstancesFile::Circle { .. }) => {
-                (&path[..3], "set a larger `radius`, and `sweep_degrees` to less than a full turn")
+                (&path[..3], "increase `radius`, and set `sweep_degrees` to less than a full turn")
             }
             _ => (&path[..3], "set a different `translation` for each, or remove the duplicates"),
         };

@@ -25,7 +25,7 @@ pub(super) fn lint_field_of_view(origin: &Origin, file: &SceneFile) -> Option<Li
     Some(Lint { code: "narrow-field-of-view", error })
 }
 
-/// Warns about light colors with numbers up to 255: light is linear, and white is (1, 1, 1).
+/// Warns about light colors with numbers above 1, probably bytes; linear white is (1, 1, 1).
 pub(super) fn lint_light_colors(origin: &Origin, file: &SceneFile) -> Vec<Lint> {
     let lights = file.lights.iter().flatten().enumerate();
     let lint = |(number, light): (usize, &LightFile)| {

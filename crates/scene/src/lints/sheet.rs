@@ -1,4 +1,4 @@
-//! Lints for sheets: views without room, sections that no view shows, characters without a glyph.
+//! Lints for sheets: views without room, sections that no view shows, and missing glyphs.
 
 use super::{Lint, Linter};
 use crate::sheet::{SheetContent, resolve_sheet};

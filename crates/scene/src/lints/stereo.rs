@@ -14,8 +14,8 @@ const WIDEST_BASE: f64 = 0.25;
 /// Warns about a stereo pair whose parallax varies by less than a pixel over all vertices: a flat
 /// picture.
 ///
-/// The parallax of a point is the distance between its images in the two eyes' pictures. If it were
-/// the same for all points, the scene would look like a flat card in front of or behind the screen.
+/// The parallax of a point is the distance from its left to its right image. If it were the same
+/// for all points, the scene would look like a flat card in front of or behind the screen.
 pub(super) fn lint_flat_stereo(adviser: &Linter<'_>) -> Option<Lint> {
     adviser.file.stereo.as_ref()?;
     let [left, right] = adviser.scene.insets.as_slice() else { return None };

@@ -1,4 +1,4 @@
-//! Lints for labels and captions: points outside the picture, characters without a glyph.
+//! Lints for labels and captions: points outside the picture, and characters without a glyph.
 
 use super::{Lint, Linter};
 use crate::Scene;

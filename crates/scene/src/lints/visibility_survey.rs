@@ -33,7 +33,7 @@ pub(super) struct VisibilitySurvey {
     pub(super) before_near: usize,
     /// Vertices that only the far plane keeps out of the picture.
     pub(super) behind_far: usize,
-    /// The smallest and largest distance of a vertex along the gaze.
+    /// The smallest and largest distances of vertices along the gaze.
     depth_range: Option<(f64, f64)>,
     /// The smallest and largest x and y of the parts inside, in a window from −1 to 1.
     window: Option<[f64; 4]>,
@@ -77,8 +77,8 @@ impl VisibilitySurvey {
         self.total > 0 && self.inside == 0
     }
 
-    /// Returns the smallest and largest distance of a vertex along the line of sight, or `None`
-    /// without vertices.
+    /// Returns the smallest and largest distances of vertices along the gaze, or `None` without
+    /// vertices.
     pub(super) fn depth_range(&self) -> Option<(f64, f64)> {
         self.depth_range
     }
@@ -90,8 +90,8 @@ impl VisibilitySurvey {
     }
 
     /// Returns the width and height of the rectangle around the visible parts, as fractions of the
-    /// picture's, or `None` if nothing is visible. Parts partly behind the eye count as filling the
-    /// picture.
+    /// picture's, or `None` if nothing is visible. A part that is partly behind the eye counts as
+    /// filling the picture.
     pub(super) fn window_part(&self) -> Option<[f64; 2]> {
         self.window.map(|[left, bottom, right, top]| [(right - left) / 2.0, (top - bottom) / 2.0])
     }
@@ -199,8 +199,8 @@ impl VisibilitySurvey {
     }
 }
 
-/// Returns 1 if a ray from the origin exits through the triangle, -1 if it enters, 0 if it misses
-/// (Möller and Trumbore, 1997, with the triangle seen from the ray's origin).
+/// Returns 1 if a ray from the origin exits through the triangle, -1 if it enters, and 0 if it
+/// misses (Möller and Trumbore, 1997, with the triangle seen from the ray's origin).
 ///
 /// Solves t d = (1 − u − v) a + u b + v c by Cramer's rule. The triangle is relative to the eye.
 /// Rays parallel to its plane have a determinant of 0 and miss. A ray through an edge hits the

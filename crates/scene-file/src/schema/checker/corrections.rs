@@ -1,13 +1,13 @@
-//! Values in other forms, rewritten as the structs they represent.
+//! Rewrites values in other forms as the structs they represent.
 
 use crate::color::Color;
 use crate::file::MaterialFile;
 use crate::schema::{Declared, FieldEntry, Shape, TypeEntry, ValueType};
 use crate::syntax::{Node, NodeKind, SyntaxItem};
 
-/// Rewrites a string as a struct: as its only required field, `(path: "a.glb")`, or, for a color,
-/// as the first color of a struct without required fields, `(base_color: "red")`. `Color("red")` is
-/// treated as the string `"red"`.
+/// Rewrites a string as a struct with one field: its only required one, as in `(path: "a.glb")`. If
+/// no field is required, a color becomes the first color field, as in `(base_color: "red")`.
+/// `Color("red")` is treated as the string `"red"`.
 pub(super) fn bracket_string(node: &Node<'_>, entry: &TypeEntry) -> Option<String> {
     let color = node.group().filter(|group| {
         group.name.as_ref().is_some_and(|name| name.name == "Color") && group.items.len() == 1

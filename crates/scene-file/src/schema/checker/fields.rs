@@ -4,7 +4,7 @@ use super::{Checker, Segment};
 use crate::schema::FieldEntry;
 use crate::syntax::{Node, NodeKind, SyntaxItem};
 
-/// The fields of a struct or a variant found in the text, each once, in text order.
+/// The fields of a struct or a variant found in the text, in text order, misspelled ones last.
 pub(super) type FoundFields<'n> = Vec<(&'static FieldEntry, &'n SyntaxItem<'n>)>;
 
 impl Checker<'_> {

@@ -1,4 +1,4 @@
-//! Checks lists, and values that should be in a list.
+//! Checks lists and values that should be in a list.
 
 use super::{Checker, Segment, bracket_map, bracket_string};
 use crate::file::is_dimensions_list;

@@ -154,8 +154,8 @@ impl Checker<'_> {
     }
 }
 
-/// Returns the elements of a tuple of `count` values, in either kind of brackets, because people
-/// write vectors both ways.
+/// Returns the elements of a tuple of `count` values. Either kind of brackets is accepted, because
+/// people write vectors both ways.
 fn tuple_items<'n, 'a>(
     node: &'n Node<'a>,
     count: usize,

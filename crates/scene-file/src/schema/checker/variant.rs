@@ -17,7 +17,7 @@ impl Checker<'_> {
         self.path.pop();
     }
 
-    /// Reports brackets after a variant that has none.
+    /// Reports brackets after a variant that takes none.
     fn check_empty(&mut self, name: &str, group: Option<&Group<'_>>) {
         let Some(group) = group else { return };
         let message = format!("`{name}` has no fields");
@@ -47,7 +47,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Reports a variant without its required brackets, which are empty if all fields have
+    /// Reports a variant without its required brackets, which may be empty if all fields have
     /// defaults.
     fn report_no_brackets(&mut self, name: &str, node: &Node<'_>, is_complete: bool, with: &str) {
         let message = format!("`{name}` needs brackets");
