@@ -1,4 +1,5 @@
-//! Projection symbol (ISO 5456-2): a truncated cone, seen from the side and from its narrow end.
+//! The projection symbol (ISO 5456-2): a truncated cone, seen from the side and from its narrow
+//! end.
 //!
 //! ```text
 //!   first angle      ╱│          third angle       │╲
