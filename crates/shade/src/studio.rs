@@ -32,7 +32,7 @@ const SOFTBOXES: [Softbox; 5] = [
     Softbox { direction: [0.35, 0.36, -0.87], half_size: [0.80, 0.22], radiance: 1.62 },
     Softbox { direction: [0.0, 1.0, 0.05], half_size: [0.65, 0.16], radiance: 1.5 },
 ];
-/// The fade inside and outside a softbox's edges, as fractions of half its width and height.
+/// The fade on each side of a softbox's edges, as fractions of its half width and half height.
 const SOFTBOX_FADE: [f32; 2] = [0.25, 0.15];
 
 /// Computes the studio's radiance from a direction, a unit vector with y up.

@@ -51,7 +51,7 @@ impl<const N: usize> TransmittedShare<N> {
         self.tint * self.fraction
     }
 
-    /// Returns the share of white light from behind, by luminance.
+    /// Returns the factor for the luminance of white light from behind.
     #[inline(always)]
     pub(super) fn gray(&self) -> Lanes<N> {
         (self.fraction * luminance(self.tint)).clamp(0.0, 1.0)

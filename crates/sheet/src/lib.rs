@@ -5,9 +5,11 @@
 //!   models ─► views ─► layout on the paper ─► dimensions, marks ─► pages
 //! ```
 //!
-//!  module | technique | --- | --- | `sheet` | first-angle or third-angle views, title block,
-//!  dimensions | `warning` | warnings about content missing from a sheet | `assembly` | parts
-//!  grouped by content, masses by the divergence theorem, exploded views |
+//!  module | technique |
+//!  --- | --- |
+//!  `sheet` | first-angle or third-angle views, title block, dimensions |
+//!  `warning` | warnings about content missing from a sheet |
+//!  `assembly` | parts grouped by content, masses by the divergence theorem, exploded views |
 
 mod assembly;
 mod sheet;

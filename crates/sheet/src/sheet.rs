@@ -146,8 +146,7 @@ pub struct Sheet {
     /// The pages that show the models as an assembly of parts; see
     /// [`draw_pages`](Self::draw_pages).
     pub assembly: AssemblyPages,
-    /// Requests to add to or replace the principal and axonometric views, or to cut or break a
-    /// view.
+    /// Requests that add or replace views, or that cut or break them locally.
     pub views: Vec<ViewRequest>,
     /// The border around the drawing area.
     pub frame: SheetFrame,
@@ -235,8 +234,7 @@ impl Sheet {
     /// Returns a technical drawing on the given paper, in first-angle projection, with a left view,
     /// an isometric view and overall dimensions.
     ///
-    /// The line group grows with the paper: 0.35 mm up to A5, 0.5 mm up to A2, and 0.7 mm above
-    /// that.
+    /// The line group grows with the paper: 0.35 mm up to A5, 0.5 mm up to A2, then 0.7 mm.
     #[must_use]
     pub fn for_paper(paper: Paper, paper_name: impl Into<String>) -> Self {
         let group = match paper.width().max(paper.height()) {
@@ -398,8 +396,7 @@ impl Sheet {
         LineStyle { hidden_lines, face_fill, ..self.style }
     }
 
-    /// Adds the drawing of a view to the page, in layers whose ids are prefixed with the view's
-    /// name.
+    /// Adds the drawing of a view to the page, in layers whose ids begin with the view's name.
     fn add_view(
         &self,
         page: &mut SheetPage,
@@ -446,8 +443,8 @@ impl Sheet {
         page.layers.extend(title_block::title_block_layers(self, &title, scale, block, ink));
     }
 
-    /// Returns the frame, with zones if requested. Centering marks stop at the frame if contents
-    /// are in their way.
+    /// Returns the frame, with zones if requested. Centering marks stop at it to avoid the
+    /// contents.
     fn frame_layers(&self, contents: &[Extent], ink: Ink) -> Vec<Layer> {
         let frame = frame::frame_layer(self.paper, self.frame, contents, ink);
         let zones = match self.frame {

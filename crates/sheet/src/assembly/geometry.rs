@@ -14,8 +14,7 @@ use std::sync::Arc;
 /// parts.
 const SHAPE_TOLERANCE: f64 = 1e-5;
 
-/// The maximum number of sizes compared for each mesh. Parts of further sizes all count as
-/// different.
+/// The maximum number of sizes compared per mesh. Parts of further sizes all count as different.
 const MAX_SIZES: usize = 1000;
 
 /// A size at which a mesh occurs: its Gram matrix, whether it is mirrored, and its class number.
@@ -24,8 +23,7 @@ type SizeClass = (DMat3, bool, usize);
 /// Assigns the same class number to identical parts.
 pub(super) struct PartClasses<'a> {
     models: &'a [ModelInstance],
-    /// Mesh contents by digest, each given by the model index and instance of the first part with
-    /// that content.
+    /// The first part with each mesh content, by digest, as its model index and instance.
     contents: BTreeMap<u64, Vec<(usize, MeshInstance)>>,
     /// The content keys of undeformed meshes, by the first model with the mesh and the mesh index.
     rigid: BTreeMap<(usize, usize), (u64, usize)>,

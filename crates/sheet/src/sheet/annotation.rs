@@ -30,11 +30,11 @@ pub(super) enum AnnotationLayer {
     Dimensions,
     /// The text of dimensions.
     DimensionTexts,
-    /// The cutting lines of sections.
+    /// Section lines, as narrow chain lines.
     CutLines,
-    /// The wide ends of the cutting lines.
+    /// The wide ends of the section lines.
     CutEnds,
-    /// The arrows of the cutting lines.
+    /// The arrows of the section lines.
     CutArrows,
     /// Section letters and sectional view names.
     CutNames,

@@ -1,5 +1,5 @@
-//! The assembly page: a view of all parts, in place or exploded, with balloons around it and the
-//! parts list above the title block.
+//! Assembly page: a view of all parts, in place or exploded, with balloons around it and the parts
+//! list above the title block.
 //!
 //! ```text
 //!   ┌──────────────────────────────┐
@@ -21,15 +21,14 @@ use glam::DVec2;
 use page::{Group, Ink, Label, Layer, Pen, Polyline, TextAlign};
 use viewport::{DrawingScale, Rectangle};
 
-/// The distance, in millimeters, from the view or its balloons to the frame; it is large enough to
+/// The distance from the view or its balloons to the frame, in millimeters. It is large enough to
 /// clear the centering marks.
 const BORDER_GAP: f64 = 6.0;
 
 /// The distance from the view to the balloons, in millimeters.
 const VIEW_GAP: f64 = 5.0;
 
-/// The minimum distance, in millimeters, between balloons. A leader clears other balloons by half
-/// of it.
+/// The minimum distance between balloons, in millimeters. Leaders clear other balloons by half.
 const BALLOON_GAP: f64 = 2.5;
 
 /// The number of steps between the rings to try, from the view to the border.
@@ -109,8 +108,8 @@ impl AssemblyLayout {
         2.0 * self.radius + BALLOON_GAP
     }
 
-    /// Returns the rectangle on which balloon centers are placed, from tight around the view if
-    /// `part` is 0 to the border if it is 1.
+    /// Returns the rectangle on which balloon centers are placed, around the view if `part` is 0,
+    /// at the border if `part` is 1.
     fn ring(&self, part: f64) -> Extent {
         let [low, high] = self.region;
         let near = self.half + DVec2::splat(VIEW_GAP + self.radius);

@@ -43,8 +43,8 @@ pub(super) fn ring_places([low, high]: Extent, pitch: f64) -> Vec<DVec2> {
 }
 
 /// Assigns a distinct position to each spot so that the total length of the leaders is minimal,
-/// which keeps them from crossing. Returns `None` if there are too few positions, or if a leader
-/// comes closer than `clearance` to the position of another balloon.
+/// which keeps the leaders from crossing. Returns `None` if there are too few positions, or if a
+/// leader comes closer than `clearance` to the position of another balloon.
 pub(super) fn shortest_places(
     spots: &[DVec2],
     places: &[DVec2],

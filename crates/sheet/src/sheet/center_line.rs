@@ -23,8 +23,8 @@ use viewport::DrawingScale;
 /// The overhang of center lines beyond the circle or part, in millimeters on paper.
 pub(super) const CENTER_LINE_OVERHANG: f64 = 2.5;
 
-/// The minimum radius, in millimeters on paper, of a circle that gets a cross. On a smaller circle,
-/// the cross would hide the circle.
+/// The minimum radius, in millimeters on paper, of a circle that gets a cross. A cross would hide a
+/// smaller circle.
 const LEAST_RADIUS: f64 = 0.75;
 
 /// The minimum arc of a circle that gets a cross. Smaller arcs are fillets, not holes or shafts.

@@ -71,8 +71,7 @@ impl DimensionBoard {
     }
 }
 
-/// Returns a leader with its arrowhead at a point of a circle and the text on a shelf at its other
-/// end.
+/// Returns a leader, with its arrowhead at a point of a circle and its text on a shelf at the end.
 fn leader(text: &str, tip: DVec2, away: DVec2, length: f64, letters: f64) -> Candidate {
     let mut candidate = Candidate::default();
     let corner = tip + away * length;

@@ -39,8 +39,7 @@ pub(super) fn convex_parts(shape: &AnnotationShape, margin: f64) -> Vec<Vec<DVec
     }
 }
 
-/// Whether two convex outlines overlap by more than mere contact. An outline of two points is a
-/// line.
+/// Whether two convex outlines overlap by more than mere contact. Two points are a line.
 pub(super) fn convex_overlap(a: &[DVec2], b: &[DVec2]) -> bool {
     let axes = sides(a).chain(sides(b)).chain([DVec2::X, DVec2::Y]);
     let along = |points: &[DVec2], axis: DVec2| {
@@ -109,8 +108,7 @@ pub(super) fn reach_between(
             add(from);
         }
         for border in [low, high] {
-            // Only sides that cross the border count here; corners on the border have been added
-            // above.
+            // Only sides that cross the border count; corners on the border have been added above.
             if (s - border) * (t - border) < 0.0 {
                 add(from + (to - from) * ((border - s) / (t - s)));
             }

@@ -29,8 +29,7 @@ const HALF_BREAK: f64 = 1.5;
 /// The maximum deviation of a break line from a straight line, in millimeters on paper.
 const BREAK_WAVER: f64 = 1.2;
 
-/// The maximum deviation of the line around a local section from a circle, as a fraction of the
-/// circle's radius.
+/// The maximum deviation of a local section's border from a circle, as a fraction of the radius.
 const LOCAL_WAVER: f64 = 0.08;
 
 /// Lines within this distance of the center line of a half section, in pixels of the drawing, are
@@ -103,8 +102,7 @@ impl Break {
 }
 
 impl Composition {
-    /// Whether a strip or half of the view is cut, so that all hidden lines of the view are
-    /// omitted.
+    /// Whether strips or a half of the view are cut, so that all its hidden lines are omitted.
     pub(super) const fn is_section(&self) -> bool {
         matches!(self, Self::Stepped { .. } | Self::Half { .. })
     }

@@ -53,7 +53,7 @@ struct LinearDimension {
     length: f64,
 }
 
-/// Adds the overall dimensions of a view. `half` is half the size of the object in it.
+/// Adds the overall dimensions of a view. `half` is half the size of the object in the view.
 ///
 /// A direction in which the object has no extent gets no dimension.
 pub(super) fn add_overall_dimensions(
@@ -79,7 +79,7 @@ pub(super) struct DimensionSettings {
     pub(super) scale: DrawingScale,
     /// The format of the lengths.
     pub(super) format: LengthFormat,
-    /// The space around the outline for cut lines and letters, in millimeters, or 0 if unused.
+    /// The space around the outline for section lines and letters, in millimeters, or 0 if unused.
     pub(super) reserved: f64,
     /// The length that a broken view omits along each axis of the paper, in object millimeters.
     pub(super) left_out: DVec2,

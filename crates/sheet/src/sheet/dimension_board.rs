@@ -1,4 +1,4 @@
-//! The dimension board: the free space around a view, in which dimensions are placed one by one.
+//! Dimension board: the free space around a view, in which dimensions are placed one by one.
 //!
 //! ```text
 //!        │◄── 80 ──►│          a number touches neither the part (its convex hull) nor a line nor
@@ -79,8 +79,7 @@ impl Candidate {
 }
 
 impl DimensionBoard {
-    /// Creates a board with the space left free by existing annotations and by lines reserved for
-    /// later ones.
+    /// Creates a board with the space that existing annotations and `reserved` lines leave free.
     pub(super) fn new(
         annotations: &ViewAnnotations,
         hull: Vec<DVec2>,

@@ -125,8 +125,7 @@ fn trimming_marks(paper: Paper, pen: Pen) -> Layer {
     for corner in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(DVec2::from) {
         let inward = DVec2::ONE - corner * 2.0;
         let at = |x: f64, y: f64| size * corner + inward * DVec2::new(x, y);
-        // Both rectangles form one outline, because areas where the two overlap would not be
-        // filled.
+        // Both rectangles form one outline, because their overlap would not be filled otherwise.
         let outline = [
             at(0.0, 0.0),
             at(long, 0.0),

@@ -114,8 +114,7 @@ impl LengthFormat {
         }
     }
 
-    /// Formats a length with its unit for the scale bar. Long metric lengths are in meters or
-    /// kilometers.
+    /// Formats a length with its unit for the scale bar. Long metric lengths are in m or km.
     pub(super) fn text_with_unit(self, length: f64) -> String {
         let number = |length: f64| {
             let text = length.to_string();

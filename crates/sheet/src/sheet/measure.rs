@@ -266,8 +266,8 @@ impl Dimension {
     /// Chooses the view that shows the dimension, as an index into `views`, and the image in it.
     ///
     /// # Errors
-    /// Returns the reason why the requested view or, if none is requested, every view fails to show
-    /// the dimension.
+    /// Returns the reason if the requested view, or by default every view, fails to show the
+    /// dimension.
     pub(super) fn choose_view(
         &self,
         views: &[&SheetView],

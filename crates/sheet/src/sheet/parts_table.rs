@@ -250,8 +250,7 @@ fn cut_to_width(text: &str, height: f64, room: f64) -> String {
     cut(low)
 }
 
-/// Formats a mass with up to four significant digits and three decimals; larger masses are
-/// integers.
+/// Formats a mass with up to four significant digits and three decimals, or as a larger integer.
 fn format_mass(mass: f64) -> String {
     let decimals = match mass {
         mass if mass >= 999.95 => 0,

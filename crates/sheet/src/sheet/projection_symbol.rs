@@ -1,5 +1,4 @@
-//! The projection symbol (ISO 5456-2): a truncated cone, seen from the side and from its narrow
-//! end.
+//! Projection symbol (ISO 5456-2): a truncated cone, seen from the side and from its narrow end.
 //!
 //! ```text
 //!   first angle      ╱│          third angle       │╲
