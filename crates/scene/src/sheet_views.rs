@@ -89,8 +89,8 @@ pub fn sheet_view_error(origin: &Origin, error: &SheetError) -> Option<SceneErro
         }
         SheetError::Outside { number, view, x, y } => {
             let message = format!(
-                "the {view} extends beyond the frame: its center must be from {:.0} to {:.0} mm \
-                 from the left and from {:.0} to {:.0} mm from the top",
+                "the {view} extends beyond the frame: its center must be {:.0} to {:.0} mm from \
+                 the left and {:.0} to {:.0} mm from the top",
                 x[0], x[1], y[0], y[1]
             );
             (number, Some(Field("at")), message)

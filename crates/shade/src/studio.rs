@@ -1,4 +1,4 @@
-//! The studio: a procedural environment with even light over a dark floor, and softboxes.
+//! The studio: a procedural environment with evenly lit walls, a dark floor and softboxes.
 //!
 //! ```text
 //!          ▬▬▬  overhead strip
@@ -14,7 +14,7 @@
 use super::procedural_sky::smoothstep;
 use super::vector::{cross, dot, normalize};
 
-/// A softbox: a rectangle of light with smooth borders, one unit away.
+/// A softbox: a luminous rectangle with soft edges, one unit away.
 struct Softbox {
     /// The direction of the center, y up, of any length.
     direction: [f32; 3],
@@ -32,15 +32,14 @@ const SOFTBOXES: [Softbox; 5] = [
     Softbox { direction: [0.35, 0.36, -0.87], half_size: [0.80, 0.22], radiance: 1.62 },
     Softbox { direction: [0.0, 1.0, 0.05], half_size: [0.65, 0.16], radiance: 1.5 },
 ];
-/// The fractions of a softbox's half width and half height over which the border fades.
+/// The fade on each side of a softbox's edges, as fractions of its half width and half height.
 const SOFTBOX_FADE: [f32; 2] = [0.25, 0.15];
 
-/// Computes the radiance from a direction in a photo studio; the direction is a unit vector with y
-/// up.
+/// Computes the studio's radiance from a direction, a unit vector with y up.
 ///
-/// A matte white surface, whose radiance is the irradiance over π, reaches at most 1.04, and 0.21
-/// facing the floor. No direction is brighter than 2.17, so a mirror does not clip at 0.45, the
-/// strength used for bare models.
+/// The radiance of a matte white surface (the irradiance over π) is at most 1.04; facing the floor,
+/// it is 0.21. The studio's radiance never exceeds 2.17, so mirrors do not clip at a strength of
+/// 0.45, which bare models use.
 #[must_use]
 pub fn studio_radiance(direction: [f32; 3]) -> [f32; 3] {
     let height = direction[1];
@@ -55,7 +54,7 @@ pub fn studio_radiance(direction: [f32; 3]) -> [f32; 3] {
 }
 
 impl Softbox {
-    /// Computes the coverage of a direction by the rectangle, from 0 outside to 1 inside.
+    /// Computes how much the rectangle covers a direction, from 0 outside to 1 inside.
     fn coverage(&self, direction: [f32; 3]) -> f32 {
         let center = normalize(self.direction);
         let across = normalize(cross([0.0, 1.0, 0.0], center));
@@ -88,8 +87,8 @@ mod tests {
         })
     }
 
-    /// Computes the radiance of a matte white surface with this normal: the integral over its
-    /// hemisphere, divided by π.
+    /// Computes the radiance of a matte white surface with this normal: the cosine-weighted
+    /// integral over the hemisphere, divided by π.
     fn matte_white(normal: [f32; 3]) -> f32 {
         let count = 40_000;
         let light = |d: [f32; 3]| studio_radiance(d)[1] * dot(d, normal).max(0.0);

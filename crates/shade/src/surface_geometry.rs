@@ -10,7 +10,7 @@
 //! Normals in the file may be missing (triangles are then flat), cancel out between vertices (the
 //! face normal is then used) or point away from the viewer.
 //!
-//! Whether a face is a back face depends on its triangle's normal. Near a silhouette, the
+//! The triangle's normal determines whether its back face is visible, because near a silhouette the
 //! interpolated normal may legitimately point away from the viewer.
 
 mod normal_mapping;
@@ -24,7 +24,7 @@ use super::lanes::{Lanes, Mask, Vec3Lanes};
 use super::vector::try_normalize;
 use normal_mapping::apply_normal_map;
 
-/// The surfaces at some fragments, relative to the viewer.
+/// The geometry of the surfaces at some fragments, and the directions to the viewer.
 ///
 /// All vectors are in world space. The geometry with smooth normals is used for shadows, ambient
 /// occlusion and a clearcoat without a normal map; the geometry with mapped normals is used for the
@@ -39,7 +39,7 @@ pub(super) struct SurfaceGeometry<const N: usize> {
     pub(super) normals: Vec3Lanes<N>,
     /// Whether the visible side is the back face.
     is_back_facing: Mask<N>,
-    /// n·v, not below 0.
+    /// The dot product n·v, clamped to at least 0.
     pub(super) n_dot_v: Lanes<N>,
     /// The angle between the interpolated normals of neighboring pixels in radians, at most 1.
     pub(super) normal_variation: Lanes<N>,
@@ -147,8 +147,8 @@ impl Draw<'_> {
         }
     }
 
-    /// Computes the normals of triangles with these vertices on their front side, with a length of
-    /// twice the area.
+    /// Computes the front-side normals of triangles, each with a length of twice the triangle's
+    /// area.
     #[inline(always)]
     pub(super) fn face_normals<const N: usize>(
         &self,
@@ -179,8 +179,9 @@ fn normalize_vectors<const N: usize>(vectors: &mut Vec3Lanes<N>, squares: Lanes<
 /// Computes the angle in radians, at most 1, between unit normals and the normals at the next
 /// pixels.
 ///
-/// `squares` are the squared lengths of the interpolated normals, and `steps` their derivatives by
-/// column and row. A unit vector turns by the component of a step that is perpendicular to it.
+/// `squares` are the squared lengths of the interpolated normals, and `steps` are the normals'
+/// derivatives with respect to column and row. A unit vector turns by the component of a step that
+/// is perpendicular to it.
 ///
 /// The angle increases roughness in the BRDF (geometric specular antialiasing); without this, a
 /// distant curved surface would sparkle.
@@ -215,7 +216,7 @@ pub(super) fn view_directions<const N: usize>(
     directions * inv_length
 }
 
-/// Finds visible back faces from the normals of the triangles.
+/// Finds the fragments on visible back faces, given the normals of their triangles.
 #[inline(always)]
 pub(super) fn find_back_faces<const N: usize>(
     face_normals: Vec3Lanes<N>,

@@ -6,8 +6,8 @@
 //!   d/dx d/dy  the texture  it      texels        lerp          straight alpha
 //! ```
 //!
-//! If a pixel covers many texels, the mip level in which it covers about one is read, so that the
-//! texture neither shimmers nor costs more than a few fetches.
+//! Where a pixel covers many texels, the texture is read from the mip level in which the pixel
+//! covers about one. It then does not shimmer, and a few fetches suffice.
 
 mod addressing;
 mod filtering;
@@ -21,7 +21,7 @@ use super::lanes::{Lanes, Rgb};
 /// Texture coordinates at some fragments.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct UvLanes<const N: usize> {
-    /// u and v, 0 to 1 over the image from its upper left corner.
+    /// u and v, from 0 to 1 across the image, starting at its upper left corner.
     pub(super) uv: [Lanes<N>; 2],
     /// The derivatives with respect to the pixel's column.
     pub(super) dx: [Lanes<N>; 2],
@@ -30,7 +30,7 @@ pub(super) struct UvLanes<const N: usize> {
 }
 
 impl<const N: usize> UvLanes<N> {
-    /// A single point of the texture everywhere, for meshes without texture coordinates.
+    /// The same point of the texture everywhere, for meshes without texture coordinates.
     pub(super) const ZERO: Self =
         Self { uv: [Lanes::ZERO; 2], dx: [Lanes::ZERO; 2], dy: [Lanes::ZERO; 2] };
 }
@@ -69,7 +69,7 @@ mod tests {
         Image { width: size, height: size, rgba: (0..size * size).map(texel).collect() }
     }
 
-    /// Samples one fragment, with alpha.
+    /// Samples the texture, including alpha, at one fragment.
     fn sample(chain: &MipChain<'_>, uvs: [[f32; 2]; 3]) -> [f32; 4] {
         lane(&chain.sample(&uv_lanes(uvs), true, 1), 0)
     }
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn non_finite_coordinates_read_some_texel() {
+    fn non_finite_coordinates_still_read_a_texel() {
         let image = checker(4);
         let chain = MipChain::new(&image, Sampler::default(), TexelEncoding::Srgb);
         for u in [f32::NAN, f32::INFINITY, f32::MAX] {

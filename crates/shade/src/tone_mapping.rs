@@ -1,5 +1,5 @@
-//! Tone mapping: from scene light to display colors, by exposure and a curve (Khronos PBR Neutral,
-//! ACES, AgX).
+//! Tone mapping: exposure and a curve (Khronos PBR Neutral, ACES, AgX) convert scene light to
+//! display colors.
 //!
 //! ```text
 //!  display │        ______ Neutral, ACES, AgX: fade toward white
@@ -10,11 +10,11 @@
 //! ```
 //!
 //! Each fragment is tone mapped separately, before the samples of a pixel are averaged. Edges
-//! against bright light stay smooth, and backgrounds keep their colors. A transparent picture
-//! composited over a color equals the opaque picture with that background.
+//! against bright light therefore stay smooth, and backgrounds keep their colors. A transparent
+//! picture composited over a color equals the opaque picture with that background.
 //!
-//! All three curves convert linear sRGB to linear sRGB; the codes of the picture are encoded later.
-//! The input has no upper bound, and the output is at most 1.
+//! All three curves convert linear sRGB to linear sRGB; the picture is encoded later. The input has
+//! no upper bound, and the output is at most 1.
 
 use super::approximations::{exp2_approx, log2_approx};
 use super::color::multiply_matrix;
@@ -55,7 +55,7 @@ impl Default for ToneMapper {
 }
 
 impl ToneMapper {
-    /// Creates the tone mapper with an exposure correction in stops (EV).
+    /// Creates a tone mapper with an exposure correction in stops (EV).
     #[must_use]
     pub fn new(exposure_ev: f64, curve: ToneMapping) -> Self {
         Self { exposure: libm::exp2(exposure_ev) as f32, curve }
@@ -121,8 +121,8 @@ fn khronos_neutral<const N: usize>(light: Rgb<N>) -> Rgb<N> {
     })
 }
 
-/// From sRGB to the primaries of the ACES fit, including the saturation of its reference rendering
-/// transform.
+/// From sRGB to the primaries of the ACES fit, including the reference rendering transform's change
+/// of saturation.
 const SRGB_TO_ACES: [[f32; 3]; 3] =
     [[0.59719, 0.35458, 0.04823], [0.07600, 0.90834, 0.01566], [0.02840, 0.13383, 0.83777]];
 /// From the output of the ACES fit back to sRGB.
@@ -171,13 +171,13 @@ fn agx_tone_map<const N: usize>(Rgb { r, g, b }: Rgb<N>) -> Rgb<N> {
     let [r, g, b] = multiply_matrix(&SRGB_TO_AGX, [r, g, b]);
     let mapped = Rgb { r, g, b }.map(agx_sigmoid);
     let [r, g, b] = multiply_matrix(&AGX_TO_SRGB, [mapped.r, mapped.g, mapped.b]);
-    // The curve yields codes for a display with gamma 2.2, but a picture needs linear light.
+    // The curve yields codes for a display with a gamma of 2.2, but the result must be linear.
     Rgb { r, g, b }.map(|code| {
         code.clamp(0.0, 1.0).max(f32::MIN_POSITIVE).map(|code| exp2_approx(2.2 * log2_approx(code)))
     })
 }
 
-/// Computes the AgX curve from light to codes, a polynomial of the logarithm.
+/// Computes the AgX curve, which maps light to codes by a polynomial of its logarithm.
 #[inline(always)]
 fn agx_sigmoid<const N: usize>(light: Lanes<N>) -> Lanes<N> {
     /// The range of light in stops.

@@ -1,4 +1,4 @@
-//! Transmission: tinted glass, and absorption in a volume by Beer's law
+//! Transmission through tinted glass, and absorption in a volume by Beer's law
 //! (KHR_materials_transmission, KHR_materials_volume).
 //!
 //! ```text
@@ -6,15 +6,15 @@
 //!              glass      tint = base color · attenuation color ^ (thickness / distance)
 //! ```
 //!
-//! Smooth thin sheets let light pass straight through, and any number of them is blended over the
-//! objects behind. If thickness refracts the light or roughness scatters it, a surface shows the
-//! [`TransmissionFramebuffer`] instead and hides the objects behind it. Opaque surfaces are visible
-//! through it; other glass and blended surfaces are not.
+//! Smooth thin sheets let light pass straight through, and any number of them can be blended over
+//! the objects behind. If thickness refracts the light or roughness scatters it, a surface hides
+//! the objects behind it and shows the [`TransmissionFramebuffer`] instead. Opaque surfaces are
+//! visible through such glass; other glass and blended surfaces are not.
 //!
 //! Red, green and blue have separate transmittances. A fragment still has a single alpha, mainly
-//! for transparent backgrounds: the alpha of a gray with the luminance of the tint. A transparent
-//! picture of tinted glass therefore shows that gray when it is composited over another picture,
-//! but objects drawn together with the glass are tinted.
+//! for transparent backgrounds, which corresponds to a gray with the luminance of the tint. In a
+//! transparent picture composited over another, tinted glass therefore shows that gray, but objects
+//! drawn together with the glass are tinted.
 
 mod framebuffer;
 mod mip_levels;
@@ -45,20 +45,20 @@ impl<const N: usize> TransmittedShare<N> {
         Self { fraction, tint }
     }
 
-    /// Returns the factors for light from behind, by channel.
+    /// Returns the factor for light from behind in each channel.
     #[inline(always)]
     pub(super) fn color(&self) -> Rgb<N> {
         self.tint * self.fraction
     }
 
-    /// Returns the factor for white light from behind, which is the luminance of the tint.
+    /// Returns the factor for the luminance of white light from behind.
     #[inline(always)]
     pub(super) fn gray(&self) -> Lanes<N> {
         (self.fraction * luminance(self.tint)).clamp(0.0, 1.0)
     }
 
-    /// Computes the transmittances for red, green and blue, given the alpha of a gray as bright as
-    /// the tint.
+    /// Computes the transmittances for red, green and blue from an alpha that assumes a gray as
+    /// bright as the tint.
     #[inline(always)]
     pub(super) fn channel_transmittances(
         &self,
@@ -66,11 +66,11 @@ impl<const N: usize> TransmittedShare<N> {
         alpha: Lanes<N>,
     ) -> [Lanes<N>; 3] {
         let mut transmittance = [1.0 - alpha; 3];
-        // Undo the gray in alpha, then tint each channel.
+        // Remove the gray tint from alpha, then tint each channel.
         let white = (coverage - alpha) / luminance(self.tint);
         for lane in 0..N {
             let [r, g, b] = self.tint.lane(lane);
-            // Alpha already describes a gray tint, and a black tint leaves nothing to undo.
+            // Alpha is already exact for a gray tint, and black transmits nothing to tint.
             if white[lane].is_finite() && (r != g || g != b) {
                 for (channel, tint) in transmittance.iter_mut().zip([r, g, b]) {
                     channel[lane] = (1.0 - coverage[lane] + white[lane] * tint).clamp(0.0, 1.0);
@@ -81,7 +81,7 @@ impl<const N: usize> TransmittedShare<N> {
     }
 }
 
-/// Computes the color of white light behind the surface: base color and absorption in the volume.
+/// Computes the color that white light has after the base color and absorption in the volume.
 ///
 /// `world_scale` is the scale from the mesh, whose units the thickness uses, to the world.
 ///

@@ -1,9 +1,8 @@
 //! Vectors of three `f32`, for computations with a single position or direction.
 //!
 //! A vector of zero length has no direction, and each function handles it differently:
-//! [`normalize`] does not expect it, [`normalize_or_zero`] returns zero, and [`try_normalize`]
-//! returns `None`. All three divide by the length; multiplying by the inverse would give different
-//! bits.
+//! [`normalize`] returns NaN, [`normalize_or_zero`] returns zero, and [`try_normalize`] returns
+//! `None`. All three divide by the length; multiplying by the inverse would give different bits.
 
 /// Computes the dot product.
 #[inline(always)]
@@ -23,7 +22,7 @@ pub(crate) fn subtract(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-/// Normalizes a vector of nonzero length. The result is NaN for zero length.
+/// Normalizes a vector of nonzero length. For zero length, all components are NaN.
 pub(crate) fn normalize(vector: [f32; 3]) -> [f32; 3] {
     let length = dot(vector, vector).sqrt();
     vector.map(|c| c / length)

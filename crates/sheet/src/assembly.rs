@@ -28,7 +28,7 @@ pub(crate) use part_model::{PATHS, exploded_models, part_model};
 pub(crate) use part_shapes::PartShapes;
 pub use parts_list::{PartDensity, PartPlace, PartsList, PartsListItem};
 
-/// The pages of a sheet that show its models as an assembly of parts. There are none by default.
+/// The pages of a sheet that show its models as an assembly of parts; by default, there are none.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct AssemblyPages {
     /// Whether to draw a parts list: on the assembly page if it fits there, otherwise on separate

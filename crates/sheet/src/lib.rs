@@ -8,8 +8,8 @@
 //!  module | technique |
 //!  --- | --- |
 //!  `sheet` | first-angle or third-angle views, title block, dimensions |
-//!  `warning` | what is missing from a sheet, and why |
-//!  `assembly` | parts counted by content, masses by the divergence theorem, exploded views |
+//!  `warning` | warnings about content missing from a sheet |
+//!  `assembly` | parts grouped by content, masses by the divergence theorem, exploded views |
 
 mod assembly;
 mod sheet;

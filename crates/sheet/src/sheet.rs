@@ -139,14 +139,14 @@ pub struct Sheet {
     /// The models count as symmetric if reflected vertices are on faces and reflected edges are on
     /// edges, within 1/20,000 of the models' diagonal.
     pub symmetry_lines: bool,
-    /// The objects that section planes do not cut: indices among all nodes with a mesh.
+    /// The objects that section planes do not cut, as indices among all instances of meshes.
     pub uncut: Vec<u32>,
     /// The text of the title block.
     pub title_block: TitleBlockText,
     /// The pages that show the models as an assembly of parts; see
     /// [`draw_pages`](Self::draw_pages).
     pub assembly: AssemblyPages,
-    /// Views that add to or replace the principal and axonometric views, and local cuts or breaks.
+    /// Requests that add or replace views, or that cut or break them locally.
     pub views: Vec<ViewRequest>,
     /// The border around the drawing area.
     pub frame: SheetFrame,
@@ -154,7 +154,7 @@ pub struct Sheet {
     pub numbers: NumberFormat,
     /// A custom title block, or `None` for the default one.
     pub title_block_template: Option<TitleBlockTemplate>,
-    /// Point labels and world axes, drawn in every view on the first page that shows the whole
+    /// Point labels and world axes, drawn on the first page in every view that shows the whole
     /// object. Other overlays cause a warning.
     pub overlays: Vec<Overlay>,
 }
@@ -190,8 +190,7 @@ pub enum SheetError {
     /// A view extends beyond the frame at the requested position.
     #[error(
         "view {number} of the sheet, the {view}, extends beyond the frame at this position: its \
-         center must be from {:.0} to {:.0} mm from the left and from {:.0} to {:.0} mm from the \
-         top",
+         center must be {:.0} to {:.0} mm from the left and {:.0} to {:.0} mm from the top",
         x[0], x[1], y[0], y[1]
     )]
     Outside {
@@ -199,9 +198,9 @@ pub enum SheetError {
         number: usize,
         /// The name of the view.
         view: String,
-        /// The minimum and maximum distance of its center from the left, in millimeters.
+        /// The minimum and maximum distance of the view's center from the left, in millimeters.
         x: [f64; 2],
-        /// The minimum and maximum distance of its center from the top, in millimeters.
+        /// The minimum and maximum distance of the view's center from the top, in millimeters.
         y: [f64; 2],
     },
     #[error(
@@ -218,7 +217,7 @@ pub enum SheetError {
         need: [f64; 2],
         /// The available width and height, in millimeters.
         available: [f64; 2],
-        /// A change that would make them fit.
+        /// The end of the message, which suggests a change that would make the views fit.
         remedy: String,
     },
 }
@@ -235,7 +234,7 @@ impl Sheet {
     /// Returns a technical drawing on the given paper, in first-angle projection, with a left view,
     /// an isometric view and overall dimensions.
     ///
-    /// The line group grows with the paper: 0.35 mm up to A5, 0.5 mm up to A2, and 0.7 mm above.
+    /// The line group grows with the paper: 0.35 mm up to A5, 0.5 mm up to A2, then 0.7 mm.
     #[must_use]
     pub fn for_paper(paper: Paper, paper_name: impl Into<String>) -> Self {
         let group = match paper.width().max(paper.height()) {
@@ -273,8 +272,8 @@ impl Sheet {
     /// additional pages; see [`draw_pages`](Self::draw_pages).
     ///
     /// # Errors
-    /// Returns an error if there is nothing to draw, a view cannot be drawn, or the views are
-    /// larger than the paper.
+    /// Returns an error if there is nothing to draw, if a view cannot be drawn, or if the views do
+    /// not fit on the paper.
     pub fn draw(
         &self,
         models: &[ModelInstance],
@@ -320,8 +319,8 @@ impl Sheet {
     }
 
     /// Checks, without drawing anything, whether the views of models, cut by section planes, fit on
-    /// the paper. Returns the warnings that [`draw`](Self::draw) gives about views, sections and
-    /// text.
+    /// the paper. Returns the warnings about views, sections and text that [`draw`](Self::draw)
+    /// would give.
     ///
     /// # Errors
     /// See [`draw`](Self::draw).
@@ -335,7 +334,7 @@ impl Sheet {
         Ok(self.warnings_of_layout(&plan, &layout, &self.title_of(models)))
     }
 
-    /// Returns the drawing's title, from the title block if it has one, otherwise the model names.
+    /// Returns the title specified for the title block or, if that is empty, the model names.
     fn title_of(&self, models: &[ModelInstance]) -> String {
         let own = &self.title_block.title;
         if own.is_empty() { model_names(models) } else { own.clone() }
@@ -397,7 +396,7 @@ impl Sheet {
         LineStyle { hidden_lines, face_fill, ..self.style }
     }
 
-    /// Adds the drawing of a view to the page, and prefixes its layer ids with the view's name.
+    /// Adds the drawing of a view to the page, in layers whose ids begin with the view's name.
     fn add_view(
         &self,
         page: &mut SheetPage,
@@ -444,7 +443,8 @@ impl Sheet {
         page.layers.extend(title_block::title_block_layers(self, &title, scale, block, ink));
     }
 
-    /// Returns the frame, with zones if requested. Centering marks stop short of the contents.
+    /// Returns the frame, with zones if requested. Centering marks stop at it to avoid the
+    /// contents.
     fn frame_layers(&self, contents: &[Extent], ink: Ink) -> Vec<Layer> {
         let frame = frame::frame_layer(self.paper, self.frame, contents, ink);
         let zones = match self.frame {

@@ -5,8 +5,8 @@
 //!   coordinates ─► texels of the level ─► wrap mode ─► four indices, fractions across and down
 //! ```
 //!
-//! This depends on the size and sampler of an image, not on its texels. The textures of a material
-//! usually have the same size and sampler, and then share the work.
+//! Addressing depends on the size and sampler of an image, not on its texels. The textures of a
+//! material usually have the same size and sampler, so one computation serves all of them.
 
 use crate::approximations::{floor_to_int, log2_approx};
 use crate::lanes::Lanes;
@@ -26,13 +26,13 @@ pub(crate) struct TexelAddressing {
     pub(super) sampler: Sampler,
 }
 
-/// The mip levels that each lane reads: 0 is the magnified full image, and n is the minified level
-/// n − 1.
+/// The mip levels that each lane reads, numbered so that 0 is the magnified full image and n is the
+/// minified level n − 1.
 ///
-/// Magnification has a separate number because its filter may be different.
+/// Magnification has a separate number because its filter may differ.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LevelOfDetail<const N: usize> {
-    /// The level at or above the level of detail.
+    /// The finer of the two levels, or the only one.
     pub(super) near_levels: [i32; N],
     /// The next coarser level, or the near level if the coarser level has no weight.
     pub(super) far_levels: [i32; N],
@@ -42,7 +42,7 @@ pub(super) struct LevelOfDetail<const N: usize> {
     pub(super) is_trilinear: bool,
 }
 
-/// The four texels around a position on a mip level, which may differ between lanes.
+/// The four texels around a position on a mip level, for each lane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TexelQuads<const N: usize> {
     /// The mip levels, from 0 for the full image.
@@ -90,11 +90,12 @@ impl TexelAddressing {
             let (yu, yv) = (dy[0][lane] * width, dy[1][lane] * height);
             // The number of texels that a pixel covers along its longer side, squared.
             let square = (xu * xu + xv * xv).max(yu * yu + yv * yv);
-            // Not minified if a texel is larger than the pixel or derivatives are not finite.
+            // Not minified if a texel is larger than the pixel or if the derivatives are not
+            // finite.
             let is_minified = (square > 1.0) & (square < f32::INFINITY);
             let lambda = 0.5 * log2_approx(if is_minified { square } else { 1.0 });
-            // The level of detail, rounded down for trilinear filtering, and to nearest for a
-            // single level.
+            // The level of detail, rounded down for trilinear filtering or to the nearest single
+            // level.
             let level = floor_to_int(lambda + round).min(self.last_level);
             let is_between = (mipmap_mode == MipmapMode::Linear) & (level < self.last_level);
             let is_magnified = (mag_filter != min_filter) & (lambda <= 0.0);
@@ -110,8 +111,8 @@ impl TexelAddressing {
 
     /// Locates the texels around a position, on levels numbered as in [`LevelOfDetail`].
     ///
-    /// All four texels are also computed for lanes with nearest filtering, because other lanes may
-    /// filter linearly; their fractions are 0.
+    /// All four texels are computed even for lanes with nearest filtering, whose fractions are 0,
+    /// because other lanes may filter linearly.
     #[inline(always)]
     pub(super) fn locate_texels<const N: usize>(
         &self,
@@ -147,7 +148,7 @@ impl TexelAddressing {
     }
 }
 
-/// Positions within a row or column of texels: the two neighbors along one axis of a quad.
+/// Positions along a row or column of texels, with the two neighbors along that axis.
 struct TexelAxis<const N: usize> {
     /// The number of texels of the level along this axis.
     sizes: [i32; N],
@@ -160,8 +161,8 @@ struct TexelAxis<const N: usize> {
 }
 
 impl<const N: usize> TexelAxis<N> {
-    /// Locates coordinates on an image of a given size, each on a separate level. Coordinates that
-    /// are not filtered linearly map to a single texel.
+    /// Locates coordinates on an image whose full size is given, each on its lane's level.
+    /// Coordinates that are not filtered linearly map to a single texel.
     #[inline(always)]
     fn locate(
         coordinates: Lanes<N>,
@@ -207,7 +208,7 @@ fn wrap_texels<const N: usize>(
         }
         return wrapped;
     }
-    // Mirrored repeat has a period of two images, of which the second is mirrored.
+    // Mirrored repeat has a period of two images; the second is mirrored.
     let images = if mode == WrapMode::MirroredRepeat { 2 } else { 1 };
     // Repeat: the remainder, which is a mask for a power of two.
     if are_powers {

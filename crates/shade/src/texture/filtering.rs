@@ -11,8 +11,8 @@
 //! Vulkan. Alpha is straight, not premultiplied, as in glTF, and is filtered separately. The color
 //! of transparent texels bleeds into their neighbors, so exporters add padding.
 //!
-//! With eight lanes, texels are fetched lane by lane as 32-bit numbers, and all arithmetic uses all
-//! lanes.
+//! With eight lanes, texels are fetched lane by lane as 32-bit numbers, but arithmetic processes
+//! all lanes at once.
 
 use super::addressing::TexelQuads;
 use super::footprint::Tap;
@@ -20,8 +20,8 @@ use super::{MipChain, TexelLanes, UvLanes};
 use crate::lanes::{Lanes, Rgb, map_to_lanes};
 
 impl MipChain<'_> {
-    /// Computes the filtered color of the texture, linear with straight alpha, over the footprints
-    /// of pixels.
+    /// Computes the texture's filtered color over the footprints of pixels, linear with straight
+    /// alpha.
     ///
     /// At most `anisotropy` taps are read along the longer axis of a footprint. If alpha is not
     /// needed, it is 1.
@@ -133,7 +133,7 @@ fn channel_code(texel: u32, channel: usize) -> u32 {
     texel >> (8 * channel) & 255
 }
 
-/// Interpolates one channel that is stored linearly, from 0 to 1. Dividing by 255 after the
+/// Interpolates one linearly encoded channel; the result is from 0 to 1. Dividing by 255 after the
 /// interpolation takes one division instead of four.
 #[inline(always)]
 fn filter_linear_channel<const N: usize>(

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! The texture is therefore read at several taps along the longer axis, on the mip level whose
-//! texels are as large as the shorter axis. Sources:
+//! texels are as large as the shorter axis. The sources are:
 //! - Heckbert, *Fundamentals of texture mapping and image warping*, 1989;
 //! - McCormack and others, *Feline: fast elliptical lines for anisotropic texture mapping*, 1999.
 //!
@@ -48,7 +48,7 @@ pub(crate) struct Tap<const N: usize> {
 }
 
 impl<const N: usize> Footprint<N> {
-    /// Returns the maximum number of taps in any lane.
+    /// Returns the maximum number of taps over all lanes.
     #[inline(always)]
     pub(crate) fn max_tap_count(&self) -> u32 {
         let mut count = 1.0_f32;
@@ -129,7 +129,7 @@ impl TexelAddressing {
             let root = ((uu - vv) * (uu - vv) + 4.0 * uv * uv).sqrt();
             let longer = (0.5 * (trace + root)).sqrt();
             let shorter = area.abs() / longer;
-            // An axis shorter than a texel is magnified and does not add taps.
+            // Along an axis shorter than a texel, the texture is magnified, so no taps are added.
             let ratio = (longer / shorter.max(1.0) + 0.5).max(0.0);
             let count = (floor_to_int(ratio) as f32).min(most);
             let is_long = (count > 1.0) & (longer < 1e6);
@@ -161,7 +161,7 @@ mod tests {
     fn long_footprints_fit_the_ellipse_of_their_derivatives() {
         let image = Image { width: 64, height: 64, rgba: vec![[0; 4]; 64 * 64] };
         let mip_chain = MipChain::new(&image, Sampler::default(), TexelEncoding::Linear);
-        // Axes of 12 and 3 texels, rotated by an angle; the pixel's axes are also rotated.
+        // The ellipse has axes of 12 and 3 texels and is rotated, as are the pixel's axes.
         for (angle, pixel_angle) in [(0.0, 0.0), (0.4, 0.0), (1.2, 0.7), (2.5, 1.9), (1.5, 0.3)] {
             let rotate = |x: f32, y: f32, angle: f32| {
                 let (sine, cosine) = (libm::sinf(angle), libm::cosf(angle));

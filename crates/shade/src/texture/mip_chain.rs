@@ -19,7 +19,7 @@ use std::sync::OnceLock;
 pub struct MipChain<'a> {
     pub(super) levels: Vec<MipLevel<'a>>,
     pub(super) addressing: TexelAddressing,
-    /// The linear light of each code, for textures that contain colors.
+    /// The linear light of each code, for textures in sRGB.
     pub(super) srgb_table: Option<&'static [f32; 256]>,
 }
 
@@ -41,11 +41,12 @@ pub(super) struct MipLevel<'a> {
 }
 
 impl<'a> MipChain<'a> {
-    /// Builds the levels of an image, or only the first if the sampler does not need others.
+    /// Builds the mip levels of an image, or only the full image if the sampler does not use
+    /// mipmaps.
     ///
     /// The full image is borrowed, so several chains with different samplers can share it.
     ///
-    /// Colors are averaged in linear light. The levels take a third of the image's memory.
+    /// Colors are averaged in linear light. The smaller levels add a third of the image's memory.
     #[must_use]
     pub fn new(image: &'a Image, sampler: Sampler, encoding: TexelEncoding) -> Self {
         let full = MipLevel {
@@ -75,7 +76,7 @@ impl<'a> MipChain<'a> {
         }
     }
 
-    /// Returns the chain with a copy of the full image, independent of the image's lifetime.
+    /// Copies the full image into the chain, which is then independent of the image's lifetime.
     #[must_use]
     pub fn into_owned(self) -> MipChain<'static> {
         let own = |level: MipLevel<'_>| {

@@ -1,5 +1,5 @@
-//! The transmission framebuffer: a picture of all opaque surfaces, which refracting and rough glass
-//! reads to show the objects behind it (as in the Khronos sample viewer and three.js).
+//! The transmission framebuffer: a picture of all opaque surfaces, read by refracting and rough
+//! glass to show the objects behind it (as in the Khronos sample viewer and three.js).
 //!
 //! ```text
 //!   opaque surfaces ─► linear radiance, alpha ──┐
@@ -8,10 +8,10 @@
 //!   not covered
 //! ```
 //!
-//! Surfaces and a visible environment are light, and are tone mapped together with the light that
-//! the glass reflects. The backdrop and background are already display colors and are not tone
-//! mapped, so they are stored separately. Everything is premultiplied, so over an empty part of a
-//! transparent background, glass is also transparent.
+//! Surfaces and a visible environment are stored as light, which is tone mapped together with the
+//! light that the glass reflects. The backdrop and background are already display colors and are
+//! not tone mapped, so they are stored separately. Everything is premultiplied, so glass is also
+//! transparent over an empty part of a transparent background.
 
 use super::mip_levels::MipLevels;
 use super::refraction::{blur_levels, channel_iors, refracted_exits};
@@ -22,8 +22,8 @@ use crate::{Backdrop, Draw};
 use glam::{DMat4, DVec3};
 use raster::for_each_parallel;
 
-/// The maximum light of a texel, the largest half float. A single brighter texel, from a sun or its
-/// reflection, would become infinite and affect all levels.
+/// The maximum radiance of a texel, the largest finite half float. A single infinite texel, from a
+/// sun or its reflection, would spoil all levels.
 const MAX_RADIANCE: f32 = 65_504.0;
 
 /// A picture of the opaque surfaces of a scene, with its mip levels.
@@ -33,8 +33,7 @@ pub struct TransmissionFramebuffer {
     projection: ScreenProjection,
     /// The radiance of surfaces and a visible environment.
     surfaces: MipLevels,
-    /// The display colors of the backdrop over the background, without the parts that surfaces
-    /// hide.
+    /// The visible display colors of the backdrop over the background.
     backdrop: Option<MipLevels>,
     /// The premultiplied display color of the background.
     background: [f32; 4],
@@ -43,7 +42,7 @@ pub struct TransmissionFramebuffer {
 /// The view of a transmission framebuffer, which maps positions in the world to texels.
 #[derive(Clone, Copy, Debug)]
 pub struct ScreenProjection {
-    /// Width and height of the framebuffer in texels.
+    /// The width and height of the framebuffer in texels.
     size: [u32; 2],
     /// The origin that positions are relative to.
     origin: [f32; 3],
@@ -120,8 +119,8 @@ impl TransmissionFramebuffer {
 
     /// Computes the light behind the surfaces of a draw, refracted and blurred but not yet tinted.
     ///
-    /// This is not inlined into the shading kernel, because it gathers from memory, which wider
-    /// instructions do not speed up, and most fragments do not need it.
+    /// This is not inlined into the shading kernel: most fragments do not need it, and wider
+    /// instructions would not speed up its reads from memory.
     #[inline(never)]
     pub(crate) fn light_behind<const N: usize>(
         &self,
@@ -134,8 +133,8 @@ impl TransmissionFramebuffer {
         let levels = blur_levels(inputs.roughness, ior, width.max(height) as f32);
         let lengths = inputs.layers.thickness * draw.world_scale;
         let [red, green, blue] = channel_iors(draw);
-        // Dispersion: each channel is refracted separately; alpha uses the green ray. There is a
-        // single loop, so that the code has one copy of the lookup.
+        // With dispersion, each channel is refracted separately; alpha uses the green ray. The loop
+        // keeps the lookup, which is inlined, to one copy.
         let iors = [green, red, blue];
         let count = if red == blue { 1 } else { iors.len() };
         let mut light = LightBehind::NONE;
@@ -150,7 +149,7 @@ impl TransmissionFramebuffer {
         light
     }
 
-    /// Samples the mean light around positions in the world at a mip level.
+    /// Samples the mean light around positions in the world, each at a mip level.
     #[inline(always)]
     fn sample<const N: usize>(&self, positions: Vec3Lanes<N>, levels: Lanes<N>) -> LightBehind<N> {
         let [x, y] = self.projection.project(positions);
@@ -171,7 +170,7 @@ impl TransmissionFramebuffer {
     }
 }
 
-/// Computes the backdrop over the background at each texel, without the parts that surfaces hide.
+/// Computes the visible share of the backdrop over the background at each texel.
 fn visible_backdrop(
     backdrop: &Backdrop,
     background: [f32; 4],

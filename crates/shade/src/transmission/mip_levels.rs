@@ -1,5 +1,4 @@
-//! The mip levels of the transmission framebuffer: light of any brightness, from full size to one
-//! texel.
+//! The mip levels of the transmission framebuffer, from full size to one texel, in floating point.
 //!
 //! ```text
 //!   level 0      one texel per pixel, sampled bilinearly, so unblurred light stays sharp
@@ -19,10 +18,10 @@ pub(super) struct MipLevels {
     levels: Vec<FramebufferLevel>,
 }
 
-/// A mip level, in rows from the top.
+/// A mip level, with its texels in rows from the top.
 #[derive(Clone, Debug)]
 struct FramebufferLevel {
-    /// Width and height in texels.
+    /// The width and height in texels.
     size: [usize; 2],
     /// The inverse of the number of full-size pixels per texel along a side, a power of two.
     scale: f32,
@@ -40,7 +39,7 @@ impl MipLevels {
         Self { levels }
     }
 
-    /// Samples the trilinear mean around a position in full-size pixels.
+    /// Samples the mean around a position in full-size pixels, interpolated between levels.
     ///
     /// Positions beyond the border have the value at the border. `level` is 0 for the full size,
     /// and is clamped to the existing levels.
@@ -64,7 +63,7 @@ impl MipLevels {
 }
 
 impl FramebufferLevel {
-    /// Computes the level of half the size with a box filter. Returns `None` after a single texel.
+    /// Computes the level of half the size with a box filter, or returns `None` for a single texel.
     /// A last row or column without a partner is paired with itself.
     fn downsample(&self, threads: usize) -> Option<Self> {
         let [width, height] = self.size;
@@ -118,8 +117,8 @@ impl FramebufferLevel {
     }
 }
 
-/// Returns the two texels whose centers are on either side of a coordinate, and the fraction of the
-/// way between them.
+/// Returns the two texels whose centers enclose a coordinate, and its fraction of the way between
+/// them.
 #[inline(always)]
 fn locate_pair(coordinate: f32, count: usize) -> ([usize; 2], f32) {
     let from_center = (coordinate - 0.5).max(0.0).min((count - 1) as f32);
@@ -170,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn edges_are_blurred_symmetrically_and_wider_at_each_level() {
+    fn edge_blur_is_symmetric_and_widens_with_the_level() {
         let edge = |x: usize| if x < 64 { [0.0; 4] } else { [1.0; 4] };
         let levels = MipLevels::new((0..128 * 128).map(|n| edge(n % 128)).collect(), [128; 2], 1);
         let mut last = f32::INFINITY;

@@ -26,7 +26,7 @@ pub(super) fn channel_iors(draw: &Draw<'_>) -> [f32; 3] {
     [extensions.ior - half_spread, extensions.ior, extensions.ior + half_spread]
 }
 
-/// Computes the positions in the world where refracted rays with these lengths end.
+/// Computes the world positions where refracted rays of these lengths end.
 #[inline(always)]
 pub(super) fn refracted_exits<const N: usize>(
     geometry: &SurfaceGeometry<N>,
@@ -34,8 +34,8 @@ pub(super) fn refracted_exits<const N: usize>(
     lengths: Lanes<N>,
 ) -> Vec3Lanes<N> {
     let SurfaceGeometry { positions, views, normals, n_dot_v, .. } = *geometry;
-    // Snell's law in vector form, without total reflection, because light enters the denser medium.
-    // Dispersion may reduce an index below 1.
+    // Snell's law in vector form. There is no total reflection, because the index is raised to at
+    // least 1; dispersion may have reduced it below that.
     let eta = 1.0 / ior.max(1.0);
     let cos_squared = (1.0 - eta * eta * (1.0 - n_dot_v * n_dot_v)).max(0.0);
     let rays = normals * (eta * n_dot_v - cos_squared.sqrt()) - views * eta;
@@ -43,19 +43,19 @@ pub(super) fn refracted_exits<const N: usize>(
     positions + rays * (lengths / rays.dot(rays).sqrt().max(1e-6))
 }
 
-/// The side length of the Khronos sample viewer's framebuffer in texels, and its number of mip
-/// levels, which is the base-2 logarithm.
+/// The side length of the Khronos sample viewer's framebuffer in texels.
 const REFERENCE_SIDE: f32 = 1024.0;
+/// The base-2 logarithm of that side length, which the viewer multiplies by the roughness.
 const REFERENCE_LEVELS: f32 = 10.0;
 
-/// Computes the mip levels, in a framebuffer whose longer side has this many texels, that give the
-/// blur for these roughnesses.
+/// Computes the mip levels that give the blur for these roughnesses. `longer_side` is the number of
+/// texels along the framebuffer's longer side.
 ///
 /// The Khronos sample viewer uses the level log₂(size) · roughness in a framebuffer of 1024 texels.
 /// At other sizes this would blur by a different fraction of the picture, so the width of the
 /// filter is scaled. At 1024 texels the levels equal the viewer's, and a roughness of 0 is level 0
-/// at any size. Roughness is reduced as the index of refraction approaches 1, which does not
-/// scatter light.
+/// at any size. Roughness is reduced as the index of refraction approaches 1, because a surface
+/// with index 1 does not scatter light.
 #[inline(always)]
 pub(super) fn blur_levels<const N: usize>(
     roughness: Lanes<N>,

@@ -11,13 +11,13 @@
 //! ```
 //!
 //! The box of a moved part does not touch any part that was placed earlier, so no two parts
-//! intersect. The computation always terminates.
+//! intersect. Each part is placed once, so the computation always terminates.
 
 use super::part_shapes::{Column, Corners, PartShapes, PlacedPart};
 use super::removal::removal_sides;
 use glam::DVec3;
 
-/// The maximum number of parts to explode, because each part is compared with all earlier ones.
+/// The maximum number of parts to explode, limited because each is compared with all earlier ones.
 pub(crate) const MAX_EXPLODED_PARTS: usize = 5000;
 
 /// The distance between parts, as a fraction of the assembly's diagonal.
@@ -30,8 +30,8 @@ const IN_LINE: f64 = 0.01;
 /// The direction in which the parts of an exploded view move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum ExplosionAxis {
-    /// Along the axis on which most parts are aligned with the largest one. In a tie, the axis
-    /// along which the parts move the least.
+    /// Along the axis on which most parts are aligned with the largest one; in a tie, along the
+    /// axis on which the parts move the least.
     #[default]
     Auto,
     /// To the left and to the right.
@@ -92,7 +92,7 @@ fn moves_along(shapes: &PartShapes, base: usize, axis: Option<usize>, gap: f64) 
             (Direction { sign, ..directions[part] }, part)
         })
         .collect();
-    // Works outward from the base, so that each part clears the parts already placed. Part numbers
+    // Work outward from the base, so that each part clears the parts already placed. Part numbers
     // break ties.
     order.sort_by(|(way, i), (other, k)| {
         way.distance(boxes[*i]).total_cmp(&other.distance(boxes[*k])).then(i.cmp(k))
@@ -119,7 +119,7 @@ impl Direction {
     /// Returns the direction of a part away from the base: along `axis` if set, otherwise along the
     /// axis on which it is farthest from the base, relative to the base's size.
     ///
-    /// The part extends farther beyond the base in this direction than in the opposite one.
+    /// On that axis, the direction is toward the part's center.
     fn away_from_base(part: Corners, base: Corners, axis: Option<usize>) -> Self {
         let away = (part[0] + part[1] - base[0] - base[1]) * 0.5;
         let half = (base[1] - base[0]) * 0.5;
@@ -138,7 +138,7 @@ impl Direction {
     }
 
     /// Returns the distance from the center of the base to the far end of a part. A part whose end
-    /// is farther out blocks the parts below it, as the head of a bolt blocks the parts it holds.
+    /// is farther out blocks the others, as the head of a bolt blocks the parts that it holds.
     fn distance(self, part: Corners) -> f64 {
         (part[usize::from(self.sign > 0.0)][self.axis] - self.base) * self.sign
     }
@@ -168,8 +168,8 @@ fn largest(boxes: &[Corners]) -> usize {
     (0..boxes.len()).reduce(greater).unwrap_or(0)
 }
 
-/// Returns the axis on which most parts are aligned with the base. In a tie, returns the axis along
-/// which the parts move the least, preferring y, then x, then z.
+/// Returns the axis on which most parts are aligned with the base. Ties are broken by the least
+/// movement, then in the order y, x, z.
 fn axis_of_assembly(shapes: &PartShapes, base: usize, size: DVec3, gap: f64) -> usize {
     let boxes = &shapes.boxes;
     let center = |[low, high]: Corners| (low + high) * 0.5;

@@ -1,5 +1,4 @@
-//! Identical parts: parts with the same triangles, lines and materials at the same size, wherever
-//! they are.
+//! Identical parts: parts with the same triangles, lines, materials and size, at any position.
 //!
 //! Meshes are compared by content, so copies in a file count as one part. A mirror image is a
 //! different part. Meshes that have the same shape but different vertex positions in the file count
@@ -15,16 +14,16 @@ use std::sync::Arc;
 /// parts.
 const SHAPE_TOLERANCE: f64 = 1e-5;
 
-/// The maximum number of compared sizes of a mesh. Each further size counts as a separate part.
+/// The maximum number of sizes compared per mesh. Parts of further sizes all count as different.
 const MAX_SIZES: usize = 1000;
 
-/// A size at which a mesh occurs: its linear map, whether it is mirrored, and its class number.
+/// A size at which a mesh occurs: its Gram matrix, whether it is mirrored, and its class number.
 type SizeClass = (DMat3, bool, usize);
 
 /// Assigns the same class number to identical parts.
 pub(super) struct PartClasses<'a> {
     models: &'a [ModelInstance],
-    /// Mesh contents by digest: the model index and instance of the first part with the content.
+    /// The first part with each mesh content, by digest, as its model index and instance.
     contents: BTreeMap<u64, Vec<(usize, MeshInstance)>>,
     /// The content keys of undeformed meshes, by the first model with the mesh and the mesh index.
     rigid: BTreeMap<(usize, usize), (u64, usize)>,
@@ -109,7 +108,7 @@ fn material_key<'a>(model: &'a Model, primitive: &Primitive) -> (Option<&'a str>
     (material.and_then(|material| material.name.as_deref()), color.map(f32::to_bits))
 }
 
-/// Returns a digest that identical meshes share (Fowler–Noll–Vo, word by word).
+/// Returns a digest that is equal for identical meshes (Fowler–Noll–Vo, word by word).
 fn digest_of_mesh(model: &Model, instance: MeshInstance) -> u64 {
     let mut digest = 0xcbf2_9ce4_8422_2325_u64;
     let mut add = |word: u32| {

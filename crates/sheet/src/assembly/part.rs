@@ -4,18 +4,18 @@ use glam::{DMat3, DVec3};
 use homog::{Affine, Bounds, Model as ModelSpace, Point, World};
 use model::{MeshInstance, Model, ModelInstance, Primitive, SkinnedPrimitive, Topology};
 
-/// A node whose mesh has lines or triangles. An instanced node gives one part per instance.
+/// An instance of a node whose mesh has lines or triangles.
 #[derive(Clone, Debug)]
 pub(crate) struct Part {
     /// The name, on one line; see [`part_name`].
     pub(crate) name: String,
-    /// The index of its object in drawings of the same models.
+    /// The index of the part's object in drawings of the same models.
     pub(crate) object: u32,
-    /// The index of its model.
+    /// The index of the part's model.
     pub(crate) model: usize,
     /// The node and its transform in the model.
     pub(crate) instance: MeshInstance,
-    /// Its bounding box in world space.
+    /// The bounding box in world space.
     pub(crate) bounds: Bounds<World>,
 }
 
@@ -123,7 +123,7 @@ fn part_name(model: &Model, node: usize, is_alone: bool) -> String {
     if let Some(name) = candidates.map(one_line).find(|name| !name.is_empty()) {
         return name;
     }
-    // The importer rejects cycles, but the count limits the loop in any case.
+    // The importer rejects cycles, but the count bounds the loop in any case.
     let mut above = model.nodes[node].parent;
     for _ in 0..model.nodes.len() {
         let Some(parent) = above.and_then(|parent| model.nodes.get(parent)) else { break };

@@ -14,13 +14,13 @@ pub(crate) const PATHS: &str = "paths";
 /// Builds a model of a single part in its own coordinates, with its axes turned to the nearest
 /// world axes.
 ///
-/// A part that is tilted in the assembly is therefore drawn straight.
+/// A part that is tilted in the assembly is therefore drawn parallel to the world axes.
 pub(crate) fn part_model(part: &Part, models: &[ModelInstance]) -> ModelInstance {
     let to_world = part.instance.node_to_model.then(models[part.model].model_to_world).raw();
     let (axes, scale) = orthonormal_axes(DMat3::from_mat4(to_world));
     let turned = nearest_axes(axes) * scale;
     let own = models[part.model].model.nodes[part.instance.node].skin;
-    // Skinned positions are in world axes, not in the axes of the node.
+    // Skinned positions are in the axes of the model, not in the axes of the node.
     let linear = if own.is_some() { DMat3::IDENTITY } else { turned };
     let to_world = Affine::from_raw(DMat4::from_mat3(linear));
     let mesh = part_mesh(part, models);
@@ -29,11 +29,11 @@ pub(crate) fn part_model(part: &Part, models: &[ModelInstance]) -> ModelInstance
     ModelInstance { model: Arc::new(model), model_to_world }
 }
 
-/// Moves the parts of models apart for an exploded view: one object for each part, then one for the
-/// straight paths of the moved parts.
+/// Moves the parts of models apart for an exploded view. The result has one object for each part,
+/// then one for the straight paths of the moved parts.
 ///
-/// The largest part stays. Every other part leaves on the side where the fewest parts are in its
-/// way. In the result, no two parts intersect.
+/// The largest part stays. Every other part leaves on a side where nothing blocks it or, failing
+/// that, where it is blocked least. In the result, no two parts intersect.
 #[must_use]
 pub fn explode_models(
     models: &[ModelInstance],
@@ -89,7 +89,7 @@ pub(crate) fn exploded_models(
 
 /// Returns the paths of the moved parts' centers, as lines, or `None` if nothing moved.
 fn path_model(parts: &[Part], moves: &[DVec3]) -> Option<ModelInstance> {
-    // Positions are `f32`, so they are relative to a point in the scene to keep their precision.
+    // Positions are `f32`, so they are stored relative to a point in the scene to stay precise.
     let about = parts.first()?.bounds.center().raw();
     let moved = parts.iter().zip(moves).filter(|(_, by)| by.length() > 0.0);
     let ends = moved.flat_map(|(part, by)| {
@@ -152,7 +152,7 @@ fn model_of_meshes(meshes: Vec<Mesh>, name: &str, source: &Model) -> Model {
 
 /// Appends a root node.
 fn push_node(model: &mut Model, name: &str, mesh: Option<usize>, to_model: DMat4) {
-    // A part whose matrix is not finite is skipped, as are vertices that are not finite.
+    // The fallback is not needed: parts whose vertices are not finite have been skipped.
     let to_model = Affine::<ModelSpace, ModelSpace>::from_raw(to_model).unwrap_or(Affine::IDENTITY);
     model.roots.push(model.nodes.len());
     let (name, to_parent) = (Some(name.to_owned()), to_model);
@@ -182,7 +182,7 @@ fn orthonormal_axes(linear: DMat3) -> (DMat3, DMat3) {
     (axes, axes.transpose() * linear)
 }
 
-/// Returns the nearest axes parallel to world axes, assigning the clearest choice first.
+/// Returns the nearest signed world axis for each axis, assigning the closest pair first.
 fn nearest_axes(axes: DMat3) -> DMat3 {
     let mut pairs: Vec<(f64, usize, usize)> = (0..3)
         .flat_map(|column| (0..3).map(move |row| (axes.col(column)[row], column, row)))

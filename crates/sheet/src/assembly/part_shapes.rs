@@ -23,7 +23,7 @@ pub(super) struct PlacedPart {
     pub(super) by: DVec3,
 }
 
-/// The maximum number of stored triangles, at 72 bytes each. Boxes represent the remaining parts.
+/// The maximum number of stored triangles, at 72 bytes each. Boxes represent any further parts.
 const MAX_TRIANGLES: usize = 4_000_000;
 
 /// The maximum number of triangles compared with columns; after that, parts are compared as boxes.
@@ -36,8 +36,8 @@ const CELLS: usize = 16;
 #[derive(Debug)]
 pub(crate) struct PartShapes {
     pub(super) boxes: Vec<Corners>,
-    /// Empty for parts with lines and for parts beyond [`MAX_TRIANGLES`], which count as solid
-    /// boxes.
+    /// The triangles of each part; empty for parts with lines and for parts beyond
+    /// [`MAX_TRIANGLES`], which count as solid boxes.
     triangles: Vec<Vec<[DVec3; 3]>>,
     visits_left: Cell<u64>,
 }
@@ -102,7 +102,7 @@ impl PartShapes {
         reach
     }
 
-    /// Returns the lowest and highest points of a part in the cells of a column.
+    /// Returns the lowest and highest points of a part at the cell centers of a column.
     pub(super) fn heights(&self, part: usize, column: &Column) -> CellHeights {
         let mut heights = CellHeights::default();
         for triangle in &self.triangles[part] {
@@ -278,7 +278,7 @@ mod tests {
 
     #[test]
     fn reach_ends_at_the_surface_within_the_column() {
-        // A ramp: from height 0 at x = 0 to 10 at x = 10.
+        // A ramp from height 0 at x = 0 to height 10 at x = 10.
         let ramp = [DVec3::ZERO, DVec3::new(10.0, 10.0, -5.0), DVec3::new(10.0, 10.0, 5.0)];
         let corners = [DVec3::new(0.0, 0.0, -5.0), DVec3::new(10.0, 10.0, 5.0)];
         let shapes = PartShapes::from_raw(vec![corners], vec![vec![ramp]]);

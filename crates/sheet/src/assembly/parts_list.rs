@@ -36,9 +36,9 @@ pub struct PartsListItem {
     pub quantity: usize,
     /// The name, on one line.
     pub name: String,
-    /// Its material names, joined by commas; empty if it has no materials.
+    /// The names of the part's materials, joined by commas; empty if there are none.
     pub material: String,
-    /// The mass of a single part in grams.
+    /// The mass of a single part in grams, if known.
     pub mass: Option<f64>,
     /// The object indices of the parts in drawings of the models.
     pub objects: Vec<u32>,
@@ -79,7 +79,7 @@ impl PartsList {
     ///
     /// Parts share an item if their meshes have the same positions, indices and materials at the
     /// same size. Their names may differ only in a trailing number: `bolt.001` and `bolt.002` are
-    /// two bolts.
+    /// one item with quantity 2.
     #[must_use]
     pub fn new(
         models: &[ModelInstance],
@@ -116,7 +116,7 @@ impl PartsList {
         for (group, number) in groups.iter().zip(1..) {
             let (name, materials) = (common_name(group), material_names(group[0], models));
             let density = find_density(densities, &name, &materials);
-            // Computing the volume takes a pass over the mesh, so this is done only if there is a
+            // Computing the volume takes a pass over the mesh, so it is skipped if there is no
             // density.
             let volume = density.and_then(|_| part_volume(group[0], models));
             if density.is_some() && volume.is_none() {
@@ -140,7 +140,7 @@ impl PartsList {
     }
 
     /// Returns the list as comma-separated values (RFC 4180) with a header: item, quantity, name,
-    /// material and, with densities, the mass of one part in grams.
+    /// material and, if densities were specified, the mass of one part in grams.
     #[must_use]
     pub fn to_csv(&self) -> String {
         let mut text = String::from("item,quantity,name,material");
@@ -161,7 +161,7 @@ impl PartsList {
 /// Returns a CSV field, quoted if necessary.
 ///
 /// Spreadsheets evaluate text that begins like a formula, even in untrusted files. A leading
-/// apostrophe marks it as text.
+/// apostrophe marks such a field as text.
 fn csv_field(text: &str) -> String {
     if text.starts_with(['=', '+', '-', '@', '\t', '\r']) {
         return format!("\"'{}\"", text.replace('"', "\"\""));
@@ -170,7 +170,7 @@ fn csv_field(text: &str) -> String {
     if needs_quotes { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
-/// Returns the density specified for a part's name, for its only material, or for all parts.
+/// Returns the density specified for a part's name, else for its only material, else for all parts.
 fn find_density<'a>(
     densities: &'a [PartDensity],
     name: &str,
@@ -206,8 +206,8 @@ fn without_number(name: &str) -> &str {
     if stem.len() == name.len() { name } else { stem.trim_end_matches(is_separator) }
 }
 
-/// Returns the common name of parts: their name if all are the same, otherwise their common prefix,
-/// without copy numbers.
+/// Returns the common name of parts: their name if all have the same one, otherwise the common
+/// prefix of their names, without copy numbers.
 fn common_name(parts: &[&Part]) -> String {
     let first = parts[0].name.as_str();
     if parts.iter().all(|part| part.name == first) {

@@ -28,10 +28,10 @@ const DEGREE_DECIMALS: u32 = 2;
 /// An arc between two directions from a vertex.
 struct AngleArc<'a> {
     vertex: DVec2,
-    /// The unit vectors along its sides. The turn from the first to the second is less than 180°,
-    /// in the direction from x to y.
+    /// The unit vectors along the sides of the angle. The turn from the first to the second is less
+    /// than 180°, in the direction from x to y.
     sides: [DVec2; 2],
-    /// The lengths of the sides on the part.
+    /// The distances from the vertex to the ends of the measured sides; 0 for their extensions.
     lengths: [f64; 2],
     /// The angle in radians.
     sweep: f64,
@@ -46,7 +46,7 @@ impl DimensionBoard {
         let ViewMeasure::Angle { vertex, ends } = &dimension.measure else { return None };
         let ratio = self.settings.scale.ratio();
         let (vertex, mut ends) = (*vertex * ratio, ends.map(|end| end * ratio));
-        // The ends are sorted so that the sweep is the angle below 180°.
+        // The ends are sorted so that the turn from the first to the second is below 180°.
         if (ends[0] - vertex).perp_dot(ends[1] - vertex) < 0.0 {
             ends.swap(0, 1);
         }
@@ -57,12 +57,11 @@ impl DimensionBoard {
         let text = format!("{}°", numbers.decimal(sweep.to_degrees(), decimals));
         let letters = self.settings.letters;
         let (least, step, count) = RADII;
-        // Tries small arcs first, each between the arms and then on the opposite side of the
-        // vertex.
+        // Try small arcs first, each between the arms and then on the opposite side of the vertex.
         for number in 0..count {
             let radius = (least + step * f64::from(number)) * letters;
             for sense in [1.0, -1.0] {
-                // Beyond the vertex there are no sides of the part.
+                // Beyond the vertex, the part has no sides.
                 let lengths = arms.map(|arm| if sense > 0.0 { arm.length() } else { 0.0 });
                 let sides = arms.map(|arm| arm.normalize_or(DVec2::X) * sense);
                 let (text, vertex) = (text.as_str(), vertex);
@@ -85,7 +84,7 @@ impl AngleArc<'_> {
         (self.vertex + arm * self.radius, arm.perp())
     }
 
-    /// Returns all lines and the text.
+    /// Returns all lines and the text of the dimension.
     fn candidate(&self) -> Candidate {
         let (letters, mut candidate) = (self.letters, Candidate::default());
         for (side, length) in self.sides.into_iter().zip(self.lengths) {
@@ -123,7 +122,7 @@ impl AngleArc<'_> {
         let width = Label::new(self.text, DVec2::ZERO, self.letters).width();
         let margin = 2.0 * TEXT_GAP * self.letters;
         let half = DVec2::new(0.5 * width, 0.5 * self.letters);
-        // Moves the text outward until none of its corners is inside the arc.
+        // Move the text outward until it is entirely outside the arc, with a margin.
         let mut distance = self.radius + margin;
         let is_inside = |distance: f64| {
             let center = out * distance;

@@ -28,9 +28,9 @@ pub(super) enum AnnotationLayer {
     CenterLines,
     /// Dimension lines, extension lines and arrowheads.
     Dimensions,
-    /// The lengths above dimension lines.
+    /// The text of dimensions.
     DimensionTexts,
-    /// The chain lines of sections.
+    /// Section lines, as narrow chain lines.
     CutLines,
     /// The wide ends of the section lines.
     CutEnds,
@@ -103,7 +103,7 @@ struct PlacedShape {
 /// A dimension with its position.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct PlacedDimension {
-    /// Its number on the sheet, from 1.
+    /// The number of the dimension on the sheet, from 1.
     pub(super) number: usize,
     pub(super) shapes: Vec<(AnnotationLayer, AnnotationShape)>,
 }
@@ -273,8 +273,8 @@ impl ViewAnnotations {
 impl PlacedDimension {
     /// Returns the shapes of one layer: a group with all lines, and a group for each text.
     ///
-    /// The group ids are the number of the dimension, followed by the index of the text if there
-    /// are several.
+    /// The group ids are the number of the dimension, followed by the index of the text if the
+    /// dimension has several.
     fn groups(&self, layer: AnnotationLayer, origin: DVec2) -> Vec<Group> {
         let of_layer = self.shapes.iter().filter(|(other, _)| *other == layer);
         let (mut lines, mut groups) = (Group::default(), Vec::new());
@@ -318,7 +318,7 @@ impl AnnotationLayer {
         Self::OverlayTexts,
     ];
 
-    /// Creates an empty layer, with a pen for a line group and a character height.
+    /// Creates an empty layer, whose pen depends on the line group or the character height.
     pub(super) fn to_layer(self, group: page::IsoLineGroup, letters: f64, ink: Ink) -> Layer {
         // Butt caps end exactly at the measured point. Round caps would extend beyond it.
         let butt = |width| Pen { cap: page::Cap::Butt, ..Pen::solid(width, ink) };

@@ -21,21 +21,21 @@ use glam::DVec2;
 use page::{Group, Ink, Label, Layer, Pen, Polyline, TextAlign};
 use viewport::{DrawingScale, Rectangle};
 
-/// The distance from the view or its balloons to the frame, in millimeters, enough to clear the
-/// centering marks.
+/// The distance from the view or its balloons to the frame, in millimeters. It is large enough to
+/// clear the centering marks.
 const BORDER_GAP: f64 = 6.0;
 
 /// The distance from the view to the balloons, in millimeters.
 const VIEW_GAP: f64 = 5.0;
 
-/// The minimum distance between balloons, and from a leader to the balloon of another item.
+/// The minimum distance between balloons, in millimeters. Leaders clear other balloons by half.
 const BALLOON_GAP: f64 = 2.5;
 
-/// The number of rings to try, from the view to the border.
+/// The number of steps between the rings to try, from the view to the border.
 const RING_STEPS: u32 = 5;
 
-/// The balloon distances to try on each ring, as multiples of the minimum. If balloons are farther
-/// apart, leaders can pass between them at flatter angles.
+/// The balloon distances to try on each ring, as multiples of the minimum. When balloons are
+/// farther apart, leaders can pass between them at flatter angles.
 const SPREADS: [f64; 3] = [1.0, 1.4, 2.0];
 
 /// The radius of the dot at the end of a leader, in character heights.
@@ -58,7 +58,7 @@ pub(super) struct AssemblyLayout {
     letters: f64,
 }
 
-/// An item and the spot where its leader ends, in millimeters on the page.
+/// An item, and the spot where its leader ends, in millimeters on the page.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BalloonTarget<'a> {
     pub(super) item: &'a PartsListItem,
@@ -66,8 +66,8 @@ pub(super) struct BalloonTarget<'a> {
 }
 
 impl AssemblyLayout {
-    /// Returns the layout with the largest scale next to the title block and parts list, or `None`
-    /// if the view does not fit at any standard scale.
+    /// Returns the layout with the largest scale at which the view fits beside or above the title
+    /// block and parts list, or `None` if it does not fit at any standard scale.
     ///
     /// `count` is the maximum number of balloons; 0 means none.
     pub(super) fn arrange(
@@ -81,7 +81,7 @@ impl AssemblyLayout {
         let around = if count > 0 { VIEW_GAP + 2.0 * radius + 1.0 } else { 0.0 };
         let fitting = |region: Extent| {
             let room = region[1] - region[0] - DVec2::splat(2.0 * around);
-            // Tries the requested scale first, then the standard scales from the largest down.
+            // Try the requested scale first, then the standard scales from the largest down.
             let own = sheet.scale.into_iter().chain(DrawingScale::STANDARD);
             let fits = |scale: &DrawingScale| (view.size * scale.ratio()).cmple(room).all();
             let scale = own.into_iter().find(fits)?;
@@ -108,8 +108,8 @@ impl AssemblyLayout {
         2.0 * self.radius + BALLOON_GAP
     }
 
-    /// Returns the rectangle on which balloon centers are placed: around the view if `part` is 0,
-    /// at the border if it is 1.
+    /// Returns the rectangle on which balloon centers are placed, around the view if `part` is 0,
+    /// at the border if `part` is 1.
     fn ring(&self, part: f64) -> Extent {
         let [low, high] = self.region;
         let near = self.half + DVec2::splat(VIEW_GAP + self.radius);
@@ -123,10 +123,10 @@ impl AssemblyLayout {
         self.center + spot.at * (view.millimeters_per_unit * self.scale.ratio())
     }
 
-    /// Chooses a balloon center for each spot, or `None` if its balloon does not fit.
+    /// Chooses a balloon center for each spot, or `None` if the spot's balloon does not fit.
     ///
-    /// Uses the ring nearest to the view that has room for all balloons. If no ring does, uses the
-    /// ring with the most positions whose leaders stay clear of other balloons.
+    /// Uses the ring nearest to the view on which all balloons fit. If there is none, uses the ring
+    /// on which the most leaders stay clear of other balloons.
     fn choose_places(&self, spots: &[DVec2]) -> Vec<Option<DVec2>> {
         let clearance = self.radius + 0.5 * BALLOON_GAP;
         let rings = (0..=RING_STEPS).map(|step| self.ring(f64::from(step) / f64::from(RING_STEPS)));
@@ -149,7 +149,7 @@ impl AssemblyLayout {
         best
     }
 
-    /// Returns the layers with balloons and their numbers, and the items that could not be placed.
+    /// Returns the layers with balloons and with their numbers, and the items that have no room.
     pub(super) fn balloon_layers<'a>(
         &self,
         targets: &[BalloonTarget<'a>],
@@ -177,7 +177,7 @@ impl AssemblyLayout {
         ([lines, numbers], left_out)
     }
 
-    /// Returns the circle of an item, its leader and the dot at its end.
+    /// Returns the balloon of an item, with its leader and the dot at the leader's end.
     fn balloon_group(&self, target: &BalloonTarget<'_>, center: DVec2) -> Group {
         let away = (target.spot - center).normalize_or(DVec2::Y);
         let leader = [center + away * self.radius, target.spot];

@@ -4,7 +4,7 @@
 //! ```text
 //!   ○  ○  ○  ○        places are a fixed distance apart; the total length of the leaders is
 //!   ○ ┌────┐ ○        minimal (Kuhn 1955, in the form of Jonker and Volgenant), so
-//!   ○ │view│ ○        leaders do not cross: if two leaders crossed, exchanging their
+//!   ○ │view│ ○        leaders do not cross: if two leaders crossed, swapping their
 //!   ○ └────┘ ○        places would shorten the total
 //!   ○  ○  ○  ○
 //! ```
@@ -12,10 +12,10 @@
 use super::annotation::Extent;
 use glam::DVec2;
 
-/// The cost of a leader that would cross another balloon position.
+/// The extra cost of a leader that would pass too close to another balloon position.
 const FORBIDDEN: f64 = 1e9;
 
-/// Returns evenly spaced positions on the sides of a rectangle, at least `pitch` apart.
+/// Returns positions that are evenly spaced along the sides of a rectangle, at least `pitch` apart.
 pub(super) fn ring_places([low, high]: Extent, pitch: f64) -> Vec<DVec2> {
     let size = high - low;
     if size.min_element() < 0.0 {
@@ -42,9 +42,9 @@ pub(super) fn ring_places([low, high]: Extent, pitch: f64) -> Vec<DVec2> {
     places
 }
 
-/// Assigns a distinct position to each spot such that the total length of the leaders is minimal,
-/// so they do not cross. Returns `None` if there are too few positions, or if a leader comes closer
-/// than `clearance` to the position of another balloon.
+/// Assigns a distinct position to each spot so that the total length of the leaders is minimal,
+/// which keeps the leaders from crossing. Returns `None` if there are too few positions, or if a
+/// leader comes closer than `clearance` to the position of another balloon.
 pub(super) fn shortest_places(
     spots: &[DVec2],
     places: &[DVec2],
@@ -64,11 +64,10 @@ pub(super) fn shortest_places(
     (!spots.iter().zip(&assigned).any(passes)).then_some(assigned)
 }
 
-/// Assigns a distinct position to each spot such that the total length of the leaders is minimal,
-/// but all stay at least `clearance` away from any other position. A spot without such a leader
-/// gets `None`.
+/// Assigns a distinct position to each spot so that all leaders stay at least `clearance` away from
+/// other positions and their total length is minimal. A spot without such a leader gets `None`.
 ///
-/// If some positions are ruled out, leaders may cross.
+/// Because some positions are ruled out, leaders may cross.
 pub(super) fn clear_places(
     spots: &[DVec2],
     places: &[DVec2],
@@ -105,8 +104,8 @@ fn distance_to_segment(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
 
 /// Assigns a distinct column to each row so that the sum of the costs is minimal.
 ///
-/// Uses shortest augmenting paths with potentials, in O(rows² · columns). There must be at least as
-/// many columns as rows.
+/// Uses shortest augmenting paths with potentials and takes O(rows² · columns) time. There must be
+/// at least as many columns as rows.
 fn least_assignment(costs: &[Vec<f64>]) -> Vec<usize> {
     let columns = costs.first().map_or(0, Vec::len);
     // Index 0 means "no row" or "no column".
@@ -145,7 +144,7 @@ fn least_assignment(costs: &[Vec<f64>]) -> Vec<usize> {
             }
             column = next;
         }
-        // Augments the assignment by shifting rows along the path, back to its start.
+        // Augment the assignment by shifting rows along the path, back to its start.
         while column != 0 {
             row_of_column[column] = row_of_column[previous[column]];
             column = previous[column];
@@ -167,7 +166,7 @@ mod tests {
     #[test]
     fn the_assignment_has_minimal_cost() {
         let costs = [vec![4.0, 1.0, 3.0, 9.0], vec![2.0, 0.0, 5.0, 9.0], vec![3.0, 2.0, 2.0, 9.0]];
-        // Computed by hand over all permutations: 1 + 2 + 2.
+        // The minimum over all permutations, found by hand, is 1 + 2 + 2.
         assert_eq!(least_assignment(&costs), [1, 0, 2]);
         assert!(least_assignment(&[]).is_empty());
     }
@@ -198,7 +197,7 @@ mod tests {
 
     #[test]
     fn leaders_stay_clear_of_other_positions() {
-        // All spots are near one corner, and leaders to most positions near it are at a flat angle.
+        // All spots are near one corner, so their leaders reach most positions at a flat angle.
         let places = ring_places([DVec2::ZERO, DVec2::splat(100.0)], 11.0);
         let spots: Vec<DVec2> =
             (0..20).map(|k| DVec2::new(8.0 + f64::from(k % 5), 8.0 + f64::from(k / 5))).collect();

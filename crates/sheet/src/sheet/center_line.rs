@@ -10,8 +10,8 @@
 //! ```
 //!
 //! Circles on one axis share one line along it. In a view along the axis, they share one cross that
-//! is large enough for the largest circle. A circle gets a cross if at least half of it exists. An
-//! axis gets a line if there are two circles on it, as in a cylinder or a cone.
+//! is large enough for the largest circle. A circle gets a cross if at least half of it is present.
+//! An axis gets a line if at least two circles share it, as in a cylinder or a truncated cone.
 
 use super::annotation::{AnnotationLayer, ViewAnnotations};
 use super::sheet_view::SheetView;
@@ -44,15 +44,15 @@ pub(super) struct CenterLines {
     crosses: Vec<(DVec2, f64)>,
     /// Axes seen from the side, from end to end.
     axes: Vec<[DVec2; 2]>,
-    /// Lines of symmetry, which replace the center lines on them: a point, and the index of the
-    /// paper axis along which they run.
+    /// Lines of symmetry, which replace coincident center lines: a point, and the index of the
+    /// paper axis along which the line runs.
     symmetry: Vec<(DVec2, usize)>,
     /// The maximum distance between lines that count as one.
     same: f64,
 }
 
 impl CenterLines {
-    /// Finds the center lines of circles in a view.
+    /// Finds the center lines that circles have in a view.
     pub(super) fn in_view(view: &SheetView, circles: &[WorldCircle]) -> Self {
         let same = SAME * view.size.max_element();
         let large = circles.iter().filter(|circle| circle.sweep >= LEAST_SWEEP);
@@ -77,7 +77,7 @@ impl CenterLines {
         Self { crosses, axes, symmetry: Vec::new(), same }
     }
 
-    /// Removes the lines that coincide with lines of symmetry.
+    /// Omits the center lines that coincide with these lines of symmetry.
     pub(super) fn beside(self, symmetry: Vec<(DVec2, usize)>) -> Self {
         Self { symmetry, ..self }
     }
@@ -110,7 +110,7 @@ impl CenterLines {
     }
 }
 
-/// Returns the largest circle at each center, the largest overall first.
+/// Returns the largest circle at each center, in order of decreasing radius.
 fn merge_crosses(mut crosses: Vec<(DVec2, f64)>, same: f64) -> Vec<(DVec2, f64)> {
     crosses.sort_by(|(a, r), (b, s)| {
         s.total_cmp(r).then(a.x.total_cmp(&b.x)).then(a.y.total_cmp(&b.y))
@@ -126,8 +126,8 @@ fn merge_crosses(mut crosses: Vec<(DVec2, f64)>, same: f64) -> Vec<(DVec2, f64)>
     merged
 }
 
-/// Merges axes on the same line into one segment from the first to the last point. Each axis is a
-/// point and a direction.
+/// Merges axes on the same line into one segment from the first to the last center. Each axis is a
+/// circle's center and a direction.
 fn merge_axes(sides: Vec<(DVec2, DVec2)>, same: f64) -> Vec<[DVec2; 2]> {
     let mut lines: Vec<(DVec2, DVec2, [f64; 2])> = Vec::new();
     for (center, along) in sides {

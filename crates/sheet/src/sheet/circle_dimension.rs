@@ -16,8 +16,8 @@ use super::measure::{ViewDimension, ViewMeasure};
 use glam::DVec2;
 use page::{Label, TextAlign};
 
-/// The directions to try, in degrees counterclockwise from the right. None is along an axis,
-/// because the center lines are there.
+/// The directions to try, in degrees counterclockwise from the right. None is horizontal or
+/// vertical, because center lines run there.
 const DIRECTIONS: [f64; 20] = [
     45.0, 135.0, -45.0, -135.0, 60.0, 120.0, -60.0, -120.0, 30.0, 150.0, -30.0, -150.0, 75.0,
     105.0, -75.0, -105.0, 15.0, 165.0, -15.0, -165.0,
@@ -27,7 +27,7 @@ const DIRECTIONS: [f64; 20] = [
 const LENGTHS: u32 = 40;
 
 impl DimensionBoard {
-    /// Returns the free position for a diameter or radius that needs the shortest leader.
+    /// Returns the free position with the shortest leader for a diameter or radius.
     pub(super) fn leader_candidate(&self, dimension: &ViewDimension) -> Option<Candidate> {
         let ViewMeasure::Round { center, radius, prefix, radii } = &dimension.measure else {
             return None;
@@ -58,7 +58,7 @@ impl DimensionBoard {
         best.map(|(_, candidate)| candidate)
     }
 
-    /// Returns the distance along a ray from a point to where it leaves the hull of the part.
+    /// Returns the distance from a point to where a ray from it leaves the hull of the part.
     fn exit_distance(&self, from: DVec2, along: DVec2) -> f64 {
         let hull = &self.hull;
         let crossings = hull.iter().enumerate().filter_map(|(at, &a)| {
@@ -71,8 +71,7 @@ impl DimensionBoard {
     }
 }
 
-/// Returns an arrow that points at a point of a circle from a direction, with a shelf at the other
-/// end of its shaft.
+/// Returns a leader, with its arrowhead at a point of a circle and its text on a shelf at the end.
 fn leader(text: &str, tip: DVec2, away: DVec2, length: f64, letters: f64) -> Candidate {
     let mut candidate = Candidate::default();
     let corner = tip + away * length;

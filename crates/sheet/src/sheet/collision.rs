@@ -1,4 +1,4 @@
-//! Collision tests of annotations, by separating axes between convex outlines.
+//! Collision tests between annotations, by separating axes of convex outlines.
 //!
 //! Text outlines, arrowheads and lines are convex, so the separating axis theorem applies: two
 //! shapes are disjoint if they are separated along the normal of one of their sides (Gottschalk
@@ -39,7 +39,7 @@ pub(super) fn convex_parts(shape: &AnnotationShape, margin: f64) -> Vec<Vec<DVec
     }
 }
 
-/// Whether two convex outlines overlap by more than mere contact. Two points form a line.
+/// Whether two convex outlines overlap by more than mere contact. Two points are a line.
 pub(super) fn convex_overlap(a: &[DVec2], b: &[DVec2]) -> bool {
     let axes = sides(a).chain(sides(b)).chain([DVec2::X, DVec2::Y]);
     let along = |points: &[DVec2], axis: DVec2| {
@@ -86,8 +86,8 @@ pub(super) fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     hull
 }
 
-/// Clips a convex outline to an interval along an axis, and returns how far the result extends in a
-/// direction perpendicular to the axis. Returns `None` if nothing is left.
+/// Clips a convex outline to an interval along an axis, and returns how far the result extends in
+/// the `outward` direction. Returns `None` if nothing is left.
 pub(super) fn reach_between(
     hull: &[DVec2],
     along: DVec2,
@@ -108,7 +108,7 @@ pub(super) fn reach_between(
             add(from);
         }
         for border in [low, high] {
-            // Only sides that cross the border count here. Corners on it have been added above.
+            // Only sides that cross the border count; corners on the border have been added above.
             if (s - border) * (t - border) < 0.0 {
                 add(from + (to - from) * ((border - s) / (t - s)));
             }
@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn hulls_contain_only_corners_and_reach_is_measured_within_a_range() {
+    fn hulls_have_only_corners_and_reach_is_limited_to_a_range() {
         let square =
             points(&[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [2.0, 2.0], [2.0, 0.0]]);
         let hull = convex_hull(square);

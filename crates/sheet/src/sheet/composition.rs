@@ -10,7 +10,7 @@
 //!
 //! Views are parallel projections, so a strip of the paper shows exactly the slab of space behind
 //! it. A section along a stepped plane is therefore, strip by strip, a section along one plane. No
-//! line is drawn where two parts meet.
+//! line is drawn between adjacent strips or halves.
 
 use super::SheetError;
 use super::freehand::{freehand_circle, freehand_line};
@@ -26,10 +26,10 @@ use viewport::DrawingScale;
 /// Half the width of the gap in a broken view, in millimeters on paper.
 const HALF_BREAK: f64 = 1.5;
 
-/// The maximum deviation of a break line, in millimeters on paper.
+/// The maximum deviation of a break line from a straight line, in millimeters on paper.
 const BREAK_WAVER: f64 = 1.2;
 
-/// The maximum deviation of the line around a local section, as a fraction of its radius.
+/// The maximum deviation of a local section's border from a circle, as a fraction of the radius.
 const LOCAL_WAVER: f64 = 0.08;
 
 /// Lines within this distance of the center line of a half section, in pixels of the drawing, are
@@ -45,7 +45,7 @@ pub(super) enum Composition {
     /// Strips, each cut by a plane.
     Stepped {
         planes: Vec<Plane<World>>,
-        /// A point on each border between strips; there is one fewer border than there are planes.
+        /// A point on each border between strips; there is one border fewer than planes.
         borders: Vec<Point<World>>,
         /// The direction in which the strips follow each other.
         along: Vector<World>,
@@ -58,8 +58,8 @@ pub(super) enum Composition {
     Broken(Break),
 }
 
-/// The omitted part of a view, in object millimeters from the center of the whole view, to the
-/// right and down.
+/// The omitted part of a view, in object millimeters from the center of the whole view, positive to
+/// the right and down.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Break {
     /// The paper axis along which the view is shortened.
@@ -68,7 +68,7 @@ pub(super) struct Break {
     pub(super) to: f64,
 }
 
-/// A drawing with freehand lines, in pixels.
+/// A drawing, with the freehand lines of its breaks in pixels.
 pub(super) struct ComposedDrawing {
     pub(super) drawing: Drawing,
     pub(super) break_lines: Vec<Vec<DVec2>>,
@@ -102,7 +102,7 @@ impl Break {
 }
 
 impl Composition {
-    /// Whether a part of the view is cut open, so that all its hidden lines are omitted.
+    /// Whether strips or a half of the view are cut, so that all its hidden lines are omitted.
     pub(super) const fn is_section(&self) -> bool {
         matches!(self, Self::Stepped { .. } | Self::Half { .. })
     }
@@ -126,7 +126,7 @@ impl Composition {
 }
 
 impl ComposedDrawing {
-    /// Returns the part of the drawing within a radius, in pixels, around its center.
+    /// Returns the part of the drawing within a radius of its center, in pixels.
     pub(super) fn within_disc(self, radius: f64) -> Self {
         let area = ClipArea::Disc { center: self.drawing.size * 0.5, radius };
         let parts = |line: &Vec<DVec2>| {
@@ -149,7 +149,7 @@ impl From<Drawing> for ComposedDrawing {
 }
 
 impl ViewSide {
-    /// Returns the area on this side of a point. It starts `inset` pixels away from the point.
+    /// Returns the area on this side of a point, starting `inset` pixels away from it.
     fn area(self, point: DVec2, inset: f64) -> ClipArea {
         let outward = match self {
             Self::Left => -DVec2::X,
@@ -242,7 +242,7 @@ impl PartDrawing<'_, '_> {
         Ok(ComposedDrawing { drawing, break_lines })
     }
 
-    /// Draws the two ends of a broken view, moved together.
+    /// Draws the two ends of a broken view, moved toward each other.
     fn broken(&mut self, part: &Break) -> Result<ComposedDrawing, SheetError> {
         let sections = self.view.sections.clone();
         let whole = self.part(&sections)?;
@@ -259,7 +259,7 @@ impl PartDrawing<'_, '_> {
             let shift = part.length() * (-outward * 0.5 * pixels);
             let area = end_area(&line, along * outward);
             let end = whole.clone().clipped(&area, ClipSide::Inside).moved_by(shift);
-            // The break line ends at the outline, because there is nothing to break beyond it.
+            // The break line ends at the outline, because nothing beyond it is broken.
             let lines = self.within_outline(&line)?.into_iter();
             break_lines.extend(lines.map(|line| line.iter().map(|p| *p + shift).collect()));
             match &mut composed {
@@ -271,7 +271,7 @@ impl PartDrawing<'_, '_> {
         Ok(ComposedDrawing { drawing, break_lines })
     }
 
-    /// Returns the parts of a line inside the outline of the uncut object.
+    /// Returns the parts of a polyline inside the outline of the uncut object.
     fn within_outline(&mut self, line: &[DVec2]) -> Result<Vec<Vec<DVec2>>, SheetError> {
         let (view_projection, size) = self.view.view_projection()?;
         let surface: &WeldedSurface = self.surfaces.cut_by(&[]);
@@ -283,7 +283,7 @@ impl PartDrawing<'_, '_> {
     }
 }
 
-/// Returns the area on the `outward` side of a line that runs across the drawing.
+/// Returns the area on the `outward` side of a polyline that runs across the drawing.
 fn end_area(line: &[DVec2], outward: DVec2) -> ClipArea {
     const FAR: f64 = 1e6;
     let ends = [line[0], line[line.len() - 1]];
@@ -298,7 +298,7 @@ fn end_area(line: &[DVec2], outward: DVec2) -> ClipArea {
     ClipArea::Star { center, corners: corners.collect() }
 }
 
-/// Returns the parts of a line inside the region bounded by directed edges.
+/// Returns the parts of a polyline inside the region bounded by directed edges.
 fn parts_within(line: &[DVec2], edges: &[RegionEdge]) -> Vec<Vec<DVec2>> {
     let mut parts: Vec<Vec<DVec2>> = Vec::new();
     let mut is_open = false;

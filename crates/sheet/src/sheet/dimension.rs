@@ -9,7 +9,7 @@
 //! ```
 //!
 //! Extension lines begin slightly away from the outline and end slightly beyond the dimension line.
-//! Arrows that do not fit between them are placed outside.
+//! Arrows that do not fit between the extension lines are placed outside.
 //!
 //! All distances are multiples of the character height.
 
@@ -34,7 +34,7 @@ pub(super) const ARROW_LENGTH: f64 = 0.9;
 /// The distance from the dimension line to the text above it.
 pub(super) const TEXT_GAP: f64 = 0.35;
 
-/// The side of a view on which its overall dimension is placed.
+/// The side of a view on which an overall dimension is placed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum OverallSide {
     Above,
@@ -42,7 +42,7 @@ pub(super) enum OverallSide {
     Left,
 }
 
-/// A length between two points of an outline, dimensioned on the side `outward`.
+/// A dimension between two points of an outline.
 struct LinearDimension {
     ends: [DVec2; 2],
     /// The unit vector from the outline to the dimension line.
@@ -53,9 +53,9 @@ struct LinearDimension {
     length: f64,
 }
 
-/// Adds the overall dimensions of a view whose object extends by `half` to each side of its center.
+/// Adds the overall dimensions of a view. `half` is half the size of the object in the view.
 ///
-/// An object without extent gets no dimensions.
+/// A direction in which the object has no extent gets no dimension.
 pub(super) fn add_overall_dimensions(
     annotations: &mut ViewAnnotations,
     sides: &[OverallSide],
@@ -79,7 +79,7 @@ pub(super) struct DimensionSettings {
     pub(super) scale: DrawingScale,
     /// The format of the lengths.
     pub(super) format: LengthFormat,
-    /// The space around the outline for cut lines and letters, in millimeters, or 0 if unused.
+    /// The space around the outline for section lines and letters, in millimeters, or 0 if unused.
     pub(super) reserved: f64,
     /// The length that a broken view omits along each axis of the paper, in object millimeters.
     pub(super) left_out: DVec2,
@@ -110,7 +110,7 @@ impl OverallSide {
     }
 }
 
-/// Returns the dimension of the object's whole extent, on one side.
+/// Returns the dimension of the object's whole extent along one side.
 fn overall_dimension(
     side: OverallSide,
     half: DVec2,
@@ -132,8 +132,8 @@ fn overall_dimension(
 }
 
 impl LinearDimension {
-    /// Returns the direction of the dimension line. The text runs along it and is read from the
-    /// bottom or the right of the sheet.
+    /// Returns the direction of the dimension line. The text runs along the line and is read from
+    /// the bottom or the right of the sheet.
     fn line_direction(&self) -> DVec2 {
         (self.ends[1] - self.ends[0]).normalize_or(DVec2::X)
     }
@@ -143,7 +143,7 @@ impl LinearDimension {
         self.ends.map(|end| end + self.outward * self.distance)
     }
 
-    /// Whether arrows and text fit between the extension lines.
+    /// Whether the arrows fit between the extension lines.
     fn fits_arrows(&self, height: f64) -> bool {
         (self.ends[1] - self.ends[0]).length() > 3.5 * ARROW_LENGTH * height
     }
@@ -151,7 +151,7 @@ impl LinearDimension {
     /// Adds extension lines, a dimension line, arrowheads and text.
     ///
     /// Arrows that do not fit between the extension lines point inward from outside. The dimension
-    /// line extends to them, and farther if the text is beside it.
+    /// line extends to these arrows, and farther if the text is also outside.
     fn annotate(&self, annotations: &mut ViewAnnotations, settings: &DimensionSettings) {
         let height = settings.letters;
         let text = settings.format.text(self.length);
@@ -173,10 +173,10 @@ impl LinearDimension {
         for (tip, into) in [(start, along * inwards), (end, -along * inwards)] {
             annotations.push(layer, AnnotationShape::Head(arrowhead(tip, into, arrow)));
         }
-        // For text that reads along the line, "above" is on the left of the reading direction.
+        // Text reads along the line, so "above" is to the left of the reading direction.
         let above = DVec2::new(along.y, -along.x) * (TEXT_GAP * height);
         let (anchor, align) = if is_outside {
-            // The text is beyond the extension line, which extends above the dimension line.
+            // The text must clear the extension line, which extends above the dimension line.
             let beyond = if outwards > 0.0 { outwards } else { 0.5 * height };
             (end + along * beyond + above, TextAlign::Start)
         } else {
@@ -187,7 +187,7 @@ impl LinearDimension {
     }
 }
 
-/// Returns an arrowhead with this tip. `into` is the direction from the tip to the base.
+/// Returns an arrowhead with its tip at `tip`. `into` is the direction from the tip to the base.
 pub(super) fn arrowhead(tip: DVec2, into: DVec2, length: f64) -> [DVec2; 3] {
     let across = DVec2::new(-into.y, into.x) * (length / 6.0);
     let base = tip + into * length;
@@ -198,7 +198,7 @@ pub(super) fn arrowhead(tip: DVec2, into: DVec2, length: f64) -> [DVec2; 3] {
 mod tests {
     use super::*;
 
-    /// Returns the overall dimensions of an object with the given half size, at 1:1.
+    /// Returns the overall dimension, at 1:1, of an object with the given half size.
     fn annotated(half: DVec2, side: OverallSide, reserved: f64) -> ViewAnnotations {
         let (scale, format) = (DrawingScale::STANDARD[5], LengthFormat::default());
         let settings =
@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn narrow_dimensions_have_outside_arrows() {
+    fn narrow_dimensions_have_arrows_outside() {
         let span = |half: f64| {
             let object = [DVec2::ZERO; 2];
             let annotations = annotated(DVec2::splat(half), OverallSide::Above, 0.0);

@@ -48,7 +48,7 @@ pub(super) struct DimensionBoard {
 }
 
 impl Candidate {
-    /// Whether the candidate's numbers are clear of its lines and of each other.
+    /// Whether the candidate's text is clear of its lines and of its other text.
     fn is_legible(&self, margin: f64) -> bool {
         let parts: Vec<(bool, Vec<DVec2>)> = self
             .shapes
@@ -79,7 +79,7 @@ impl Candidate {
 }
 
 impl DimensionBoard {
-    /// Creates the space left free by existing annotations and by the reserved lines of later ones.
+    /// Creates a board with the space that existing annotations and `reserved` lines leave free.
     pub(super) fn new(
         annotations: &ViewAnnotations,
         hull: Vec<DVec2>,
@@ -155,7 +155,7 @@ impl DimensionBoard {
         self.spans.extend(candidate.span);
     }
 
-    /// Places dimensions: lengths first, with shorter ones closer to the part, then angles, then
+    /// Places dimensions: lengths first, from the shortest to the longest, then angles, then
     /// circles.
     pub(super) fn place_all(
         &mut self,
@@ -181,7 +181,7 @@ impl DimensionBoard {
         }
     }
 
-    /// Returns the free positions for a dimension: one position, or one for each baseline length.
+    /// Returns a free position for a dimension, or one for each of its lengths.
     fn candidates(&self, dimension: &ViewDimension) -> Vec<Option<Candidate>> {
         match &dimension.measure {
             ViewMeasure::Lengths { .. } => self.length_candidates(dimension),
@@ -196,7 +196,7 @@ impl DimensionBoard {
     }
 }
 
-/// Returns the order in which dimensions are placed.
+/// Returns the sort key for the order in which dimensions are placed.
 fn rank(dimension: &ViewDimension) -> (u8, f64) {
     match &dimension.measure {
         ViewMeasure::Lengths { feet, along, .. } => {

@@ -1,4 +1,4 @@
-//! Sheet frame (ISO 5457): margins, a border line of 0.7 mm and centering marks.
+//! The sheet frame (ISO 5457): margins, a border line of 0.7 mm and centering marks.
 //!
 //! The margin is 20 mm on the left, for filing, and 10 mm elsewhere.
 
@@ -18,14 +18,14 @@ const MARGIN: f64 = 10.0;
 const FRAME_LINE_WIDTH: f64 = 0.7;
 
 /// The distance from the centering marks to the edge of the paper, and the length of the marks
-/// inside the drawing area.
+/// inside the drawing area, in millimeters.
 const CENTERING_MARK: [f64; 2] = [5.0, 5.0];
 
 /// The minimum distance from the inner part of a centering mark to anything else, in millimeters.
 const MARK_CLEARANCE: f64 = 1.0;
 
-/// Returns the drawing area inside the frame. If the paper is too small for the margins, each
-/// margin is a tenth of the side.
+/// Returns the drawing area inside the frame. On small paper, each margin is at most a tenth of the
+/// width or height.
 pub(super) fn area_within_frame(paper: Paper) -> Rectangle {
     let margin = |margin: f64, side: f64| margin.min(side * 0.1);
     let (left, right) = (margin(FILING_MARGIN, paper.width()), margin(MARGIN, paper.width()));

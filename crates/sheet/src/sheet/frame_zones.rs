@@ -18,7 +18,7 @@ use viewport::{Paper, Rectangle};
 /// The border around the drawing area of a sheet.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum SheetFrame {
-    /// A line with centering marks in the middle of each side.
+    /// A line, with a centering mark in the middle of each side.
     #[default]
     Plain,
     /// A line with centering marks, zones with letters and numbers, and trimming marks at the
@@ -38,11 +38,11 @@ const LETTER_HEIGHT: f64 = 3.5;
 /// The width of the lines between zones in millimeters.
 const LINE_WIDTH: f64 = 0.35;
 
-/// The sides of the two rectangles of a trimming mark in millimeters.
+/// The side lengths, in millimeters, of the two rectangles that form a trimming mark.
 const TRIMMING_MARK: [f64; 2] = [10.0, 5.0];
 
-/// The longest side, in millimeters, of paper that has numbers only along the top and letters only
-/// on the right.
+/// The maximum side length, in millimeters, of paper that has numbers only along the top and
+/// letters only on the right.
 const SMALL_PAPER: f64 = 300.0;
 
 /// The row letters, without I and O, which look like digits.
@@ -117,7 +117,7 @@ fn side_of(frame: Rectangle, paper: Paper, axis: usize) -> (DVec2, DVec2, f64) {
     (low, high, [paper.width(), paper.height()][axis])
 }
 
-/// Returns trimming marks: two rectangles in each corner of the paper, where it is to be cut.
+/// Returns the trimming marks: two rectangles in each corner, which show where to cut the paper.
 fn trimming_marks(paper: Paper, pen: Pen) -> Layer {
     let size = DVec2::new(paper.width(), paper.height());
     let [long, short] = TRIMMING_MARK;
@@ -125,7 +125,7 @@ fn trimming_marks(paper: Paper, pen: Pen) -> Layer {
     for corner in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(DVec2::from) {
         let inward = DVec2::ONE - corner * 2.0;
         let at = |x: f64, y: f64| size * corner + inward * DVec2::new(x, y);
-        // Both rectangles form one outline, because overlapping areas in one path are not filled.
+        // Both rectangles form one outline, because their overlap would not be filled otherwise.
         let outline = [
             at(0.0, 0.0),
             at(long, 0.0),

@@ -3,7 +3,7 @@
 //! ```text
 //!   ┌───────┬──────┐
 //!   │ front │ side │      a maximal free rectangle ends at obstacles or at the frame, so its sides
-//!   ├───────┼──────┤      are among theirs; there are few enough to try them all
+//!   ├───────┼──────┤      align with theirs, and all such rectangles can be tried
 //!   │  top  │ ████ │
 //!   └───────┴──────┘
 //! ```
@@ -11,7 +11,7 @@
 use super::annotation::{Extent, overlap};
 use glam::DVec2;
 
-/// Returns all free rectangles in an area whose sides align with sides of the area or of obstacles.
+/// Returns all free rectangles in an area that align with sides of the area or of obstacles.
 pub(super) fn free_rectangles(area: Extent, obstacles: &[Extent]) -> Vec<Extent> {
     let borders = |axis: usize| {
         let sides = obstacles.iter().flatten().chain(&area).map(|corner| corner[axis]);
@@ -38,7 +38,7 @@ pub(super) fn free_rectangles(area: Extent, obstacles: &[Extent]) -> Vec<Extent>
     free
 }
 
-/// The multiple of a view's required space beyond which additional space has no value.
+/// The ratio of available to required size beyond which additional space has no value.
 const AMPLE: f64 = 1.3;
 
 /// Returns the best rectangle for a view of the given size. Prefers rectangles with ample space,

@@ -1,28 +1,27 @@
 //! Freehand lines: the borders of local sections and broken views (ISO 128-2, line 01.1.18).
 //!
-//! A freehand line wavers around its path. The waves are sums of sines with fixed parameters, so
-//! they are the same in every drawing of a part.
+//! A freehand line wavers around its path. Its deviation is a sum of sines with fixed parameters,
+//! so it is the same in every drawing of a part.
 
 use drawing::circle_points;
 use glam::DVec2;
 use std::f64::consts::TAU;
 
-/// The number of points of a freehand line.
+/// The number of segments of a freehand line.
 const POINTS: u32 = 96;
 
-/// The waves: the number of periods along the line, the fraction of the amplitude, and the phase in
-/// turns.
+/// The waves, each with its number of periods along the line, its fraction of the amplitude, and
+/// its phase in turns.
 const WAVES: [(f64, f64, f64); 4] =
     [(3.0, 0.5, 0.11), (5.0, 0.3, 0.63), (8.0, 0.14, 0.37), (13.0, 0.06, 0.81)];
 
-/// Returns the deviation of a freehand line at a fraction of its length, from −1 to 1. The
+/// Returns the deviation, from −1 to 1, of a freehand line at a fraction of its length. The
 /// deviation is periodic.
 fn waver(t: f64) -> f64 {
     WAVES.iter().map(|(count, part, phase)| part * libm::sin(TAU * (count * t + phase))).sum()
 }
 
-/// Returns a closed freehand line around a center, a circle that wavers by a fraction of its
-/// radius.
+/// Returns a freehand circle, which wavers by the fraction `part` of its radius.
 pub(super) fn freehand_circle(center: DVec2, radius: f64, part: f64) -> Vec<DVec2> {
     let circle = circle_points(DVec2::ZERO, radius, POINTS).into_iter().zip(0..POINTS);
     let at = |(point, k): (DVec2, u32)| {

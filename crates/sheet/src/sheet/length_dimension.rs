@@ -9,8 +9,8 @@
 //! ```
 //!
 //! If two arrowheads do not fit between extension lines, oblique strokes replace the inner
-//! arrowheads of a chain. A number that does not fit is placed beyond the end of the line, or above
-//! it with a leader.
+//! arrowheads of a chain. A number that does not fit is placed beyond the end of the line, or
+//! farther out with a leader.
 
 use super::annotation::{AnnotationLayer, AnnotationShape, AnnotationText};
 use super::collision::{convex_overlap, reach_between, text_outline};
@@ -34,10 +34,10 @@ const LEAST_BETWEEN_ARROWS: f64 = 3.5;
 /// Half the side of the square whose diagonal is an oblique stroke, in character heights.
 const STROKE: f64 = 0.3;
 
-/// The maximum length of the extension lines of later rows, in character heights.
+/// The length reserved for the extension lines of later rows, in character heights.
 const FAR: f64 = 200.0;
 
-/// The number of levels at which numbers above the line are tried.
+/// The number of levels to try for a number with a leader.
 const TEXT_LEVELS: u32 = 6;
 
 /// Lengths on one dimension line.
@@ -50,7 +50,7 @@ struct LengthRow<'a> {
     outward: DVec2,
     /// The position of the line along `outward`.
     level: f64,
-    /// The numbers between neighboring points.
+    /// The numbers for the lengths between neighboring points.
     texts: &'a [String],
     letters: f64,
     /// Whether a single number that does not fit is placed before the line instead of after it.
@@ -105,7 +105,7 @@ impl DimensionBoard {
         for (index, foot) in feet.iter().enumerate() {
             let mut pair = [base, *foot];
             pair.sort_by(|a, b| a.dot(along).total_cmp(&b.dot(along)));
-            // The extension lines of later rows pass this one.
+            // The extension lines of later rows will pass this one.
             let mut trial = board.clone();
             feet[index + 1..].iter().for_each(|foot| trial.reserve_line([*foot, *foot + reach]));
             let row = trial.row_candidate(dimension, &pair, along, &[outward]);
@@ -143,7 +143,7 @@ impl DimensionBoard {
         let [low, high] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| {
             [low.min(at), high.max(at)]
         });
-        // For slanted lengths, only the part directly beside them counts.
+        // Beside a slanted length, only the adjacent portion of the hull counts.
         let room = if is_upright { f64::INFINITY } else { 3.0 * self.settings.letters };
         let hull = reach_between(&self.hull, along, [low - room, high + room], outward);
         let of_feet = feet.iter().map(|foot| foot.dot(outward));
@@ -202,7 +202,7 @@ impl LengthRow<'_> {
         ARROW_LENGTH * self.letters
     }
 
-    /// Returns the unit vector that points up when reading the numbers.
+    /// Returns the unit vector that points up from the baseline of the numbers.
     fn above(&self) -> DVec2 {
         DVec2::new(self.along.y, -self.along.x)
     }
@@ -223,8 +223,7 @@ impl LengthRow<'_> {
         is_inside && (self.is_narrow(at - 1) || self.is_narrow(at))
     }
 
-    /// Returns all lines and numbers, or `None` if no level has room for the numbers above the
-    /// line.
+    /// Returns all lines and numbers, or `None` if no level has room for a number with a leader.
     fn candidate(&self) -> Option<Candidate> {
         let mut candidate = Candidate::default();
         self.add_extension_lines(&mut candidate);
@@ -243,7 +242,7 @@ impl LengthRow<'_> {
             // A single length has free space at both ends; `is_text_first` selects the first end.
             let is_end = at == last && !(last == 0 && self.is_text_first);
             if is_end || at == 0 {
-                // The text is beyond the extension line, which extends above the dimension line.
+                // The text must clear the extension line, which extends above the dimension line.
                 let tail = &mut tails[usize::from(is_end)];
                 let beyond = if *tail > 0.0 { *tail } else { 0.5 * self.letters };
                 let sense = if is_end { 1.0 } else { -1.0 };
@@ -277,8 +276,8 @@ impl LengthRow<'_> {
         }
     }
 
-    /// Adds arrowheads, or oblique strokes between narrow lengths in a chain. At a narrow end, the
-    /// arrowhead is outside.
+    /// Adds arrowheads or, at inner points next to narrow lengths, oblique strokes. If the first or
+    /// last length is narrow, its arrowhead at the end of the line is outside.
     fn add_terminators(&self, candidate: &mut Candidate) {
         let last = self.feet.len() - 1;
         for at in 0..=last {
@@ -312,7 +311,7 @@ impl LengthRow<'_> {
         AnnotationText { text: text.to_owned(), anchor, height, direction, align }
     }
 
-    /// Adds a number that is wider than its space, farther out at the end of a leader.
+    /// Adds a number that is too wide for its space, farther out and with a leader.
     fn add_raised_text(&self, candidate: &mut Candidate, at: usize, text: &str) -> Option<()> {
         let middle = (self.line_point(at) + self.line_point(at + 1)) * 0.5;
         // If the text's up direction points away from the part, its baseline faces the part.

@@ -2,7 +2,7 @@
 //!
 //! | unit | 1234.5 mm | decimals |
 //! | --- | --- | --- |
-//! | millimeters | 1235 (below a meter, such as 234.5) | at most 2, none from one meter up |
+//! | millimeters | 1234 (but 234.5 below a meter) | at most 2, none from one meter up |
 //! | inches | 48.602 | at most 3 |
 //! | feet and inches | 4'-0 5/8" | sixteenths of an inch |
 
@@ -96,8 +96,8 @@ impl LengthFormat {
         Self { numbers: NumberFormat { decimals: Some(most), ..self.numbers }, ..self }
     }
 
-    /// Formats a length in millimeters for a dimension line, without a unit except for feet and
-    /// inches.
+    /// Formats a length, given in millimeters, for a dimension line. Only feet and inches are
+    /// marked with their unit.
     pub(super) fn text(self, millimeters: f64) -> String {
         let length = millimeters / self.unit.in_millimeters();
         let own = self.numbers.decimals.map(|most| most.min(NumberFormat::MAX_DECIMALS).into());
@@ -114,7 +114,7 @@ impl LengthFormat {
         }
     }
 
-    /// Formats a length with its unit for the scale bar. Long lengths are in meters or kilometers.
+    /// Formats a length with its unit for the scale bar. Long metric lengths are in m or km.
     pub(super) fn text_with_unit(self, length: f64) -> String {
         let number = |length: f64| {
             let text = length.to_string();

@@ -28,9 +28,9 @@ const TRUE_SINE: f64 = 1e-4;
 /// A dimension requested for a sheet.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Dimension {
-    /// The lengths, angle or circle that it measures.
+    /// The lengths, angle or circle to measure.
     pub measure: Measure,
-    /// The view that shows it, or `None` for the first view that shows it at true size.
+    /// The view that shows the dimension, or `None` for the first view that shows it at true size.
     pub view: Option<NamedView>,
     /// The side of the part on which the dimension line is drawn, or `None` for the side with
     /// shorter extension lines. Applies only to lengths.
@@ -97,7 +97,7 @@ pub(super) enum ViewMeasure {
 /// A dimension in the view that shows it.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct ViewDimension {
-    /// Its number on the sheet, from 1.
+    /// The number of the dimension on the sheet, from 1.
     pub(super) number: usize,
     pub(super) measure: ViewMeasure,
     pub(super) side: Option<DimensionSide>,
@@ -125,7 +125,7 @@ impl SheetView {
         DVec2::new(seen.x, -seen.y) * self.millimeters_per_unit
     }
 
-    /// Returns the direction's name if this is a named view.
+    /// Returns the name if this is a named view.
     pub(super) fn named_view(&self) -> Option<NamedView> {
         match self.name {
             ViewName::Named(name) => Some(name),
@@ -138,7 +138,7 @@ impl SheetView {
         self.camera.gaze().raw()
     }
 
-    /// Whether a vector is in the plane of the view.
+    /// Whether a vector is parallel to the plane of the view.
     pub(super) fn shows_true(&self, vector: DVec3) -> bool {
         vector.dot(self.gaze_vector()).abs() <= TRUE_SINE * vector.length()
     }
@@ -165,8 +165,8 @@ impl Measure {
         }
     }
 
-    /// Returns the image in a view that shows the measure at true size, with its rank; lower is
-    /// better.
+    /// Returns the image of the measure in a view, with a rank (lower is better), or the reason why
+    /// the view does not show the measure at true size.
     pub(super) fn image_in(&self, view: &SheetView) -> Result<(ViewMeasure, u8), DimensionFault> {
         if !self.points().iter().all(|&point| view.retains(point)) {
             return Err(DimensionFault::CutAway);
@@ -210,7 +210,7 @@ fn lengths_in(
         return Err(DimensionFault::NoExtent);
     }
     let whole = span.length() * view.millimeters_per_unit;
-    // Compares 1 − cos φ with sin² φ, where φ is the angle between the length and the paper.
+    // Compares 1 − cos φ with a tolerance, where φ is the angle between the length and `along`.
     let rank = u8::from(whole - measured > TRUE_SINE * TRUE_SINE * whole);
     Ok((ViewMeasure::Lengths { feet, along, is_baseline, prefix: "" }, rank))
 }
@@ -266,7 +266,8 @@ impl Dimension {
     /// Chooses the view that shows the dimension, as an index into `views`, and the image in it.
     ///
     /// # Errors
-    /// Returns the reason if no view shows the dimension, or the requested view does not.
+    /// Returns the reason if the requested view, or by default every view, fails to show the
+    /// dimension.
     pub(super) fn choose_view(
         &self,
         views: &[&SheetView],

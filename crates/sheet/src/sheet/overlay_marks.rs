@@ -26,8 +26,7 @@ use glam::DVec2;
 use homog::{Bounds, Point, World};
 use model::{ModelInstance, world_points};
 
-/// The maximum number of labels in a view. More would hide the object and take a long time to
-/// place.
+/// The maximum number of labels in a view. More would hide the object and be slow to place.
 const MAX_LABELS: usize = 100;
 
 /// The number of rings around the object on which label positions are tried.
@@ -39,14 +38,15 @@ const STEP: f64 = 1.7;
 /// The distance from the end of a leader line to the text, in character heights.
 const LEADER_GAP: f64 = 0.35;
 
-/// The radius of the dot at a point, and the length of arrowheads, in character heights.
+/// The radius of the dot at a point, in character heights.
 const DOT_RADIUS: f64 = 0.1;
+/// The length of arrowheads, in character heights.
 const HEAD_LENGTH: f64 = 0.9;
 
 /// The number of corners of a dot.
 const DOT_CORNERS: u32 = 12;
 
-/// Points farther from the object than this fraction of its longer side have no label.
+/// Points farther from the object than this fraction of its longer side get no label.
 const FARTHEST: f64 = 0.25;
 
 /// The length of an axis as a fraction of the models' diagonal, the same as in pictures.
@@ -86,7 +86,7 @@ impl ViewPlan {
     }
 }
 
-/// Returns a warning if sheets cannot show an overlay, or cannot show all its characters.
+/// Returns a warning if sheets cannot show an overlay, or cannot show all characters of a label.
 fn overlay_warning(overlay: &Overlay) -> Option<SheetWarning> {
     let overlay = match overlay {
         Overlay::Grid(_) => "grid",
@@ -234,11 +234,11 @@ impl LabelBoard {
             let away = half + 0.5 * self.letters + step * f64::from(ring);
             let (low, high) = (self.object[0] - away, self.object[1] + away);
             middles.extend(ring_places([low, high], step));
-            // Adds the positions straight across from the point.
+            // Add the positions directly across from the point.
             let [x, y] = point.clamp(low, high).to_array();
             middles.extend([[low.x, y], [high.x, y], [x, low.y], [x, high.y]].map(DVec2::from));
         }
-        // Adds positions beside the point, in case it is not on the object.
+        // Add positions beside the point, in case it is not on the object.
         let beside = half + 0.5 * self.letters;
         let around = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]].map(DVec2::from);
         let corners = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].map(DVec2::from);
@@ -258,7 +258,7 @@ impl LabelBoard {
         })
     }
 
-    /// Returns the outline of a dot at a point, about as wide as a line.
+    /// Returns the outline of a small dot at a point.
     fn dot(&self, point: DVec2) -> Vec<DVec2> {
         circle_points(point, DOT_RADIUS * self.letters, DOT_CORNERS)
     }

@@ -54,7 +54,7 @@ struct DrawnAssembly<'a> {
     title: String,
 }
 
-/// The assembly page before it is numbered: its lines and their position.
+/// The contents of the assembly pages, before the pages are numbered.
 struct DrawnView {
     images: Vec<PlacedImage>,
     layers: Vec<Layer>,
@@ -230,7 +230,7 @@ impl<'a> DrawnAssembly<'a> {
             let moves = self.moves.clone().unwrap_or_else(|| vec![DVec3::ZERO; self.parts.len()]);
             let moved = MovedParts { parts: &self.parts, models: self.models, moves: &moves };
             let mut spots = find_visible_spots(&moved, &view);
-            // In an exploded view, each object is a part.
+            // In an exploded view, object indices equal part indices.
             let object = |part: usize| match exploded {
                 Some(_) => part as u32,
                 None => self.parts[part].object,
@@ -240,7 +240,7 @@ impl<'a> DrawnAssembly<'a> {
             balloons = self.place_balloons(&layout, &targets, &mut warnings);
         }
         let inks = [self.ink, sheet.style.paper.unwrap_or(WHITE)];
-        // Fills go below the lines, so they are inserted at the start.
+        // Fills are drawn below the lines, so they are inserted at the start.
         layers.splice(0..0, drawing.face_fill_layers(&style, placement, prefix, inks));
         let images = drawing.face_fill_image(&style, placement, prefix).into_iter().collect();
         Ok(DrawnView { images, layers, balloons, scale: layout.scale, warnings })
@@ -413,7 +413,7 @@ fn take_paths(drawing: &mut Drawing, is_exploded: bool) -> Drawing {
 }
 
 /// Returns the warning about names in the list with characters missing from the font, or `None` if
-/// there are none.
+/// there are no such names.
 fn unreadable_names(list: &PartsList) -> Option<SheetWarning> {
     let is_unreadable = |text: &str| !missing_glyphs(text).is_empty();
     let mut names = list

@@ -16,7 +16,7 @@ use viewport::DrawingScale;
 
 impl Sheet {
     /// Turns the paper to portrait or landscape, whichever makes models larger or fits more views.
-    /// Leaves it unchanged if both are equally good.
+    /// Leaves the paper unchanged if both are equally good.
     #[must_use]
     pub fn with_best_orientation(
         self,
@@ -30,9 +30,9 @@ impl Sheet {
     /// Returns the first sufficient sheet of a list that goes from the smallest paper to the
     /// largest:
     ///
-    /// - if a scale is set, the first sheet that fits all views at that scale;
-    /// - otherwise the first sheet that fits all views at 1:1 or larger;
-    /// - if not even the largest paper fits them at that scale, the first sheet for which the next
+    /// - if a scale is set, the first sheet on which all views fit at that scale;
+    /// - otherwise the first sheet on which all views fit at 1:1 or larger;
+    /// - if the views do not fit even on the largest paper, the first sheet for which the next
     ///   larger paper does not allow a larger scale.
     ///
     /// If `turns` is set, each sheet is used in its best orientation. Returns the first sheet if

@@ -25,8 +25,8 @@ const ROW_HEIGHT: f64 = 2.3;
 /// The distance from the border of a cell to its text, in millimeters.
 const INSET: f64 = 1.2;
 
-/// The minimum scale of text that is reduced in height to fit its cell. Text that is still too wide
-/// is truncated.
+/// The minimum factor by which text is reduced to fit its cell. Text that is still too wide is
+/// truncated.
 const LEAST_REDUCTION: f64 = 0.7;
 
 /// The distance from a table on a separate page to the frame and to the title block, in
@@ -74,7 +74,7 @@ impl<'a> PartsTable<'a> {
     pub(super) fn above_title_block(&self, most: f64) -> Option<TableColumn> {
         let (block, rows) = (self.sheet.title_block_area(), self.list.items.len());
         let corner = DVec2::new(block.x(), block.y() - self.height(rows));
-        // Stays clear of the centering mark in the middle of the side.
+        // Stay clear of the centering mark in the middle of the side.
         let is_below_mark = corner.y > 0.5 * self.sheet.paper.height() + 1.0;
         let width = block.width();
         (self.height(rows) <= most && is_below_mark).then_some(TableColumn {
@@ -241,7 +241,7 @@ fn cut_to_width(text: &str, height: f64, room: f64) -> String {
         let start: String = characters[..count].iter().collect();
         format!("{}...", start.trim_end())
     };
-    // Finds the longest prefix that fits by bisection, because longer text is wider.
+    // Bisect to find the longest prefix that fits; longer text is always wider.
     let (mut low, mut high) = (0, characters.len());
     while low + 1 < high {
         let middle = usize::midpoint(low, high);
@@ -250,7 +250,7 @@ fn cut_to_width(text: &str, height: f64, room: f64) -> String {
     cut(low)
 }
 
-/// Formats a mass with four significant digits, or as an integer, without trailing zeros.
+/// Formats a mass with up to four significant digits and three decimals, or as a larger integer.
 fn format_mass(mass: f64) -> String {
     let decimals = match mass {
         mass if mass >= 999.95 => 0,

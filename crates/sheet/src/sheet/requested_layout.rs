@@ -7,7 +7,7 @@
 //!   3. all others are placed in free rectangles, one by one
 //! ```
 //!
-//! The scale is the largest at which all of them fit, as for the default views.
+//! The scale is the largest at which all views fit, as for the default views.
 
 use super::annotation::{Extent, overlap};
 use super::free_area::{best_rectangle, free_rectangles};
@@ -113,8 +113,8 @@ impl<'a> RequestedGrid<'a> {
     }
 }
 
-/// Returns the reason why requested views cannot be arranged at the sheet's scale, or at the
-/// smallest standard scale.
+/// Returns the reason why requested views cannot be arranged at the sheet's scale or, if none is
+/// set, at the smallest standard scale.
 pub(super) fn requested_fault(sheet: &Sheet, plan: &ViewPlan) -> SheetError {
     let mut scales = scales_of_sheet(sheet).into_iter().rev();
     let fault = scales.find_map(|scale| arrange_requested(sheet, plan, scale).err());
@@ -142,8 +142,8 @@ fn find_overlaps(views: &[PlacedView<'_>], blocks: [(&str, Extent); 2]) -> Vec<S
 /// Returns the best arrangement of requested views at one scale.
 ///
 /// # Errors
-/// [`SheetError::TooLarge`] if they do not fit, [`SheetError::Outside`] if a view extends beyond
-/// the frame at its requested position.
+/// Returns [`SheetError::TooLarge`] if the views do not fit, or [`SheetError::Outside`] if a view
+/// extends beyond the frame at its requested position.
 pub(super) fn arrange_requested<'a>(
     sheet: &Sheet,
     plan: &'a ViewPlan,
@@ -214,7 +214,7 @@ fn check_place(sheet: &Sheet, cell: &ViewCell<'_>, at: DVec2) -> Result<(), Shee
     })
 }
 
-/// Places the views without a grid cell or requested position, each at its largest scale.
+/// Places the views without a grid cell or requested position, each at the largest scale that fits.
 fn place_others<'a>(
     layout: &mut ViewLayout<'a>,
     sheet: &Sheet,

@@ -27,7 +27,7 @@ use projection::SheetAngle;
 /// time.
 const MAX_REQUESTS: usize = 24;
 
-/// The state while planning requests: the views so far, and the unused letters.
+/// The state of planning: the views and warnings so far, and the unused letters.
 struct RequestPlanner<'a> {
     subject: &'a PlanSubject<'a>,
     views: Vec<PlannedView>,
@@ -36,7 +36,7 @@ struct RequestPlanner<'a> {
 }
 
 /// Returns the column and row of a view along an axis, with the front view at (0, 0), or `None` for
-/// others.
+/// other views.
 fn grid_place(name: NamedView, angle: SheetAngle) -> Option<[i32; 2]> {
     // In first-angle projection a view is placed opposite the side from which it is seen.
     let across = if angle == SheetAngle::First { 1 } else { -1 };
@@ -55,7 +55,7 @@ impl ViewPlan {
     /// Plans the requests of a sheet. Changes nothing if there are no requests.
     ///
     /// # Errors
-    /// [`SheetError::Request`] if a request cannot be fulfilled.
+    /// Returns [`SheetError::Request`] if a request cannot be fulfilled.
     pub(super) fn add_requests(&mut self, subject: &PlanSubject<'_>) -> Result<(), SheetError> {
         let requests = &subject.sheet.views;
         if requests.is_empty() {
@@ -277,7 +277,7 @@ impl RequestPlanner<'_> {
         Ok(plane)
     }
 
-    /// Omits part of a length from one view, or from all views along the axes that show the length.
+    /// Breaks one view, or all views along the axes that show the broken axis at its true length.
     fn shorten(&mut self, of: Option<NamedView>, axis: usize, ends: [f64; 2]) -> Result<(), Fault> {
         let direction = Vector::from_raw(DVec3::AXES[axis.min(2)]);
         let shows = |one: &PlannedView| {
@@ -375,9 +375,9 @@ fn check_radius(radius: f64) -> Result<(), Fault> {
     if is_length { Ok(()) } else { Err(fault("its radius must be greater than 0")) }
 }
 
-/// Returns the unit vector of a direction, or `None` for the zero vector.
+/// Returns the unit vector of a direction, or `None` if the direction is zero or not finite.
 pub(super) fn unit_vector(direction: Vector<World>) -> Option<Vector<World>> {
-    // Scales the vector first, so that squares do not overflow or underflow.
+    // Scale the vector first, so that squares do not overflow or underflow.
     let raw = direction.raw();
     let scaled = raw / raw.abs().max_element();
     scaled.is_finite().then(|| Vector::from_raw(scaled.normalize()))

@@ -21,15 +21,15 @@ const MAX_BAR_LENGTH: f64 = 60.0;
 /// The height of the bar in millimeters.
 const BAR_HEIGHT: f64 = 1.2;
 
-/// The height of its labels, as a multiple of the sheet's lettering height.
+/// The height of the bar's labels, as a multiple of the sheet's lettering height.
 const LABEL_HEIGHT_FACTOR: f64 = 0.7;
 
 /// The number of segments; every other one is filled.
 const BAR_SEGMENTS: u32 = 4;
 
-/// Returns the possible areas for the bar and its labels. The first is the lower left corner of the
-/// frame, or above the title block if that is nearly as wide as the frame. The second is above the
-/// title block on the right.
+/// Returns the possible areas for the bar and its labels. The first is in the lower left corner of
+/// the frame, or above the title block if the block is nearly as wide as the frame. The second is
+/// above the title block on the right.
 pub(super) fn scale_bar_areas(sheet: &Sheet) -> [Rectangle; 2] {
     let (frame, block) = (sheet.drawing_area(), sheet.title_block_area());
     let letters = sheet.lettering_height() * LABEL_HEIGHT_FACTOR;
@@ -91,7 +91,7 @@ fn bar_segment(corner: DVec2, from: f64, length: f64) -> Polyline {
 
 /// Returns the largest length of the form 1, 2 or 5 · 10ⁿ that is at most `most`.
 ///
-/// Lengths below 1 mm are computed as 1 / integer, so that labels show no rounding errors.
+/// Lengths below 1 are computed as 1 / integer, so that labels show no rounding errors.
 fn round_length(most: f64) -> f64 {
     let mut power = 1e-6;
     while power * 10.0 <= most {

@@ -22,12 +22,11 @@ use homog::{Plane, Vector, World};
 use page::TextAlign;
 use viewport::DrawingScale;
 
-/// The maximum deviation of the sine or cosine at which directions count as parallel or
+/// The maximum deviation of a cosine from ±1 or 0 at which directions count as parallel or
 /// perpendicular.
 pub(super) const PARALLEL_TOLERANCE: f64 = 1e-6;
 
-/// The overhang of the line beyond the view, in millimeters, which is also the length of its wide
-/// ends.
+/// The overhang of the line beyond the view, and the length of its wide ends, in millimeters.
 pub(super) const OVERHANG: f64 = 4.0;
 
 /// The length of an arrow including its shaft, in millimeters.
@@ -69,8 +68,8 @@ impl SheetView {
         plane.normal().dot(self.camera.gaze()).abs() <= PARALLEL_TOLERANCE
     }
 
-    /// Returns the trace of a plane seen edge-on, as a point on it in millimeters from the center
-    /// of the view, and the unit vector toward the retained side.
+    /// Returns the trace of a plane seen edge-on: a point on the trace, in millimeters from the
+    /// center of the view, and the unit vector toward the retained side.
     fn section_trace(&self, plane: Plane<World>, scale: DrawingScale) -> Option<(DVec2, DVec2)> {
         let normal = Vector::from_raw(plane.normal().raw());
         let direction = self.camera.rotation().transform_vector(normal).raw();

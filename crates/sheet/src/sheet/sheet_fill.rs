@@ -1,4 +1,4 @@
-//! Sheet fill: the fraction of the paper that its views use, and what prevents the next larger
+//! Sheet fill: the fraction of the paper that the views use, and what prevents the next larger
 //! scale.
 //!
 //! ```text
@@ -33,8 +33,8 @@ const INTERMEDIATE: [u32; 14] = [3, 4, 15, 25, 30, 40, 150, 250, 300, 400, 1500,
 pub struct SheetFill {
     /// The scale of the sheet.
     pub scale: DrawingScale,
-    /// The area of the views with their annotations, each as a rectangle, as a fraction of the area
-    /// inside the frame without the title block and scale bar.
+    /// The total area of the rectangles around the views and their annotations, as a fraction of
+    /// the area inside the frame without the title block and scale bar.
     pub fraction: f64,
     /// The reason why the scale is not larger.
     pub limit: ScaleLimit,
@@ -101,7 +101,7 @@ impl Sheet {
         Ok(SheetFill { scale: layout.scale, fraction, limit, between })
     }
 
-    /// Returns the largest scale up to 2.5 times this one at which all views fit.
+    /// Returns the largest intermediate scale, below 2.5 times this one, at which all views fit.
     fn largest_between(&self, plan: &ViewPlan, scale: DrawingScale) -> Option<DrawingScale> {
         let reach = scale.ratio() * (1.0 + 1e-9)..scale.ratio() * 2.5 * (1.0 - 1e-9);
         let mut between: Vec<DrawingScale> = INTERMEDIATE

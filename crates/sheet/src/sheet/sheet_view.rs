@@ -74,7 +74,7 @@ impl SheetView {
     /// Creates an uncut view of the given points in a named direction.
     ///
     /// # Errors
-    /// [`SheetError::Empty`] if there are no points, [`SheetError::View`] if they cannot be framed.
+    /// Returns [`SheetError::Empty`] without points, or [`SheetError::View`] if framing fails.
     pub(super) fn frame_points(
         points: &[Point<World>],
         name: NamedView,
@@ -120,7 +120,7 @@ impl SheetView {
     /// Returns the part of the view within a radius of a point, in scene units.
     ///
     /// # Errors
-    /// [`SheetError::View`] if the camera cannot be moved there.
+    /// Returns [`SheetError::View`] if the camera cannot be moved to the point.
     pub(super) fn detail_around(
         &self,
         center: Point<World>,
@@ -138,7 +138,7 @@ impl SheetView {
         Ok(Self { name, camera, size, ..self.clone() })
     }
 
-    /// Returns a world direction as it appears foreshortened in the view, to the right and down.
+    /// Returns the foreshortened image of a world direction, with x to the right and y down.
     pub(super) fn direction_of(&self, direction: Vector<World>) -> DVec2 {
         let seen = self.camera.rotation().transform_vector(direction).raw();
         DVec2::new(seen.x, -seen.y)
@@ -193,7 +193,7 @@ impl SheetView {
         Ok(Self { name, camera, sections, depths, size, millimeters_per_unit: unit })
     }
 
-    /// Returns the width and height of the window in scene units, which are never zero, even if the
+    /// Returns the width and height of the window in scene units. Neither is zero, even if the
     /// object is flat.
     fn window_size(&self) -> DVec2 {
         let size = self.size / self.millimeters_per_unit;
@@ -228,7 +228,7 @@ impl SheetView {
     /// range gets a margin of 2% of the extent.
     ///
     /// # Errors
-    /// [`SheetError::View`] if the view volume is invalid.
+    /// Returns [`SheetError::View`] if the view volume is invalid.
     pub(super) fn view_projection(&self) -> Result<(ViewProjection, [u32; 2]), SheetError> {
         let window = self.window_size();
         let half = window * 0.5;

@@ -1,4 +1,4 @@
-//! The line of a stepped section: checks its corners, and marks it in the views along the steps.
+//! The line of a stepped section: its corners are checked, and views along the step edges mark it.
 //!
 //! ```text
 //!   1 ────── 2                pieces perpendicular to the normal: from corner 1 to 2, 3 to 4 …
@@ -21,14 +21,14 @@ const MAX_CORNERS: usize = 32;
 pub(super) struct SteppedLine<'a> {
     pub(super) corners: &'a [Point<World>],
     pub(super) removed: Vector<World>,
-    /// The direction of the edges of the steps. Seen along it, the cut is a line.
+    /// The direction of the edges of the steps. Seen along this direction, the cut is a line.
     pub(super) across: Vector<World>,
     pub(super) letter: char,
 }
 
 impl SteppedLine<'_> {
-    /// Marks the line in a view if the view looks along the edges of the steps. Returns whether it
-    /// does.
+    /// Marks the line in a view if the view looks along the edges of the steps. Returns whether the
+    /// line was marked.
     pub(super) fn mark(&self, one: &mut PlannedView) -> bool {
         let sees = one.view.camera.gaze().dot(self.across).abs() > 1.0 - PARALLEL_TOLERANCE;
         if !sees || !one.is_along_axis() {

@@ -16,7 +16,7 @@ impl Sheet {
         let mut symmetry = picker.mirror_symmetry();
         for PlannedView { view, marks, .. } in planned.iter_mut().map(|planned| &mut **planned) {
             let camera = &view.camera;
-            // The plane of a vertical line is perpendicular to the direction to the right.
+            // The symmetry plane of a vertical line is perpendicular to the camera's right vector.
             for (axis, across) in [(1, camera.right()), (0, camera.v())] {
                 let mut lines = marks.iter().filter_map(ViewMark::as_center_line);
                 if lines.any(|(_, known)| known == axis) {

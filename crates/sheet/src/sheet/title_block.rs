@@ -1,4 +1,4 @@
-//! Title block (ISO 7200): title, author, scale and other fields in the lower right corner of a
+//! The title block (ISO 7200): title, author, scale and other fields in the lower right corner of a
 //! sheet.
 //!
 //! ```text
@@ -81,7 +81,7 @@ pub(super) fn title_block_area(sheet: &Sheet, frame: Rectangle) -> Rectangle {
     rectangle_from_size(right - width, bottom - height, width, height)
 }
 
-/// Returns the layers with the borders, the lettering in its three widths, and the projection
+/// Returns the layers with the borders, the lettering in three stroke widths, and the projection
 /// symbol.
 ///
 /// Text that is too wide for its field is reduced in height. On small paper, the block and its

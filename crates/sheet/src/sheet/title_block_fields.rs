@@ -96,7 +96,7 @@ const FOUR_ROWS: [f64; 4] = [10.0 / 48.0, 20.0 / 48.0, 38.0 / 48.0, 1.0];
 
 /// Returns the fields in reading order.
 ///
-/// Columns and rows are fractions of the block, so that it scales with narrow paper.
+/// Columns and rows are fractions of the block, so that they shrink with it on small paper.
 pub(super) fn title_block_fields(
     sheet: &Sheet,
     title: &str,
@@ -117,7 +117,7 @@ pub(super) fn title_block_fields(
     let unit = sheet.dimension_unit.symbol();
     let number = texts.sheet_number();
     if !is_large {
-        // If there is no sheet number, the previous field takes its space.
+        // If there is no sheet number, the drawing number takes its space.
         let number_end = if number.is_empty() { 1.0 } else { 0.87 };
         let mut fields = vec![
             field(0, [0.0, 0.4], FieldName::Author, &texts.author),

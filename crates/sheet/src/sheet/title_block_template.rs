@@ -58,7 +58,7 @@ pub struct TitleBlockTemplate {
     pub(super) texts: Vec<TemplateText>,
 }
 
-/// A line of a template, in millimeters from its upper left corner.
+/// A polyline of a template, in millimeters from the template's upper left corner.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct TemplateLine {
     pub(super) points: Vec<DVec2>,
@@ -84,7 +84,7 @@ enum TextPart {
     Field(TemplateField),
 }
 
-/// The fields, by name.
+/// The fields and their names.
 const FIELDS: [(&str, TemplateField); 16] = [
     ("title", TemplateField::Title),
     ("supplementary_title", TemplateField::SupplementaryTitle),
@@ -126,7 +126,7 @@ pub(super) enum TemplateField {
     Projection,
 }
 
-/// The values of fields that are not in the sheet's title block text.
+/// The sheet's title block text, and the values of the fields that are not in it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FieldValues<'a> {
     pub(super) texts: &'a TitleBlockText,
@@ -162,8 +162,8 @@ impl TitleBlockTemplate {
     /// Parses a template from the text of an SVG file.
     ///
     /// # Errors
-    /// Returns an error if the text is not an SVG file, or contains unsupported shapes, transforms,
-    /// styles or unknown fields.
+    /// Returns an error if the text is not an SVG file, or if it contains unsupported shapes,
+    /// unknown fields, transforms or styles.
     pub fn parse(svg: &str) -> Result<Self, TemplateError> {
         // Limiting the size also limits the time and memory of everything below.
         if svg.len() > MAX_LENGTH {
@@ -214,7 +214,7 @@ impl TitleBlockTemplate {
         [self.size.x, self.size.y]
     }
 
-    /// Adds the lines of the element, if it is a shape.
+    /// Adds the lines of a shape. Returns an error for an unsupported element.
     fn add_shape(&mut self, svg: &str, element: &Element<'_>) -> Result<(), TemplateError> {
         let number = |name| element.number(svg, name, 0.0);
         let point = |x, y| Ok::<_, TemplateError>(DVec2::new(number(x)?, number(y)?));

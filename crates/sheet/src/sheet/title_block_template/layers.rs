@@ -15,7 +15,7 @@ const MOST_OF_HEIGHT: f64 = 0.5;
 const SYMBOL_WIDTH: f64 = 3.0;
 
 impl TitleBlockTemplate {
-    /// Returns the factor that shrinks the block on narrow paper.
+    /// Returns the factor that shrinks the block on small paper.
     fn scale_within(&self, frame: Rectangle) -> f64 {
         let most = DVec2::new(frame.width(), frame.height() * MOST_OF_HEIGHT);
         (most / self.size).min_element().min(1.0)
@@ -97,7 +97,7 @@ fn pen_of_width(width: u32, ink: Ink) -> Pen {
     Pen::solid(f64::from(width) / 1000.0, ink)
 }
 
-/// Returns the id of a layer, which is its name, followed by a number from the second layer on.
+/// Returns the id of a layer: the name, followed by a number from the second layer on.
 fn layer_id(name: &str, index: usize) -> String {
     if index == 0 { name.to_owned() } else { format!("{name}-{}", index + 1) }
 }

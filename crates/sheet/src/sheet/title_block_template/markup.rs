@@ -24,7 +24,7 @@ pub(super) enum Event<'a> {
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Element<'a> {
     pub(super) name: &'a str,
-    /// The byte position of its `<`.
+    /// The byte position of the tag's `<`.
     pub(super) at: usize,
     /// Names, values and the byte positions where the values begin.
     attributes: Vec<(&'a str, &'a str, usize)>,
@@ -137,7 +137,7 @@ pub(super) struct MarkupReader<'a> {
     source: &'a str,
     at: usize,
     open: Vec<&'a str>,
-    /// The pending end event of an empty element.
+    /// Whether the end event of an empty element is pending.
     pending_end: bool,
 }
 
@@ -170,7 +170,7 @@ impl<'a> MarkupReader<'a> {
                 return self.end_tag(after).map(Some);
             } else if rest.starts_with('<') {
                 let element = self.start_tag()?;
-                // Skips metadata of drawing programs, such as `sodipodi:namedview`.
+                // Skip metadata of drawing programs, such as `sodipodi:namedview`.
                 if SILENT.contains(&element.name) || element.name.contains(':') {
                     self.skip_element(element.name)?;
                 } else {
@@ -276,7 +276,7 @@ impl<'a> MarkupReader<'a> {
         Ok(())
     }
 
-    /// Reads the text up to the next tag, replacing runs of whitespace with single spaces.
+    /// Reads the text up to the next tag, replacing each whitespace character with a space.
     fn text(&mut self) -> Result<Event<'a>, TemplateError> {
         let rest = &self.source[self.at..];
         let own = &rest[..rest.find('<').unwrap_or(rest.len())];

@@ -18,8 +18,8 @@ pub(super) fn parse_number(text: &str) -> Option<f64> {
 /// Splits a list into words, which are numbers and command letters, with the byte positions where
 /// they begin.
 ///
-/// Numbers may be separated by whitespace, commas, a sign or a second decimal point, as drawing
-/// programs write them.
+/// Numbers may be separated by whitespace or commas. A sign or a second decimal point also begins a
+/// new number, as in the output of drawing programs.
 fn words(text: &str, start: usize) -> Vec<(&str, usize)> {
     let mut words = Vec::new();
     let bytes = text.as_bytes();
@@ -32,7 +32,7 @@ fn words(text: &str, start: usize) -> Vec<(&str, usize)> {
             continue;
         }
         let is_number = |c: u8| c.is_ascii_digit() || matches!(c, b'+' | b'-' | b'.');
-        // Takes a whole character, so that slices end at character boundaries.
+        // Take a whole character, so that slices end at character boundaries.
         at += text[at..].chars().next().map_or(1, char::len_utf8);
         if is_number(c) {
             let mut has_point = c == b'.';
