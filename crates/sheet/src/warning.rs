@@ -1,4 +1,4 @@
-//! Warnings about what is missing from a sheet, returned along with its pages.
+//! Warnings about missing or incomplete parts of a sheet.
 
 mod assembly;
 mod dimension;
