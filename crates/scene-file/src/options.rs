@@ -1,7 +1,7 @@
 //! Options with named values. Scene files, flags, help and the reference share one declaration.
 //!
-//! The renderer and the line drawings use the same types. Scene files use their variant names
-//! (`ThreeQuarter`); flags use them with hyphens (`three-quarter`).
+//! The renderer and the line drawings use the same types. Scene files use the names of the variants
+//! (`ThreeQuarter`); flags use lowercase with hyphens (`three-quarter`).
 
 use super::schema::named_values;
 use crate::pass::{Pass, PassEncoding};

@@ -62,8 +62,8 @@ const LISTS: [&str; 5] = ["models", "viewports", "lights", "overlays", "sections
 /// The maximum number of times a text is reread without the parts that `ron` rejected.
 const MAX_READINGS: usize = 8;
 
-/// Reads a scene with `ron`. If that fails, reports every mistake and reads the parts without one.
-/// The text has no byte order mark.
+/// Reads a scene with `ron`. If that fails, reports every mistake and reads the parts without
+/// mistakes. The text has no byte order mark.
 pub(super) fn read_recovering(source: &str) -> ParsedScene {
     let error = match scene_ron_options().from_str::<SceneFile>(source) {
         Ok(scene) => {
@@ -82,7 +82,7 @@ pub(super) fn read_recovering(source: &str) -> ParsedScene {
     };
     let (tree, mut mistakes) = check_text(source);
     if let Some(mistake) = hash_comment(source) {
-        // The checker's messages about the words of a comment would only mislead.
+        // Messages about the words of the comment would only mislead.
         return ParsedScene { mistakes: vec![mistake], ..ParsedScene::default() };
     }
     if mistakes.is_empty() {
@@ -164,7 +164,7 @@ fn other_text(source: &str) -> String {
 
 impl ParsedScene {
     /// Reads the scene without the fields and elements that contain mistakes, so that semantic
-    /// errors in the others are reported in the same run.
+    /// errors in the rest are reported in the same run.
     ///
     /// If a required field is lost, the value that contains it is omitted too.
     fn read_rest(&mut self, root: &Node<'_>) {
