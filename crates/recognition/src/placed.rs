@@ -198,8 +198,8 @@ impl PlacedFrame {
 /// Returns the cost of an upside-down camera whose numbers may also describe an upright camera in
 /// another convention.
 ///
-/// The up axis is y. It is z if the camera's right axis is level only with z up, or if its up
-/// direction has no y component.
+/// The up axis is y. It is z if the camera's right axis is level only with z up, or if the camera's
+/// up direction has no y component.
 fn posture_cost(camera: &CameraReading) -> u32 {
     let level = |axis: usize| camera.right[axis].abs() < 1e-6;
     let upwards = if (level(2) && !level(1)) || camera.up[1].abs() < 1e-6 {

@@ -94,7 +94,7 @@ pub(crate) fn read_rigid(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
         push(MatrixMeaning::Rotation { axis, angle_degrees, camera }, 6);
         return;
     }
-    // Few cameras are rolled, so their right axis is level in a world where y or z is up.
+    // Few cameras are rolled, so the right axis is usually level in a world where y or z is up.
     let is_level = |camera: &CameraReading| camera.right[1..].iter().any(|x| x.abs() < 1e-9);
     let roll_cost = |camera: &CameraReading| if is_level(camera) { 0 } else { 4 };
     push(MatrixMeaning::Camera(camera), 6 + roll_cost(&camera) + 2 * digits(eye));

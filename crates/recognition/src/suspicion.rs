@@ -13,7 +13,7 @@ use projection::{Convention, Frustum};
 
 /// The saving in cost required to assume a misprint.
 pub(crate) const SLIP: u32 = 6;
-/// The saving in cost from which a misprint is likely. Below it, both readings are equally likely.
+/// The saving in cost from which a misprint is likely. Below it, the best reading is as likely.
 const MARGIN: u32 = 4;
 /// The maximum extra cost, compared with the best reading, at which a misprint is still reported.
 const TOLD: u32 = 4;

@@ -73,7 +73,7 @@ pub enum ValueType {
     Declared(&'static TypeEntry),
     /// A list in square brackets.
     List(Box<Self>),
-    /// A fixed number of values in round brackets.
+    /// A fixed number of values in parentheses.
     Tuple(Vec<Self>),
 }
 

@@ -72,8 +72,8 @@ scene_struct! {
         /// Whether each item in the parts list has a separate page with its principal views.
         /// Default: false.
         pub part_sheets: bool = false,
-        /// The densities from which the masses in the parts list are computed. Default: none, and
-        /// no masses.
+        /// The densities from which the masses in the parts list are computed. Default: none, so
+        /// the list has no masses.
         pub densities: Vec<DensityFile> = Vec::new(),
         /// Views in addition to or instead of the standard views, and ways to show views. If the
         /// list contains a `View`, it must name all views; otherwise the sheet also has the front,
