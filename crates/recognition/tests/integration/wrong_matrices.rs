@@ -2,9 +2,9 @@
 //!
 //! Four of them are also correct matrices of something else, as their comments explain, so both
 //! readings must be reported. Misprints that are correct matrices for other parameters have no row
-//! here (see `hand_typed.rs`). Only two rows are not recognized. With four decimals, M15 with depths
-//! from 0.1 to 100 cannot be distinguished from a correct box with depths from 0.1 to 50, and M17 at
-//! 45° gives a scale of 2, which people also choose for lenses.
+//! here (see `hand_typed.rs`). Only two rows are not recognized. With four decimals, M15 with
+//! depths from 0.1 to 100 cannot be distinguished from a correct box from 0.1 to 50, and M17 at 45°
+//! gives a scale of 2, which people also choose for lenses.
 
 use super::formulas::*;
 use super::table::{Expected, Row, Verdict};
