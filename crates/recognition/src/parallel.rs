@@ -1,4 +1,4 @@
-//! Readings of parallel matrices as view volumes: orthographic boxes and oblique prisms.
+//! Readings of parallel projections as view volumes: orthographic boxes and oblique prisms.
 
 use super::convention_list::CONVENTIONS;
 use super::matrix_reading::factor_cost;
@@ -29,8 +29,8 @@ pub(crate) fn read_boxes(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     }
 }
 
-/// Returns the rarity of a convention for boxes, which gain nothing from reversed depth, so few
-/// programs reverse it. The depth of the textbook (Shirley and Marschner, ch. 8) does not count as
+/// Returns the rarity of a convention for boxes. Few programs reverse the depth of a box, because
+/// it gains nothing. The textbook's depth (Shirley and Marschner, ch. 8) does not count as
 /// reversed.
 pub(crate) fn box_rarity(convention: Convention, rarity: u32) -> u32 {
     let reversed = convention.near_depth() > convention.far_depth();
@@ -40,7 +40,7 @@ pub(crate) fn box_rarity(convention: Convention, rarity: u32) -> u32 {
 fn box_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixMeaning, u32)> {
     let [x, y, z, _] = unit;
     let (ahead, top) = (Rounded::exact(convention.ahead()), Rounded::exact(convention.top()));
-    // A volume also maps z; a map that leaves z unchanged is a map of the plane.
+    // A view volume also maps z; a matrix that leaves z unchanged maps only the plane.
     let mut cost = if z[2].is(1.0) && z[3].is_zero() { MIRRORED } else { 2 };
     let mut edges = |scale: Rounded, offset: Rounded| {
         cost += if scale.value < 0.0 { MIRRORED } else { 0 };
@@ -53,7 +53,7 @@ fn box_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixMeani
     let distance = |depth: f64| (Rounded::exact(depth) - z[3]) / (z[2] * ahead);
     let (near, far) = (distance(convention.near_depth()), distance(convention.far_depth()));
     cost += pair_cost(l, r) + pair_cost(b, t) + pair_cost(near, far);
-    // The depths used by glOrtho and gluOrtho2D for two-dimensional pictures.
+    // The depths that gluOrtho2D passes to glOrtho for two-dimensional pictures.
     let is_plane_depth = is_screen && near.is(-1.0) && far.is(1.0);
     cost += if is_plane_depth { 0 } else { order_cost(near, far) };
     let volume = Orthographic::new(
@@ -69,27 +69,27 @@ fn box_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixMeani
     if slants.into_iter().all(Rounded::is_zero) {
         return Some((MatrixMeaning::Orthographic { volume, convention }, cost));
     }
-    // The slants are for a view space that looks along −z.
+    // `Oblique` defines its slants for a camera that looks along −z.
     let [slant_x, slant_y] = slants.map(|slant| slant * -ahead);
     let projection = oblique_by_slants(slant_x, slant_y, 0.0)?;
     let cost = cost + 2 + oblique_cost(slant_x, slant_y);
     Some((MatrixMeaning::ObliqueVolume { projection, volume, convention }, cost))
 }
 
-/// Returns whether a window is in whole pixels from the upper left corner: left 0, top 0, and a
-/// positive bottom.
+/// Returns whether a window is measured in whole pixels from the upper left corner: left and top
+/// are 0, right and bottom are positive.
 fn is_from_top_left([l, r, b, t]: [Rounded; 4]) -> bool {
     let is_side = |side: Rounded| side.value > 1.5 && side.is(libm::round(side.value));
     l.is_zero() && t.is_zero() && is_side(r) && is_side(b)
 }
 
-/// Returns twice the digits of two edges, or of only one edge if they are opposite.
+/// Returns twice the number of digits of two edges, or of one edge if the other is its negative.
 fn pair_cost(low: Rounded, high: Rounded) -> u32 {
     let second = if (low + high).is_zero() { 0 } else { low.digits() };
     2 * (high.digits() + second)
 }
 
-/// Returns the cost of near and far in addition to their digits. It is 0 if they are in front of
+/// Returns the cost of the order and signs of near and far. It is 0 if both planes are in front of
 /// the eye and in ascending order.
 fn order_cost(near: Rounded, far: Rounded) -> u32 {
     match (near.value, far.value) {
@@ -100,8 +100,8 @@ fn order_cost(near: Rounded, far: Rounded) -> u32 {
     }
 }
 
-/// Returns the oblique projection with x' = x + slant z, y' likewise, onto z = `plane_z`. It is
-/// defined by its length and angle if these have fewer digits than the slants.
+/// Returns the oblique projection onto z = `plane_z` for the slants of x and y, as in x' = x +
+/// slant z. It is built from its length and angle if these have fewer digits than the slants.
 pub(crate) fn oblique_by_slants(x: Rounded, y: Rounded, plane_z: f64) -> Option<Oblique> {
     let (length, phi) = length_and_angle(x, y);
     let direction = if length.digits() + phi.digits() < x.digits() + y.digits() {
@@ -113,7 +113,7 @@ pub(crate) fn oblique_by_slants(x: Rounded, y: Rounded, plane_z: f64) -> Option<
     Oblique::by_direction(homog::Vector::new(direction[0], direction[1], -1.0), plane_z).ok()
 }
 
-/// Returns the length at which a unit of depth is drawn, and its angle in degrees.
+/// Returns the length and the angle, in degrees, at which a unit of depth is drawn.
 fn length_and_angle(x: Rounded, y: Rounded) -> (Rounded, Rounded) {
     let length = (x * x + y * y).sqrt();
     let value = libm::atan2(y.value, x.value).to_degrees();
@@ -122,7 +122,7 @@ fn length_and_angle(x: Rounded, y: Rounded) -> (Rounded, Rounded) {
     (length, Rounded { value, error })
 }
 
-/// Returns twice the digits of the length and angle, or of the two slants, whichever is less.
+/// Returns twice the digits of the length and angle or of the two slants, whichever is less.
 pub(crate) fn oblique_cost(x: Rounded, y: Rounded) -> u32 {
     let (length, angle) = length_and_angle(x, y);
     let angle = if x.is_zero() { 1 } else { angle.digits() };

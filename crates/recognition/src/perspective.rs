@@ -1,4 +1,4 @@
-//! Readings of central matrices: frusta in sixteen conventions, the textbook's P (Shirley and
+//! Readings of central projections: frusta in sixteen conventions, the textbook's P (Shirley and
 //! Marschner, ch. 8), and the inverses of both.
 
 use super::convention_list::conventions_looking;
@@ -8,7 +8,7 @@ use super::{Lens, MatrixMeaning, MatrixReading};
 use alloc::vec::Vec;
 use projection::{ApexMovedFrustum, Convention, Frustum};
 
-/// The cost of a mirrored window in addition to the digits of a reading.
+/// The cost that a mirrored window adds to the digits of a reading.
 pub(crate) const MIRRORED: u32 = 12;
 
 /// Adds the readings as frusta (GL-1, PE-2) or as the lesson's frustum with its apex moved (LW-1).
@@ -21,7 +21,7 @@ pub(crate) fn read_frusta(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
         let factor = Rounded { value: sign * m[3][2].value.abs(), ..m[3][2] };
         let unit = divide_entries(m, factor);
         for (convention, rarity) in conventions_looking(unit[3][2].value.signum()) {
-            // The textbook's original sign: w = z, negative in front of the eye.
+            // With the textbook's sign, w = z, which is negative in front of the eye.
             let natural = sign > 0.0 || convention == Convention::CHAPTER;
             let factor_digits = if natural && factor.is(sign) { 0 } else { factor_cost(factor) };
             let rare = if convention == Convention::CHAPTER && sign < 0.0 { 0 } else { rarity };
@@ -59,7 +59,7 @@ fn frustum_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixM
         (window[2 * axis], window[2 * axis + 1]) = (edge(-Rounded::ONE), edge(Rounded::ONE));
         cost += if scale.value < 0.0 { MIRRORED } else { 0 };
     }
-    // The lens is described by the window, or by the apex and the window around it.
+    // The lens is described by the window, or by the apex and the window relative to it.
     let [around_x, around_y] = apex;
     let [l, r, b, t] = window;
     let centered = [l - around_x, r - around_x, b - around_y, t - around_y];
@@ -68,8 +68,8 @@ fn frustum_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixM
         .min(window.into_iter().map(Rounded::digits).sum());
     let digits = near.digits() + far.map_or(0, Rounded::digits) + lens;
     let meaning = named_frustum(window, near, far, apex, convention)?;
-    // Rounded to a few decimals, near = 0.1 in one convention is near = 0.05 in another. People
-    // prefer powers of ten.
+    // A matrix rounded to a few decimals may have near = 0.1 in one convention and near = 0.05 in
+    // another. People prefer powers of ten.
     let usual = if near.is_power_of_ten() { 0 } else { 2 };
     Some((meaning, cost + usual + 2 * digits))
 }
@@ -96,7 +96,7 @@ fn named_frustum(
     Some(MatrixMeaning::ApexMoved { frustum, convention })
 }
 
-/// Returns the angles, aspect ratio and focal lengths of a window at a distance.
+/// Returns the angles, aspect ratio and focal lengths of a lens from its window on the near plane.
 pub(crate) fn read_lens([l, r, b, t]: [Rounded; 4], near: Rounded) -> Lens {
     let angle = |low: Rounded, high: Rounded| {
         ((high / near).atan_degrees() - (low / near).atan_degrees()).simplest()
@@ -110,7 +110,7 @@ pub(crate) fn read_lens([l, r, b, t]: [Rounded; 4], near: Rounded) -> Lens {
     }
 }
 
-/// Returns the minimum number of digits that describe the lens: by its window or, if it is
+/// Returns the smallest number of digits that describes the lens: by its window or, if it is
 /// centered, by its two scales or by an angle and an aspect ratio.
 pub(crate) fn lens_digits(
     window: [Rounded; 4],
@@ -129,7 +129,7 @@ pub(crate) fn lens_digits(
     by_angle.min(r.digits() + t.digits()).min(scale_y.digits() + scale_x.digits())
 }
 
-/// Returns the distances at which factor + offset/D equals the near and far depths, if 0 < near <
+/// Returns the distances D at which factor + offset/D equals the near and far depths, if 0 < near <
 /// far. The far distance is `None` if it may be infinite within rounding.
 pub(crate) fn depth_planes(
     factor: Rounded,
@@ -148,7 +148,8 @@ pub(crate) fn depth_planes(
     (far.value > near.value).then_some((near, Some(far)))
 }
 
-/// Adds the reading as the textbook's P (PE-1): n on the diagonal, n + f and −fn in the third row.
+/// Adds the reading as the textbook's P (PE-1): n scales x and y, and the third row has n + f and
+/// −fn.
 pub(crate) fn read_p(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let factor = m[3][2];
     let zeros = [m[0][1], m[0][2], m[0][3], m[1][0], m[1][2], m[1][3], m[2][0], m[2][1]];
@@ -204,14 +205,14 @@ fn p_reading(
     Some(MatrixReading { meaning, factor: factor.simplest(), cost })
 }
 
-/// Whether a matrix has its zeros where the inverse of a frustum's matrix has them (IV-1).
+/// Returns whether a matrix has the zeros of an inverted frustum matrix (IV-1).
 fn is_inverse_shaped(m: &Entries<4>) -> bool {
     let zeros = [m[0][1], m[0][2], m[1][0], m[1][2], m[2][0], m[2][1], m[2][2], m[3][0], m[3][1]];
     let needed = [m[0][0], m[1][1], m[2][3], m[3][2]];
     zeros.into_iter().all(Rounded::is_zero) && !needed.into_iter().any(Rounded::is_zero)
 }
 
-/// Adds the readings as the inverse of a frustum's matrix, from clip to view space (IV-1).
+/// Adds the readings as an inverted frustum matrix, from clip to view space (IV-1).
 pub(crate) fn read_inverse_frusta(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     if !is_inverse_shaped(m) {
         return;

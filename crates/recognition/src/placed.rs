@@ -1,11 +1,11 @@
-//! Readings of a camera and its projection in one matrix, from world to clip space, and of an
-//! inclined near plane.
+//! Readings as a camera and its projection in one matrix, from world to clip space, and as a
+//! frustum with an inclined near plane.
 //!
-//! Take the rows x, y, w of a central matrix. The line of sight is the linear part of w, the part
-//! of x perpendicular to it points right, and the eye is where all three rows vanish. The part of y
-//! perpendicular to it points up. The numbers do not determine whether these axes are from a
-//! left-handed world (Direct3D) or from a right-handed world with y down in clip space (Vulkan).
-//! The reading whose up direction points up in the world is more likely.
+//! Take the rows x, y, w of a central projection. The line of sight is the linear part of w. The
+//! parts of x and y perpendicular to it point right and up, and the eye is where all three rows
+//! vanish. The numbers do not determine whether the world is left-handed (Direct3D), or
+//! right-handed with y down in clip space (Vulkan). The reading whose up direction points up in the
+//! world is more likely.
 
 use super::convention_list::placed_conventions;
 use super::matrix_reading::factor_cost;
@@ -22,7 +22,7 @@ use projection::{Convention, Decomposed, Frustum, Orthographic, decompose};
 /// The cost of a camera that is upside down in the world, if a rival reading has it right side up.
 const UPSIDE_DOWN: u32 = 6;
 
-/// Adds the readings as a camera with a perspective, in a right-handed or left-handed world.
+/// Adds the readings as a camera with a frustum, in a right-handed or left-handed world.
 pub(crate) fn read_placed_perspective(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let linear = [m[3][0], m[3][1], m[3][2]];
     let length = length_of(linear);
@@ -89,7 +89,7 @@ struct PlacedFrame {
     right: DVec3,
     up: DVec3,
     gaze: DVec3,
-    /// The factors in x' = scale x − center D, for x and y.
+    /// The scales of x and y; together with `center`, x' = scale x − center D.
     scale: [Rounded; 2],
     center: [Rounded; 2],
     /// The factor and offset in z' = factor D + offset.
@@ -136,7 +136,7 @@ impl PlacedFrame {
         Some(Self { eye, eye_error, right, up, gaze, scale, center, depth })
     }
 
-    /// Returns whether the camera is at its default position, so that the matrix contains no
+    /// Returns whether the camera is unrotated and at the origin, so that the matrix contains no
     /// camera.
     fn is_unplaced(&self) -> bool {
         let turn = 1e-9 + 4.0 * self.scale[0].error / self.scale[0].value.abs();
@@ -198,7 +198,8 @@ impl PlacedFrame {
 /// Returns the cost of an upside-down camera whose numbers may also describe an upright camera in
 /// another convention.
 ///
-/// The world's up axis is y, or z if only that makes the camera's right axis level.
+/// The up axis is y. It is z if the camera's right axis is level only with z up, or if the camera's
+/// up direction has no y component.
 fn posture_cost(camera: &CameraReading) -> u32 {
     let level = |axis: usize| camera.right[axis].abs() < 1e-6;
     let upwards = if (level(2) && !level(1)) || camera.up[1].abs() < 1e-6 {
@@ -213,7 +214,7 @@ fn rows_dot(row: &[Rounded; 4], point: DVec3) -> f64 {
     values(linear_part(row)).dot(point)
 }
 
-/// Adds the readings as a camera with an orthographic box, whose rows are perpendicular.
+/// Adds the readings as a camera with an orthographic box, for a matrix with perpendicular rows.
 pub(crate) fn read_placed_box(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let factor = m[3][3];
     if factor.is_zero() || ![m[3][0], m[3][1], m[3][2]].into_iter().all(Rounded::is_zero) {
@@ -268,7 +269,7 @@ fn placed_box(
     Some((MatrixMeaning::CameraOrthographic { camera, volume, convention }, cost))
 }
 
-/// Adds the reading as a perspective whose near plane is inclined (Lengyel 2005), from the origin.
+/// Adds the reading as a frustum from the origin with an inclined near plane (Lengyel 2005).
 pub(crate) fn read_oblique_near(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let rows = m.map(|row| row.map(|entry| entry.value));
     let view_to_clip = Projective::from_rows(rows);

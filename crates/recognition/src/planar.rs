@@ -13,9 +13,9 @@ use glam::DMat3;
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[expect(clippy::large_enum_variant, reason = "few are created, and they contain only numbers")]
 pub enum PlanarMatrix {
-    /// A map of the plane that leaves w unchanged; ignore z in the meaning.
+    /// An affine map of the plane, as the meaning of a map of space whose z is to be ignored.
     Plane(MatrixMeaning),
-    /// The intrinsic matrix of a camera, from camera x, y and z to pixels.
+    /// The intrinsic matrix of a camera, which maps camera coordinates to pixels.
     Intrinsics(IntrinsicsReading),
     /// A rotation in space, without homogeneous coordinates.
     SpatialRotation {
@@ -89,8 +89,8 @@ fn planar_readings(entries: &Entries<3>) -> Vec<PlanarReading> {
     found
 }
 
-/// Reads the identity above the row (p, q, 1), which is a correct matrix for column vectors and
-/// also a translation for row vectors.
+/// Returns the cost of the identity with the bottom row (p, q, 1). It is a correct matrix for
+/// column vectors, but also a translation for row vectors.
 fn is_simple_homography([x, y, w]: &Entries<3>) -> Option<u32> {
     let identity = x[0].is(1.0) && y[1].is(1.0) && w[2].is(1.0);
     let zeros = [x[1], x[2], y[0], y[2]].into_iter().all(Rounded::is_zero);

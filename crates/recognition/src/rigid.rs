@@ -7,7 +7,7 @@ use super::{MatrixMeaning, MatrixReading};
 use alloc::vec::Vec;
 use glam::{DMat3, DVec3};
 
-/// A camera, from its matrix from world to view space (CA-2): its position and axes in the world.
+/// The position and axes of a camera in the world, from its matrix from world to view space (CA-2).
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct CameraReading {
@@ -29,7 +29,7 @@ pub(crate) fn is_square_frame(axes: &[[Rounded; 3]; 3]) -> bool {
     square(0, 1) && square(1, 2) && square(2, 0)
 }
 
-/// Returns the largest error of any entry, because even ±1 may be rounded.
+/// Returns the largest error of the entries. It applies to all of them: even ±1 may be rounded.
 pub(crate) fn largest_error(rows: &[[Rounded; 3]; 3]) -> f64 {
     rows.as_flattened().iter().fold(0.0, |error: f64, entry| error.max(entry.error))
 }
@@ -45,7 +45,7 @@ pub(crate) fn orthonormal_rows(rows: &[[Rounded; 3]; 3]) -> Option<[DVec3; 3]> {
         return None;
     }
     let [u, v, w] = rows.map(|row| DVec3::from_array(row.map(|entry| entry.value)));
-    // Uses Gram–Schmidt, which turns rounded rows into a rotation again.
+    // Gram–Schmidt makes the rounded rows orthonormal again.
     let u = u / libm::sqrt(u.length_squared());
     let v = v - u * u.dot(v);
     let v = v / libm::sqrt(v.length_squared());
@@ -94,7 +94,7 @@ pub(crate) fn read_rigid(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
         push(MatrixMeaning::Rotation { axis, angle_degrees, camera }, 6);
         return;
     }
-    // Few cameras roll in a world where y or z is up.
+    // Few cameras are rolled, so the right axis is usually level in a world where y or z is up.
     let is_level = |camera: &CameraReading| camera.right[1..].iter().any(|x| x.abs() < 1e-9);
     let roll_cost = |camera: &CameraReading| if is_level(camera) { 0 } else { 4 };
     push(MatrixMeaning::Camera(camera), 6 + roll_cost(&camera) + 2 * digits(eye));
@@ -157,8 +157,8 @@ fn reflection(rows: &[[Rounded; 3]; 3], offset: [Rounded; 3]) -> Option<(MatrixM
     along.then_some((MatrixMeaning::Reflection { normal, distance }, cost))
 }
 
-/// Returns the axis, with length 1, and the angle in degrees, 0 to 180, of a rotation whose entries
-/// have the given error (Shoemake 1994, by the largest component of the quaternion).
+/// Returns the unit axis and the angle in degrees, 0 to 180, of a rotation with entries of this
+/// error.
 pub(crate) fn axis_angle(rotation: DMat3, error: f64) -> ([f64; 3], f64) {
     let m = |i: usize, j: usize| rotation.col(j)[i];
     let trace = m(0, 0) + m(1, 1) + m(2, 2);
@@ -168,7 +168,7 @@ pub(crate) fn axis_angle(rotation: DMat3, error: f64) -> ([f64; 3], f64) {
     let axis = if sine > 1e-4 {
         skew / (2.0 * sine)
     } else {
-        // Near 180° the symmetric part contains the axis: (R + I)/2 = nnᵀ.
+        // Near 180°, the symmetric part gives the axis: (R + I)/2 = nnᵀ. Near 0°, any axis will do.
         let column = (0..3).max_by(|&a, &b| m(a, a).total_cmp(&m(b, b))).unwrap_or(0);
         let mut along = rotation.col(column);
         along[column] += 1.0;

@@ -1,14 +1,13 @@
-//! Rounded numbers: values with their possible rounding errors, and the number of digits that they
-//! need.
+//! Rounded numbers: values with their possible rounding errors and the number of their digits.
 //!
-//! The same matrix may be printed with three decimals, stored as f32 or computed in f64, with
-//! different precision. The precision is estimated from the entries and propagated to first order
-//! through sums, products and quotients: near = 0.0999 ± 0.0002 is read as 0.1.
+//! A matrix may be printed with three decimals, stored as f32 or computed in f64. The precision is
+//! estimated from the entries and propagated to first order through sums, products and quotients:
+//! near = 0.0999 ± 0.0002 is read as 0.1.
 
 use alloc::vec::Vec;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// The digit count of a parameter that has no short decimal.
+/// The digit count of a parameter that no short decimal represents.
 const MANY_DIGITS: u32 = 8;
 
 /// A number and its maximum error.
@@ -38,7 +37,7 @@ impl Rounded {
         self.is_within(expected, 0.0)
     }
 
-    /// Returns whether the number may equal `expected`, with more slack for lengths and angles.
+    /// Returns whether the number may equal `expected`, within its error plus `slack`.
     pub(crate) fn is_within(self, expected: f64, slack: f64) -> bool {
         self.error.is_finite() && (self.value - expected).abs() <= self.error + slack
     }
@@ -84,8 +83,8 @@ impl Rounded {
     }
 
     /// Returns the number of significant digits of the shortest decimal within the error, or a
-    /// small cost for a simple fraction such as 16/9. Returns 0 for zero, and 8 if there is neither
-    /// a short decimal nor a simple fraction.
+    /// small cost for a simple fraction such as 16/9. Returns 0 for zero and for numbers that are
+    /// not finite, and 8 if there is neither a short decimal nor a simple fraction.
     pub(crate) fn digits(self) -> u32 {
         if self.is_zero() || !self.value.is_finite() {
             return 0;
@@ -115,13 +114,13 @@ fn power_of_ten(exponent: u32) -> f64 {
     (0..exponent.min(300)).fold(1.0, |power, _| power * 10.0)
 }
 
-/// Returns the entries with their error, which depends on their decimals or on f32 or f64
+/// Returns the entries with their errors, estimated from their decimals or from f32 or f64
 /// arithmetic.
 ///
 /// | entries | error |
 /// | --- | --- |
 /// | 0 and ±1, and all entries if none has more than two decimals | 0 |
-/// | at most 3 to 12 decimals | 0.6 units in the last decimal |
+/// | others with 3 to 12 decimals | 0.6 units in the last decimal |
 /// | f32 numbers | 2.4e-7 relative, 1.2e-7 of the largest |
 /// | other numbers | 1e-14 relative, 1e-15 of the largest |
 pub(crate) fn measure_entries<const N: usize>(rows: [[f64; N]; N]) -> Entries<N> {
@@ -144,11 +143,10 @@ pub(crate) fn measure_entries<const N: usize>(rows: [[f64; N]; N]) -> Entries<N>
 }
 
 /// Returns all entries with the precision of the coarser entries, once for each possible precision,
-/// finest first. This is for matrices assembled from numbers with different precision.
+/// finest first. This is for matrices assembled from numbers of different precision.
 ///
 /// At least three of the entries with more than two decimals, and at least two thirds of them, must
-/// have at most the assumed number of decimals. Entries with more decimals keep their own
-/// precision.
+/// have at most the assumed number of decimals. Entries with more decimals keep their precision.
 pub(crate) fn coarser_measures<const N: usize>(rows: [[f64; N]; N]) -> Vec<Entries<N>> {
     let decimals = |x: f64| (0..=12).find(|&n| has_decimals(x, n)).unwrap_or(13);
     let mut found: Vec<u32> = rows.as_flattened().iter().map(|&x| decimals(x)).collect();

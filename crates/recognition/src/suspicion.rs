@@ -1,8 +1,8 @@
 //! Suspicions: known misprints that explain a matrix at least as well as its best reading.
 //!
 //! Each test undoes one misprint and reads the result. A misprint is assumed only if that reading
-//! needs clearly fewer digits, or if the original matrix has no meaningful reading. The test is
-//! strict because every misprint is also the correct matrix of something less likely.
+//! needs clearly fewer digits, or if the original matrix has no meaningful reading. These rules are
+//! strict because every misprinted matrix is also the correct matrix of something less likely.
 
 use super::matrix_reading::{is_moderate, readings_of, transpose};
 use super::rounded::{Entries, Rounded};
@@ -13,8 +13,7 @@ use projection::{Convention, Frustum};
 
 /// The saving in cost required to assume a misprint.
 pub(crate) const SLIP: u32 = 6;
-/// The difference in cost up to which a misprint and a correct matrix are equally likely. Beyond
-/// it, the misprint is more likely.
+/// The saving in cost from which a misprint is likely. Below it, the best reading is as likely.
 const MARGIN: u32 = 4;
 /// The maximum extra cost, compared with the best reading, at which a misprint is still reported.
 const TOLD: u32 = 4;
@@ -22,10 +21,11 @@ const TOLD: u32 = 4;
 /// The confidence in a suspicion.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum SuspicionStrength {
-    /// The original matrix has no meaningful reading, or a clearly less likely reading than without
-    /// the misprint.
+    /// The original matrix has no meaningful reading, or is clearly less likely than the corrected
+    /// one.
     Likely,
-    /// The same numbers are also the correct matrix of something else, which is equally likely.
+    /// The same numbers are also a correct matrix with a different meaning, which is equally
+    /// likely.
     Equal,
 }
 
@@ -89,7 +89,7 @@ fn matrix_of(m: &Entries<4>) -> [[f64; 4]; 4] {
     m.map(|row| row.map(|entry| entry.value))
 }
 
-/// Returns the remedy with the best reading of the corrected entries whose meaning is accepted.
+/// Returns the remedy, with the cost of the best reading whose meaning is `wanted`.
 fn remedy(
     misprint: Misprint,
     remedied: &Entries<4>,
@@ -104,11 +104,11 @@ fn is_central(meaning: &MatrixMeaning) -> bool {
     matches!(meaning, MatrixMeaning::Perspective { .. } | MatrixMeaning::ApexMoved { .. })
 }
 
-/// Undoes exchanged rows and columns (24): the matrix is for row vectors, or stored by columns.
+/// Undoes swapped rows and columns (24): the matrix is for row vectors, or stored by columns.
 fn undo_transposition(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let transposed = transpose(m);
     let symmetric = (0..4).all(|i| (0..4).all(|j| m[i][j].equals(m[j][i])));
-    // (p, q, r, 1) with vanishing points outside the unit cube is not a row-vector translation.
+    // A bottom row with vanishing points outside the unit cube is not a row-vector translation.
     let distant = matches!(best.meaning, MatrixMeaning::NPoint { .. })
         && m[3][..3].iter().all(|term| term.value.abs() < 1.0);
     if symmetric || distant {
@@ -117,7 +117,7 @@ fn undo_transposition(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     remedy(Misprint::Transposed, &transposed, MatrixMeaning::is_named)
 }
 
-/// Undoes M11: in a rigid motion, the third column is zero; it is restored as the cross product of
+/// Undoes M11: the third column of a rigid motion is zero. It is restored as the cross product of
 /// the first two.
 fn undo_flat_third_row(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
     let column = (0..3).all(|i| m[i][2].is_zero());
@@ -136,8 +136,8 @@ fn undo_flat_third_row(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
     remedy(Misprint::ThirdRowFlat, &remedied, rigid)
 }
 
-/// Undoes M14: the bottom row is (0, 0, −1, 1), below the depth row of a perspective (Eq7), or
-/// below the identity or a scale of x and y (Eq4, Eq5).
+/// Undoes M14: the bottom row is (0, 0, −1, 1), below the depth row of a frustum (Eq7), or below
+/// the identity or a scale of x and y (Eq4, Eq5).
 fn undo_bottom_row_one(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
     let [x, y, z, w] = m;
     let opposite = !w[3].is_zero() && (w[2] + w[3]).is_zero();
@@ -179,7 +179,7 @@ fn undo_ortho_offset_sign(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
     Some(Remedy { cost: found.cost + 2, ..found })
 }
 
-/// Returns the scales of x and y if the matrix is a complete centered perspective.
+/// Returns the scales of x and y if the matrix is a centered perspective projection with w = ±z.
 fn centered_scales(m: &Entries<4>) -> Option<[Rounded; 2]> {
     let central = !m[3][2].is_zero() && m[3][3].is_zero();
     let centered = m[0][2].is_zero() && m[1][2].is_zero() && m[0][3].is_zero();
@@ -221,7 +221,7 @@ fn undo_degrees(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
 /// vice versa.
 fn undo_last_row_sign(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let bare = m[3][0].is_zero() && m[3][1].is_zero() && m[3][3].is_zero();
-    // Upside down and seen from behind, the matrix is also a camera at the origin.
+    // The matrix is also a camera at the origin that is upside down and looks backward.
     let turned = matches!(best.meaning, MatrixMeaning::CameraPerspective { .. });
     if (best.meaning.is_named() && !(turned && best.factor < 0.0)) || !bare || m[3][2].is_zero() {
         return None;
@@ -248,7 +248,7 @@ fn undo_wrong_sign(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     })
 }
 
-/// Undoes M12: the matrix differs from glFrustum with the same parameters.
+/// Reports M12 and returns the matrix of glFrustum with the same parameters.
 fn tell_moved_apex(_: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let MatrixMeaning::ApexMoved { frustum, convention } = best.meaning else { return None };
     let through = Frustum::from_window(frustum.window(), frustum.near(), frustum.far()).ok()?;
@@ -256,7 +256,7 @@ fn tell_moved_apex(_: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     Some(Remedy { misprint: Misprint::ApexMoved, cost: best.cost, remedied })
 }
 
-/// Undoes M16: a window that begins exactly at x = 0 but neither begins nor ends at y = 0.
+/// Reports M16: the window begins exactly at x = 0, but y = 0 is neither an edge nor its center.
 fn tell_frustum_offset_one(_: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let MatrixMeaning::Perspective { frustum, .. } = best.meaning else { return None };
     let w = frustum.window();
@@ -266,7 +266,7 @@ fn tell_frustum_offset_one(_: &Entries<4>, best: &MatrixReading) -> Option<Remed
     told.then_some(Remedy { misprint, cost: best.cost, remedied: None })
 }
 
-/// Undoes M6: t_y instead of t_z.
+/// Reports M6: t_y instead of t_z.
 fn tell_repeated_translation(_: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let MatrixMeaning::Translation { by: [x, y, z] } = best.meaning else { return None };
     let told = y == z && y != 0.0 && x != y && x != 0.0;

@@ -79,12 +79,10 @@ pub(crate) fn read_viewport(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     }
 }
 
-/// Reads the intrinsics from a matrix with the rows (fx, skew, cx), (0, fy, cy), (0, 0, 1), up to a
-/// factor.
+/// Reads the intrinsics from a matrix with the rows (fx, skew, cx), (0, fy, cy), (0, 0, 1).
 ///
-/// If scales are below 20, or if the principal point is not to the right of and below the first
-/// pixel, the matrix is a different map. The caller excludes viewports, whose offsets equal their
-/// scales.
+/// The matrix is a different map if a scale is below 20, if the scales differ by a factor of 2, or
+/// if the principal point is not to the right of and below the first pixel.
 pub(crate) fn intrinsics_of(k: &Entries<3>) -> Option<(IntrinsicsReading, u32)> {
     let zeros = [k[1][0], k[2][0], k[2][1]];
     if !zeros.into_iter().all(Rounded::is_zero) || !k[2][2].is(1.0) {

@@ -26,8 +26,8 @@ impl Color {
 
     /// Parses `#rgb`, `#rrggbb` or a CSS color name in any case; returns `None` for any other text.
     ///
-    /// Three digits are doubled, so `#1af` is `#11aaff`. Colors have no alpha channel: where opacity
-    /// exists, it is a separate field.
+    /// In `#rgb`, each digit is doubled, so `#1af` is `#11aaff`. Colors have no alpha channel:
+    /// where opacity exists, it is a separate field.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         parse_hex_srgb(text).or_else(|| parse_color_name(text)).map(Self)

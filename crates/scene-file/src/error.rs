@@ -48,7 +48,7 @@ impl SceneError {
     ///
     /// Without the feature `terminal`, the line and column are given as numbers, without colors.
     #[must_use]
-    #[cfg_attr(not(feature = "terminal"), expect(unused_variables, reason = "for the snippet"))]
+    #[cfg_attr(not(feature = "terminal"), expect(unused_variables, reason = "used by snippets"))]
     pub fn to_message(&self, colors: bool) -> String {
         #[cfg(feature = "terminal")]
         if let Some(snippet) = self.to_snippet(colors) {
@@ -74,7 +74,7 @@ impl SceneError {
         if self.source.is_empty() || line.len() > LONGEST_LINE {
             return None;
         }
-        // Carets under many lines hide more than they show.
+        // Only the first line is marked: carets under many lines hide more than they show.
         let marked = self.span.start - line.start..self.span.end.min(line.end) - line.start;
         let [file, message] = [&self.file, &self.message].map(|text| visible_text(text));
         let snippet = Snippet::source(&self.source[line])
@@ -103,7 +103,7 @@ impl std::error::Error for SceneError {}
 /// Its `Display` shows the first [`SHOWN`](Self::SHOWN) and counts the rest.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SceneErrors {
-    /// Boxed to keep a `Result` with these errors small.
+    /// The first mistake, boxed to keep a `Result` with these errors small.
     first: Box<SceneError>,
     others: Vec<SceneError>,
 }
@@ -130,8 +130,8 @@ impl SceneErrors {
         std::iter::once(&*self.first).chain(&self.others)
     }
 
-    /// Formats the first few mistakes, all but the first prefixed with `error: `, and adds how many
-    /// more there are. Uses terminal colors if `colors` is set.
+    /// Formats the first few mistakes, all but the first prefixed with `error: `, and counts the
+    /// others. Uses terminal colors if `colors` is set.
     #[must_use]
     pub fn to_message(&self, colors: bool) -> String {
         let error = if colors { "\x1b[1;31merror\x1b[0m: " } else { "error: " };

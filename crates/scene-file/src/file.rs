@@ -68,9 +68,9 @@ scene_struct! {
     /// `Scene(models: [(path: "model.glb")], style: Shaded)`.
     pub struct SceneFile as "Scene" {
         /// Other scene files to include, in this order. Their models, lights, overlays, sections
-        /// and viewports come before this file's own. Every other field of this file replaces
-        /// theirs, and a later file's replaces an earlier one's. Paths in an included file are
-        /// relative to its folder, which must be inside the scene's folder. Default: none.
+        /// and viewports come before this file's own. Every other field set in this file replaces
+        /// theirs, and later files replace the fields of earlier ones. Paths in an included file
+        /// are relative to its folder, which must be inside the scene's folder. Default: none.
         pub include: Paths = Paths(Vec::new()),
         /// The models to draw. A scene needs at least one; an included file does not. Default:
         /// none.
@@ -105,8 +105,8 @@ scene_struct! {
         pub ambient_occlusion: Option<AmbientOcclusionFile> = None,
         /// The style, which defines how surfaces are drawn. Default: `Shaded`.
         pub style: StyleFile = StyleFile::Shaded,
-        /// The colormap of the style `Depth`. The nearest vertex of the models gets its last color,
-        /// and the farthest vertex its first. Default: grays, brighter toward the viewer.
+        /// The colormap of the style `Depth`. Its last color is for the nearest vertex of the
+        /// models, and its first for the farthest. Default: grays, brighter toward the viewer.
         pub depth_colormap: Option<Colormap> = None,
         /// The image: its size, background and sampling. Default: 960 × 720 pixels, transparent.
         pub image: ImageFile = ImageFile::default(),
@@ -114,8 +114,8 @@ scene_struct! {
         pub overlays: Vec<OverlayFile> = Vec::new(),
         /// A line of text below the view, centered in a strip of 28 pixels along the bottom of the
         /// picture; the view fills the rest. The text is drawn with strokes, as on drawings, and
-        /// shrinks if it is too long. The strip has the background color, or a gradient's center
-        /// color. Default: none.
+        /// shrinks if it is too long. The strip has the background color, or the center color of a
+        /// gradient. Default: none.
         pub caption: Option<String> = None,
         /// Passes: data for each pixel in addition to its color. Default: none.
         pub passes: PassesFile = PassesFile::default(),
@@ -159,9 +159,9 @@ scene_struct! {
         pub time: Option<Finite>,
         /// Instances of the model. Default: one.
         pub instances: Option<InstancesFile>,
-        /// Colors from a scalar attribute of its vertices. Default: its own colors and materials.
+        /// Colors from a scalar attribute of the vertices. Default: as in the model.
         pub scalars: Option<ScalarsFile>,
-        /// Overrides for its materials. Default: none.
+        /// Overrides for the model's materials. Default: none.
         pub materials: Vec<MaterialFile> = Vec::new(),
     }
 }

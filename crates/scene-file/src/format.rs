@@ -3,10 +3,10 @@
 //! ```text
 //!  text ─► tokens with their line breaks ─► groups of items ─► lines
 //! ```
-//! A group that fits on a line is written on one line; in any other group, each part gets its own
-//! line. Comments are kept. A group whose opening bracket is followed by a line break stays open:
-//! the author decides what deserves several lines, and formatting again changes nothing. Blank
-//! lines between items are kept, but consecutive ones become one.
+//! A group that fits on a line is written on one line; in any other group, each item is on a
+//! separate line. Comments are kept. A group whose opening bracket is followed by a line break
+//! stays open: the author decides which groups deserve several lines, and formatting again changes
+//! nothing. Blank lines between items are kept, but consecutive ones become one.
 
 mod tree;
 
@@ -49,7 +49,7 @@ pub fn format_source(file: &str, text: &str) -> Result<String, SceneErrors> {
     Err(error.into())
 }
 
-/// Writes the items of a group, each on its own lines; `comma` follows each element.
+/// Writes the items of a group, each starting on a new line; `comma` follows each element.
 ///
 /// `indent` is in columns. At the top level `comma` is empty, because a file holds one value and
 /// attributes. Consecutive blank lines become one, and blank lines at the start of a group are
@@ -75,8 +75,8 @@ fn write_items(page: &mut String, items: &[FormatItem], indent: usize, comma: &s
     }
 }
 
-/// Writes an element to the output line that starts at byte offset `line` of `page`. After the
-/// element, `behind` more columns follow on its last line.
+/// Writes an element to the output line that starts at byte offset `line` of `page`. `behind`
+/// columns follow the element on its last line.
 ///
 /// Width is counted in characters, not bytes. Groups are tried from the outside in: the outermost
 /// group that does not fit is broken, then its items are tried.

@@ -1,5 +1,4 @@
-//! Scene files that include others: merged into one scene, with a record of which part comes from
-//! which file.
+//! Merges scene files that include others into one scene, and records the source of each part.
 //!
 //! ```text
 //!  studio.ron ─┐
@@ -51,7 +50,7 @@ const REPLACED_FIELDS: [&str; 15] = [
 pub struct FileMistake {
     /// The message, with the file's name and text.
     pub error: SceneError,
-    /// The bytes of the field or element with the mistake, for which nothing else is reported.
+    /// The bytes of the field or element with the mistake; nothing else is reported in them.
     pub scope: Range<usize>,
 }
 
@@ -65,10 +64,11 @@ impl SceneSource {
     }
 
     /// Parses the text and the files it includes, which must be inside its folder or an `allowed`
-    /// folder. The returned scene contains everything they include, and includes nothing itself.
+    /// folder. The returned scene contains everything that they contain, and includes nothing
+    /// itself.
     ///
     /// # Errors
-    /// Returns every mistake in their texts, or an error if an included file cannot be read, is not
+    /// Returns every mistake in the texts, or an error if an included file cannot be read, is not
     /// UTF-8 or is too long, or if files include each other.
     pub fn parse_with_includes(
         mut self,
@@ -88,7 +88,7 @@ struct GatheredScene {
     /// The scene, without the parts that could not be read.
     file: SceneFile,
     includes: IncludeMap,
-    /// The mistakes in the scene file, then those in the included files in reading order.
+    /// The mistakes in the scene file, then the mistakes in the included files in reading order.
     mistakes: Vec<FileMistake>,
 }
 
@@ -193,8 +193,8 @@ impl IncludeResolver<'_> {
     /// the cycle.
     ///
     /// # Errors
-    /// Returns the message and the help if the path leaves the allowed folders, there are too many
-    /// files, the file cannot be read, or it is already being read.
+    /// Returns the message and the help if the path leaves the allowed folders, if there are too
+    /// many files, or if the file cannot be read or is already being read.
     fn load_include(
         &mut self,
         path: &Path,
@@ -267,8 +267,8 @@ fn rebase_paths(file: &mut SceneFile, folder: &Path) {
     }
 }
 
-/// Merges a scene over another: lists are concatenated, other fields replaced as a whole if `above`
-/// sets them.
+/// Merges a scene over another: lists are concatenated, and other fields are replaced as a whole if
+/// `above` sets them.
 ///
 /// The list of lights is optional: if one scene has none, the other's list is used unchanged.
 fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {

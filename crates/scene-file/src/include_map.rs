@@ -4,7 +4,7 @@ use super::source_text::SourceText;
 use super::syntax::PathStep::{self, Field, Index};
 use std::collections::BTreeMap;
 
-/// The source of each element of each list in the scene, by the field name of the list.
+/// The source of each element of each list in the scene, by the name of the list's field.
 ///
 /// A source is the index of the included file, or `None` for the scene file, and the element's
 /// index there.
@@ -24,8 +24,8 @@ impl IncludeMap {
     /// Returns the name and text of the included file in which the value at the end of `path` is
     /// written, and the value's path there.
     ///
-    /// Resolution works with paths in the merged scene: `models[3]` may be the first model of an
-    /// included file. `None` means the scene file itself.
+    /// The `path` belongs to the merged scene: `models[3]` may be the first model of an included
+    /// file. `None` means the scene file itself.
     pub(super) fn resolve_source<'a>(
         &self,
         path: &[PathStep<'a>],

@@ -18,7 +18,7 @@
 //! | `format` | one layout for all scene files |
 //! | `error` | a mistake with its line and a caret |
 //!
-//! No model is loaded and no image is decoded here: resolution, in the crate `scene`, does that.
+//! No model is loaded and no image is decoded here; the crate `scene` does both.
 
 mod color;
 mod error;

@@ -4,7 +4,7 @@ use super::SceneError;
 use super::source_text::SourceText;
 use core::ops::Range;
 
-/// The maximum number of mistakes reported for a text. More would not help anyone, and each costs a
+/// The maximum number of mistakes reported for a text. More would help nobody, and each one costs a
 /// search for the intended word.
 pub(super) const MAX_MISTAKES: usize = 1000;
 
@@ -13,7 +13,7 @@ pub(super) const MAX_MISTAKES: usize = 1000;
 pub(super) struct Mistake {
     /// The bytes that the message points at.
     pub(super) span: Range<usize>,
-    /// The field or element with the mistake, for which nothing else should be reported.
+    /// The bytes of the field or element with the mistake; nothing else should be reported in them.
     pub(super) scope: Range<usize>,
     pub(super) message: String,
     pub(super) help: Option<String>,

@@ -32,7 +32,7 @@ fn scene_with(field: &str) -> String {
 }
 
 #[test]
-fn near_misses_get_the_intended_name() {
+fn near_misses_get_a_hint_with_the_intended_name() {
     check(
         "Scene(models: [Model(path: \"a.glb\", rotate: (0, 30, 0))])",
         "unexpected field `rotate` in `Model`",
@@ -140,7 +140,7 @@ fn syntax_errors_are_located() {
     );
 }
 
-/// After a syntax error the parser continues and does not report errors caused by it.
+/// After a syntax error, the parser continues, but it does not report consequences of that error.
 #[test]
 fn syntax_errors_neither_hide_nor_cause_others() {
     let comma = "expected a comma or a closing bracket here";

@@ -14,7 +14,7 @@ serde_by_scene_value! { Triple, Scale }
 #[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
 #[error("expected {expected}, found {found}")]
 pub struct InvalidNumber {
-    /// The numbers that are allowed.
+    /// A description of the numbers that are allowed.
     pub expected: &'static str,
     /// The number.
     pub found: f64,
@@ -148,7 +148,7 @@ impl NonNegative {
     /// 0.45, the strength of the studio around a model without a scene file.
     pub const BARE_STUDIO: Self = Self(0.45);
 
-    /// 0.2, the strength of the studio around a model with its own lights.
+    /// 0.2, the strength of the studio around a model with lights but without a scene file.
     pub const DIMMED_STUDIO: Self = Self(0.2);
 
     /// 5, the default padding in percent.
@@ -343,7 +343,7 @@ pub(super) fn unnamed_group<'n, 'a>(node: &'n Node<'a>) -> Option<&'n Group<'a>>
     node.group().filter(is_vector)
 }
 
-/// Reports every mistake in a group of exactly three finite numbers.
+/// Reports every mistake in a group that must hold exactly three finite numbers.
 pub(super) fn check_three_numbers(node: &Node<'_>, group: &Group<'_>, checker: &mut Checker<'_>) {
     if group.items.len() != 3 {
         let problem = format!("expected three numbers, found {}", group.items.len());

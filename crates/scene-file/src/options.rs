@@ -1,7 +1,7 @@
 //! Options with named values. Scene files, flags, help and the reference share one declaration.
 //!
-//! The renderer and the line drawings use the same types. Scene files use their variant names
-//! (`ThreeQuarter`); flags use them with hyphens (`three-quarter`).
+//! The renderer and the line drawings use the same types. Scene files use the names of the variants
+//! (`ThreeQuarter`); flags use lowercase with hyphens (`three-quarter`).
 
 use super::schema::named_values;
 use crate::pass::{Pass, PassEncoding};
@@ -213,7 +213,7 @@ named_values! {
         Model = "The index of the model in the scene, from 1.",
         Node = "The index of the node in its model, from 1.",
         Mesh = "The index of the mesh in its model, from 1.",
-        Material = "The index of the material in its model, from 1; also 0 for the default material.",
+        Material = "The index of the material in its model, from 1; 0 for the default material.",
         Overdraw = "The number of fragments that cover the pixel center, including hidden ones.",
         Coverage = "The fraction of the pixel's samples that are covered, from 0 to 1.",
     }

@@ -62,8 +62,8 @@ const LISTS: [&str; 5] = ["models", "viewports", "lights", "overlays", "sections
 /// The maximum number of times a text is reread without the parts that `ron` rejected.
 const MAX_READINGS: usize = 8;
 
-/// Reads a scene with `ron`. If that fails, reports every mistake and reads the parts without one.
-/// The text has no byte order mark.
+/// Reads a scene with `ron`. If that fails, reports every mistake and reads the parts without
+/// mistakes. The text has no byte order mark.
 pub(super) fn read_recovering(source: &str) -> ParsedScene {
     let error = match scene_ron_options().from_str::<SceneFile>(source) {
         Ok(scene) => {
@@ -82,7 +82,7 @@ pub(super) fn read_recovering(source: &str) -> ParsedScene {
     };
     let (tree, mut mistakes) = check_text(source);
     if let Some(mistake) = hash_comment(source) {
-        // The checker's messages about the words of a comment would only mislead.
+        // Messages about the words of the comment would only mislead.
         return ParsedScene { mistakes: vec![mistake], ..ParsedScene::default() };
     }
     if mistakes.is_empty() {
@@ -164,7 +164,7 @@ fn other_text(source: &str) -> String {
 
 impl ParsedScene {
     /// Reads the scene without the fields and elements that contain mistakes, so that semantic
-    /// errors in the others are reported in the same run.
+    /// errors in the rest are reported in the same run.
     ///
     /// If a required field is lost, the value that contains it is omitted too.
     fn read_rest(&mut self, root: &Node<'_>) {
@@ -282,7 +282,7 @@ fn retained_elements(
     LISTS.into_iter().filter_map(elements).collect()
 }
 
-/// Returns the byte at a line and column from `ron`, which counts characters from 1.
+/// Returns the byte offset of a position from `ron`, which counts lines and characters from 1.
 fn offset_of(source: &str, position: Position) -> usize {
     let mut lines = source.split_inclusive('\n');
     let before: usize = lines.by_ref().take(position.line.saturating_sub(1)).map(str::len).sum();
@@ -291,7 +291,7 @@ fn offset_of(source: &str, position: Position) -> usize {
     before + column.map_or(line.len(), |(offset, _)| offset)
 }
 
-/// Whether a value has round brackets, as a scene does; the contents do not matter.
+/// Whether a value is in parentheses, as a scene is; the contents do not matter.
 fn is_scene(root: &Node<'_>) -> bool {
     root.group().is_some_and(|group| group.open == '(')
 }
@@ -359,7 +359,7 @@ mod tests {
         paths.iter().map(|path| fs::read_to_string(path).expect("a readable scene")).collect()
     }
 
-    /// Reading a scene with only serde still reports the field.
+    /// Errors name the field even if a scene is read only with serde.
     #[test]
     fn errors_from_other_readers_name_the_field() {
         let text = "Scene(models: [(path: \"a.glb\"), (path: \"b.glb\", crease_degrees: \"x\")])";

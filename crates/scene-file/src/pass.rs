@@ -1,4 +1,4 @@
-//! The list of render passes: the meaning, unit and empty value of each.
+//! The render passes, with the type, channels and empty value of each.
 //!
 //! | passes | type | channels | empty |
 //! | --- | --- | --- | --- |

@@ -8,8 +8,7 @@ pub use super::schema::{FieldEntry, Shape, TypeEntry, ValueType, VariantEntry};
 use super::SceneFile;
 use super::schema::Declared as _;
 
-/// Returns every type used in scene files: the scene first, then each type after the first type
-/// that uses it.
+/// Returns every type used in scene files: first the scene, then each type at its first use.
 #[must_use]
 pub fn all_types() -> Vec<&'static TypeEntry> {
     let mut types = Vec::new();

@@ -7,7 +7,7 @@ use super::parse::parse_scene;
 use super::ron_options::scene_ron_options;
 
 impl SceneFile {
-    /// Reads a scene from the text of a scene file. It reads neither models nor included files.
+    /// Reads a scene from the text of a scene file, without reading models or included files.
     ///
     /// # Errors
     /// Returns every mistake in the text, in order.

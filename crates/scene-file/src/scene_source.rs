@@ -9,7 +9,7 @@ use super::syntax::PathStep;
 use files::visible_path;
 use std::path::{Component, Path, PathBuf};
 
-/// The maximum length of a scene file in bytes, which is more than anyone writes by hand.
+/// The maximum length of a scene file in bytes, more than anyone would write by hand.
 const MAX_SCENE_BYTES: u64 = 16 << 20;
 
 /// The text of a scene and of the files it includes, which errors quote.
@@ -91,7 +91,7 @@ impl SceneSource {
         Ok(Self::from_text(path.display().to_string(), text, folder))
     }
 
-    /// Returns this source with unrestricted paths, for a folder in memory, which has nothing
+    /// Returns this source with unrestricted paths, for a folder in memory, because no files exist
     /// outside it.
     #[must_use]
     pub fn unconfined(self) -> Self {
@@ -114,7 +114,7 @@ impl SceneSource {
     /// named it.
     #[must_use]
     pub fn allows_path(&self, path: &Path, allowed: &[PathBuf]) -> bool {
-        // A folder in memory has nothing outside it; loading reports missing files.
+        // No files exist outside a folder in memory; loading reports missing files.
         if self.text.is_empty() || !self.is_confined {
             return true;
         }
@@ -128,8 +128,8 @@ impl SceneSource {
         holds(&wanted) && wanted.canonicalize().map_or(true, |path| holds(&path))
     }
 
-    /// Returns the source for a viewport. Errors point at the viewport's own fields, or at the
-    /// scene's if the viewport does not set them.
+    /// Returns the source for a viewport. Errors point at the viewport's fields, or at the scene's
+    /// fields if the viewport does not set them.
     #[must_use]
     pub fn for_viewport(&self, number: usize) -> Self {
         Self { viewport: Some(number), ..self.clone() }
@@ -197,7 +197,7 @@ pub(super) fn read_scene_text(path: &Path) -> Result<String, UnreadableScene> {
     let unreadable = |cause| UnreadableScene { path: path.to_owned(), cause };
     let metadata = std::fs::metadata(path).map_err(unreadable)?;
     if !metadata.is_file() {
-        // A pipe may never end.
+        // Reading a pipe may never end.
         return Err(unreadable(std::io::Error::other("it is not a regular file")));
     }
     let length = metadata.len();

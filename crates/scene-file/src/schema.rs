@@ -38,8 +38,8 @@ pub(super) trait SceneValue: Sized + PartialEq {
     /// Whether a field of this type may be omitted even if its declaration specifies no default.
     const IS_OPTIONAL: bool = false;
 
-    /// Returns the type as the reference names it. This is a function rather than a constant
-    /// because lists and tuples are built from the types of their elements.
+    /// Returns the type as the reference names it. This is a function, because the types of lists
+    /// and tuples are built from the types of their elements.
     fn value_type() -> ValueType;
 
     /// Reads a value.
@@ -51,8 +51,8 @@ pub(super) trait SceneValue: Sized + PartialEq {
     /// Writes the value, omitting fields with default values.
     fn to_data(&self) -> Data;
 
-    /// Returns the value of an omitted field. `None`, for types that are not optional, makes the
-    /// struct around it unreadable.
+    /// Returns the value of an omitted field. `None` makes the struct that contains the field
+    /// unreadable; only types that are not optional return it.
     fn when_absent() -> Option<Self> {
         None
     }
@@ -73,14 +73,14 @@ pub enum ValueType {
     Declared(&'static TypeEntry),
     /// A list in square brackets.
     List(Box<Self>),
-    /// A fixed number of values in round brackets.
+    /// A fixed number of values in parentheses.
     Tuple(Vec<Self>),
 }
 
 impl ValueType {
     /// Returns the type in words, with declared types shown by name.
     ///
-    /// For example `list of Model` or `(Finite, Finite)`.
+    /// Examples are `list of Model` and `(Finite, Finite)`.
     #[must_use]
     pub fn words(&self) -> String {
         match self {
@@ -94,7 +94,7 @@ impl ValueType {
         }
     }
 
-    /// Whether it is a struct whose fields may all be omitted.
+    /// Whether this is a struct whose fields may all be omitted.
     pub(super) fn has_only_optional_fields(&self) -> bool {
         matches!(self, Self::Declared(TypeEntry { shape: Shape::Fields(fields), .. })
             if fields.iter().all(|field| field.is_optional))
@@ -102,8 +102,8 @@ impl ValueType {
 
     /// Returns the declared types that make up a value of this type.
     ///
-    /// Looks through lists and tuples, but not into the fields of the types it finds. The caller
-    /// walks the whole language and has to remember the types it has visited.
+    /// Looks through lists and tuples, but not into the fields of the types it finds. A caller that
+    /// visits the whole language must remember the types it has seen.
     #[must_use]
     pub fn declared(&self) -> Vec<&'static TypeEntry> {
         match self {
@@ -174,7 +174,7 @@ pub struct FieldEntry {
     pub value_type: fn() -> ValueType,
     /// Whether it may be omitted: its declaration gives a default, or its type is an `Option`.
     pub is_optional: bool,
-    /// Whether it may be `None` or `Some(…)`: its type is an `Option`.
+    /// Whether `None` and `Some(…)` are accepted, because its type is an `Option`.
     pub accepts_none: bool,
 }
 

@@ -41,7 +41,7 @@ pub(crate) fn gl_frustum([l, r, b, t]: [f64; 4], n: f64, f: f64) -> Rows {
     ]
 }
 
-/// Returns a lens with the depth row (a, b) and the bottom row (0, 0, w, 0).
+/// Returns a perspective projection with the rows (0, 0, a, b) for depth and (0, 0, w, 0) for w.
 pub(crate) fn lens(fovy_degrees: f64, aspect: f64, [a, b, w]: [f64; 3]) -> Rows {
     let c = cot_half(fovy_degrees);
     [[c / aspect, 0.0, 0.0, 0.0], [0.0, c, 0.0, 0.0], [0.0, 0.0, a, b], [0.0, 0.0, w, 0.0]]
@@ -77,7 +77,7 @@ pub(crate) fn flip_y(mut m: Rows) -> Rows {
     m
 }
 
-/// Returns a box with the depth row (a, b).
+/// Returns a box with the depth row (0, 0, a, c).
 fn fit([l, r, b, t]: [f64; 4], [a, c]: [f64; 2]) -> Rows {
     [
         [2.0 / (r - l), 0.0, 0.0, -(r + l) / (r - l)],

@@ -10,8 +10,8 @@ fn recognized(rows: Rows) -> Recognition {
     recognize(rows)
 }
 
-/// An isometric camera at (5, 5, 5), with 1/√2, 1/√6 and 1/√3 to four, five or six decimals and
-/// −5√3 to more.
+/// The matrix of an isometric camera at (5, 5, 5): 1/√2, 1/√6, √(2/3) and 1/√3 have four to six
+/// decimals, and −5√3 has five or more.
 #[test]
 fn one_entry_with_more_digits_does_not_hide_a_camera() {
     let round = |x: f64, digits: usize| format!("{x:.digits$}").parse::<f64>().expect("a number");
@@ -37,7 +37,7 @@ fn one_entry_with_more_digits_does_not_hide_a_camera() {
 
 /// Without transposition, a matrix stored column by column has only a far-fetched reading.
 #[test]
-fn a_stored_translation_is_not_a_three_point_perspective() {
+fn a_transposed_translation_is_not_a_three_point_perspective() {
     for by in [[3.0, 4.0, 5.0], [10.0, -2.0, 0.5], [0.0, 0.0, -5.0]] {
         let found = recognized(transposed(translation(by)));
         assert_eq!(found.misprint().map(|m| m.misprint), Some(Misprint::Transposed), "{by:?}");
@@ -52,7 +52,7 @@ fn a_stored_translation_is_not_a_three_point_perspective() {
     assert_eq!(found.misprint().map(|m| m.misprint), Some(Misprint::Transposed));
 }
 
-/// C77, C78: sines and cosines with three or four decimals are read as these projections.
+/// C77, C78, with sines and cosines of three to six decimals.
 #[test]
 fn rounded_cavalier_and_cabinet_projections_are_recognized() {
     for (length, class) in [(1.0, ProjectionClass::Cavalier), (0.5, ProjectionClass::Cabinet)] {
@@ -106,7 +106,7 @@ fn the_military_projection_is_recognized() {
 
 /// PL-1: M_vp M_per and M_vp M_per M_cam, in both pixel conventions.
 #[test]
-fn a_perspective_to_pixels_is_read() {
+fn a_perspective_projection_to_pixels_is_recognized() {
     let view = m_cam([4.0, 3.0, 6.0], [-4.0, -3.0, -6.0], [0.0, 1.0, 0.0]);
     let mut half = m_vp(640.0, 480.0, false);
     (half[0][3], half[1][3]) = (320.0, 240.0);
@@ -149,8 +149,8 @@ fn a_perspective_to_pixels_is_read() {
 }
 
 /// M13 (+mid_y), M18 (+yw_min) and M22 ((1 − z)/2) print correct matrices for other parameters.
-/// Nothing in the sixteen numbers is wrong, so they are read as printed and have no row in the
-/// table.
+/// None of the sixteen entries shows the misprint, so the matrices are read as printed and have no
+/// row in the table.
 #[test]
 fn misprints_that_are_other_correct_matrices_are_read_as_printed() {
     let m13 = recognized(translation([-1.0, 0.5, 0.0]));
@@ -166,10 +166,9 @@ fn misprints_that_are_other_correct_matrices_are_read_as_printed() {
     }
 }
 
-/// An angle has as many digits as the entries, for example the sine and cosine of 30° with four
-/// decimals.
+/// The entries are sines and cosines, so their decimals limit the meaningful digits of the angle.
 #[test]
-fn angles_have_as_many_digits_as_the_entries() {
+fn angles_have_no_more_digits_than_the_entries_justify() {
     for (decimals, off) in [(3, 0.06), (4, 6e-3), (6, 6e-5)] {
         let turned = rounded(product(rotation_x(20.0), rotation_y(-35.0)), decimals);
         let MatrixMeaning::Rotation { angle_degrees, .. } = recognized(turned).first().meaning

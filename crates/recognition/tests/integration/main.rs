@@ -1,6 +1,6 @@
 //! Tests of recognition: a table of 120 matrices from books, graphics APIs and programs, half of
 //! them wrong, and 10,000 random matrices.
-// The test names describe what they check.
+// The names of the tests document them.
 #![allow(missing_docs)]
 
 mod formulas;
@@ -37,8 +37,8 @@ fn a_rounded_isometric_projection_is_isometric() {
     }
 }
 
-/// (x, y, z) with w = z/d, in all multiples and with either sign of d (Foley, van Dam and others
-/// 1990, equation 6.5). With d < 0, it is the slides' projection onto the plane z = d.
+/// (x, y, z) with w = z/d, for d of either sign, also multiplied by a factor (Foley, van Dam and
+/// others 1990, equation 6.5). With d < 0, it is the slides' projection onto the plane z = d.
 #[test]
 fn the_perspective_from_the_origin_onto_a_plane_is_recognized() {
     for (plane, multiple) in [(2.0, 1.0), (-2.0, 1.0), (0.5, 1.0), (-3.0, -3.0), (4.0, 4.0)] {
@@ -60,7 +60,7 @@ fn the_perspective_from_the_origin_onto_a_plane_is_recognized() {
     assert_eq!(found.first().meaning, expected);
 }
 
-/// Computer vision textbooks print this form, where the picture plane has no depth.
+/// Computer vision textbooks print this form, which discards depth.
 #[test]
 fn the_perspective_onto_a_plane_may_drop_z() {
     let rows = DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::W, DVec4::ZERO);

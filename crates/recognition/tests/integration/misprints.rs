@@ -39,7 +39,7 @@ fn image(matrix: DMat4, x: f64, y: f64, z: f64) -> Option<Point<Ndc>> {
     Projective::<View, Clip>::from_raw(matrix).transform_point(Point::new(x, y, z)).divide()
 }
 
-/// Whether both corners that define the volume map to the corners of the cube.
+/// Whether the two corners that define the volume map to opposite corners of the cube.
 fn fits(matrix: DMat4, far_scale: f64) -> bool {
     let ends =
         [(LEFT, BOTTOM, -NEAR, [-1.0; 3]), (RIGHT * far_scale, TOP * far_scale, -FAR, [1.0; 3])];
@@ -264,7 +264,7 @@ fn m24_the_canonical_cube_has_side_two() {
 }
 
 #[test]
-fn m25_foot_and_oblique_image_are_two_points() {
+fn m25_foot_and_oblique_image_are_different_points() {
     let p = Point::<View>::new(1.0, 2.0, 3.0);
     let foot = Oblique::new(0.0, 0.0).expect("valid").onto_plane().transform_point(p);
     let image = Oblique::cavalier(0.0).expect("valid").onto_plane().transform_point(p);
@@ -272,7 +272,7 @@ fn m25_foot_and_oblique_image_are_two_points() {
 }
 
 #[test]
-fn printed_29_half_of_the_range_ends_at_eighty_twenty_firsts() {
+fn printed_29_half_of_the_depth_range_ends_at_80_over_21() {
     let curve = DepthCurve::perspective(2.0, 40.0, Convention::OPENGL).expect("valid");
     assert_eq!(curve.half_range_distance(), 80.0 / 21.0);
     assert!((curve.depth(3.8).expect("in front") + 1.0 / 361.0).abs() < 1e-14);
@@ -315,7 +315,7 @@ fn printed_49_near_and_far_map_to_zero_and_one_instead_of_being_set_to_them() {
 }
 
 #[test]
-fn row_vectors_are_recognized() {
+fn matrices_for_row_vectors_are_recognized() {
     for wanted in [wanted_frustum(), lens(1.0), wanted_box()] {
         cured(
             printed(Misprint::Transposed, wanted),

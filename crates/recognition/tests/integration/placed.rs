@@ -1,5 +1,5 @@
-//! Cameras and projections in one matrix: in Direct3D's left-handed worlds and in right-handed
-//! worlds, and boxes of pixels from the upper left corner.
+//! Cameras and projections in one matrix, in left-handed (Direct3D) and right-handed worlds, and
+//! boxes measured in pixels from the upper left corner.
 
 use super::formulas::*;
 use projection::Convention;
@@ -73,7 +73,7 @@ fn a_direct3d_camera_is_upright_in_a_left_handed_world() {
     }
 }
 
-/// Vulkan in a right-handed world where y or z is up; OpenGL may look in any direction.
+/// Tests Vulkan cameras in a right-handed world where y or z is up.
 #[test]
 fn a_vulkan_camera_is_upright_in_a_right_handed_world() {
     let vulkan = |degrees: f64| -> Rows {

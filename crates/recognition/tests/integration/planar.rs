@@ -79,7 +79,7 @@ fn maps_of_the_plane_are_recognized() {
     assert!(matches!(found, MatrixMeaning::Reflection { .. }), "{found:?}");
 }
 
-/// COLMAP's R: a rotation in space has no row (0, 0, 1).
+/// COLMAP's R: unlike maps of the plane, this rotation has no row (0, 0, 1).
 #[test]
 fn rotations_of_space_are_distinguished_from_maps_of_the_plane() {
     let (s, c) = libm::sincos(0.5);
@@ -92,7 +92,7 @@ fn rotations_of_space_are_distinguished_from_maps_of_the_plane() {
 }
 
 #[test]
-fn a_vanishing_line_is_not_a_translation_of_row_vectors() {
+fn a_homography_is_not_read_as_a_translation_for_row_vectors() {
     let (readings, transposed) =
         recognize_planar([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.1, 0.2, 1.0]]);
     assert_eq!(readings[0].meaning, PlanarMatrix::Homography);

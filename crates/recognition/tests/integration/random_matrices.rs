@@ -1,5 +1,5 @@
-//! 10,000 random matrices, of every kind that `alberti matrix` builds, whose parameters are read
-//! back.
+//! 10,000 random matrices of every kind that `alberti matrix` builds; recognition must return their
+//! parameters.
 
 use super::formulas::{self, Rows};
 use super::table::{Expected, is_expected};
@@ -10,7 +10,7 @@ use projection::{
 };
 use recognition::{MatrixMeaning, recognize};
 
-/// SplitMix64 (Steele, Lea and Flood 2014): the same numbers on every machine.
+/// SplitMix64 (Steele, Lea and Flood 2014), which gives the same numbers on every machine.
 struct Random(u64);
 
 impl Random {
@@ -196,9 +196,9 @@ fn ten_thousand_random_matrices_are_read_back() {
             called.push(format!("{expected:?} is reported as {:?}", misprint.misprint));
         }
     }
-    println!("{first} are the first reading, {equal} are among the first six");
+    println!("the expected reading is first {first} times and second to sixth {equal} times");
     assert_eq!((lost.first(), called.first()), (None, None), "{} and {}", lost.len(), called.len());
-    assert!(first > 9_500, "{first} are the first reading, {equal} are listed after it");
+    assert!(first > 9_500, "the expected reading is first {first} times and later {equal} times");
 }
 
 #[test]

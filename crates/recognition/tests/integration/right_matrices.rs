@@ -72,8 +72,8 @@ fn chapter() -> Vec<Row> {
     ]
 }
 
-/// Returns the rows for the slides (S4) and the lesson (S3). Here, the moved apex is a different
-/// projection, not a misprint.
+/// Returns the rows for the slides (S4) and the lesson (S3). Here, the frustum with the moved apex
+/// counts as a different projection, not as a misprint.
 fn slides_and_lesson() -> Vec<Row> {
     let gl_box = |window, n, f| Expected::Box(Convention::OPENGL, window, n, f);
     let (a, b) = (0.5 * libm::sqrt(2.0), libm::sqrt(3.0) / 4.0);
@@ -236,8 +236,8 @@ fn engines_and_vision() -> Vec<Row> {
         row("OpenCV K", k(525.0, 525.0, 319.5, 239.5), {
             Expected::Intrinsics([525.0, 525.0, 319.5, 239.5])
         }),
-        // COLMAP's camera looks along +z, so the gaze, which is read for a camera that looks along
-        // −z, is reversed.
+        // Recognition assumes that a camera looks along −z. COLMAP's looks along +z, so the gaze is
+        // reversed.
         row("COLMAP pose", opencv(view), {
             Expected::Camera([2.0, -1.0, 5.0], unit([2.0, -1.0, 4.0]))
         }),

@@ -16,7 +16,7 @@ fn rotation_z(degrees: f64) -> Rows {
 }
 
 #[test]
-fn a_rotation_about_z_and_a_translation_is_a_model_transform_first() {
+fn a_rotation_about_z_with_a_translation_is_first_read_as_a_model_transform() {
     for (degrees, by) in [(30.0, [5.0, 2.0, 0.0]), (90.0, [5.0, 2.0, 0.0]), (45.0, [1.0, 0.0, 3.0])]
     {
         let exact = product(translation(by), rotation_z(degrees));
@@ -69,7 +69,7 @@ fn a_negated_last_row_is_reported() {
     }
 }
 
-/// The matrix is a look-at with the sign of one entry of its rotation flipped.
+/// The matrix is a look-at transform with the sign of one rotation entry flipped.
 #[test]
 fn a_single_wrong_sign_in_a_camera_is_found() {
     let exact = m_cam([4.0, 3.0, 6.0], [-4.0, -2.0, -6.0], [0.1, 1.0, 0.0]);

@@ -25,7 +25,7 @@ pub(crate) enum Expected {
     CameraLens([f64; 3], Convention, f64, f64, f64),
     P(f64, f64),
     PInverse(f64, f64),
-    /// Rectangle (x, y, width, height), whether y is down, whether centers are integers.
+    /// Rectangle (x, y, width, height), whether y points down, whether pixel centers are integers.
     Viewport([f64; 4], bool, bool),
     Intrinsics([f64; 4]),
     Translation([f64; 3]),
@@ -46,7 +46,7 @@ pub(crate) enum Expected {
 pub(crate) struct Row {
     pub(crate) name: &'static str,
     pub(crate) matrix: Rows,
-    /// The expected reading with its factor, or the expected misprint.
+    /// The expected report on the matrix.
     pub(crate) verdict: Verdict,
     /// The tolerance of the parameters, relative to their size or to 1, whichever is larger.
     pub(crate) tolerance: f64,
@@ -58,7 +58,7 @@ pub(crate) enum Verdict {
     Reading(Expected, f64),
     /// The misprint that is suspected.
     Slip(Misprint),
-    /// The reading and the misprint have the same numbers, so both must be reported.
+    /// The first reading and a misprint with the same numbers; both must be reported.
     Both(Expected, Misprint),
 }
 
@@ -179,7 +179,7 @@ fn recognized(rows: Rows) -> Recognition {
     recognize(rows)
 }
 
-/// Returns a complaint about a row, or `None` if its matrix is recognized as expected.
+/// Returns the report on a matrix that is not recognized as expected; otherwise returns `None`.
 fn complaint(row: &Row) -> Option<String> {
     let found = recognized(row.matrix);
     let first = found.first();
@@ -228,7 +228,7 @@ fn no_correct_matrix_is_reported_as_a_misprint() {
 }
 
 #[test]
-fn names_are_unique() {
+fn row_names_are_unique() {
     let mut names: Vec<&str> = right_matrices::rows().iter().map(|row| row.name).collect();
     names.extend(wrong_matrices::rows().iter().map(|row| row.name));
     names.sort_unstable();

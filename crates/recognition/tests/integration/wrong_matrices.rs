@@ -2,9 +2,9 @@
 //!
 //! Four of them are also correct matrices of something else, as their comments explain, so both
 //! readings must be reported. Misprints that are correct matrices for other parameters have no row
-//! here (see `hand_typed.rs`). Two more rows are the exceptions of the table. With four decimals,
-//! M15 with near 0.1 and far 100 cannot be distinguished from a correct box with near 0.1 and far
-//! 50. M17 at 45° gives a scale of 2, which people also choose for lenses.
+//! here (see `hand_typed.rs`). Only two rows are not recognized. With four decimals, M15 with
+//! depths from 0.1 to 100 cannot be distinguished from a correct box from 0.1 to 50, and M17 at 45°
+//! gives a scale of 2, which people also choose for lenses.
 
 use super::formulas::*;
 use super::table::{Expected, Row, Verdict};
@@ -77,8 +77,8 @@ fn row_vectors() -> Vec<Row> {
     let slips = printed
         .into_iter()
         .map(|(name, matrix)| slip(name, transposed(matrix), Misprint::Transposed));
-    // This is also −nf P(−1/f, −1/n), a less likely reading, with planes behind the eye and a
-    // factor.
+    // This is also −nf P(−1/f, −1/n), which is less likely: it has a factor, and planes behind the
+    // eye.
     let twin = slip("row vectors: P", transposed(p(-2.0, -6.0)), Misprint::Transposed);
     slips.chain([twin]).collect()
 }
@@ -122,7 +122,7 @@ fn negated() -> Vec<Row> {
     all
 }
 
-/// Returns the rows for multiples of a matrix, which are the same map, but whose w is not a
+/// Returns the rows for multiples of correct matrices. They are the same maps, but their w is not a
 /// distance.
 fn multiples() -> Vec<Row> {
     let lens = |c, fovy, aspect, n, f| Expected::Lens(c, fovy, aspect, n, f);
@@ -213,7 +213,7 @@ fn offset_sign(mut m: Rows) -> Rows {
     m
 }
 
-/// Returns a centered lens with the scale of y replaced.
+/// Returns a centered perspective projection with the given scale of y.
 fn with_scale(scale_y: f64, aspect: f64) -> Rows {
     let mut m = gl(60.0, aspect, 0.1, 100.0);
     (m[0][0], m[1][1]) = (scale_y / aspect, scale_y);
@@ -243,7 +243,7 @@ fn slips_of_the_slides() -> Vec<Row> {
         slip("M15, 4 decimals", rounded(offset_sign(gl_ortho(WINDOW, 0.1, 100.0)), 4), {
             Misprint::OrthoOffsetSign
         }),
-        // A window from 0 to 4 has the same numbers.
+        // A frustum with a window from x = 0 to x = 4 has the same numbers.
         both(
             "M16",
             offset_one(WINDOW),

@@ -12,7 +12,7 @@ scene_enum! {
         Transparent,
         /// A single color.
         Color(Color),
-        /// A gradient across the whole image, interpolated in sRGB as web pages do.
+        /// A gradient across the whole image, interpolated in sRGB as on web pages.
         Gradient {
             /// From 2 to 16 evenly spaced colors; the first and the last touch the borders or
             /// corners of the image.
@@ -26,9 +26,10 @@ scene_enum! {
         Picture {
             /// The path, relative to the scene file's folder.
             path: String,
-            /// The way it is scaled to fit the image. Default: `Cover`.
+            /// The way the picture is scaled to fit the image. Default: `Cover`.
             fit: ImageFit = ImageFit::Cover,
-            /// The color around it and behind its transparent parts. Default: none (alpha is 0).
+            /// The color around the picture and behind transparent parts. Default: none (alpha is
+            /// 0).
             color: Option<Color>,
         },
         /// The scene's environment.

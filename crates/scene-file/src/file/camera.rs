@@ -59,9 +59,9 @@ scene_enum! {
             /// The directions of the camera's axes. Default: `OpenGl`.
             axes: CameraAxes = CameraAxes::OpenGl,
         },
-        /// From a direction, at the distance where everything just fits in the image. This includes
-        /// the models and, with `ground`, the shadows that directional lights cast on it, up to the
-        /// length of the models' diagonal.
+        /// From a direction, at the distance where everything just fits in the image: the models
+        /// and, with `ground`, the shadows that directional lights cast on it, up to the length of
+        /// the models' diagonal.
         Frame {
             /// The direction. Default: `ThreeQuarter`, and `Front` for classical projections.
             from: Option<FromFile>,

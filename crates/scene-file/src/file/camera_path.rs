@@ -1,4 +1,4 @@
-//! The camera path of a scene file, for `alberti animate` and stills from it.
+//! The camera path of a scene file, for `alberti animate` and for stills.
 
 use crate::number::{FieldOfView, Finite, Triple};
 use crate::schema::{named_enum, scene_struct};
@@ -26,8 +26,8 @@ scene_struct! {
         pub target: Triple,
         /// The view-up vector. Default: y.
         pub up: Triple = Triple::Y_AXIS,
-        /// The vertical field of view of a perspective in degrees. Default: from the scene's
-        /// projection.
+        /// The vertical field of view of a perspective projection, in degrees. Default: from the
+        /// scene's projection.
         pub fov_y_degrees: Option<FieldOfView>,
     }
 }

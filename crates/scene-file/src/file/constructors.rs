@@ -1,4 +1,4 @@
-//! Constructors for scenes written in Rust: short forms of the most common parts.
+//! Constructors for scenes built in Rust: short forms for the most common parts.
 
 use super::projection::NO_SHIFT;
 use super::{CameraFile, LightFile, ModelFile, ProjectionFile, SceneFile, ViewFile, ViewportFile};
@@ -93,11 +93,11 @@ impl CameraFile {
 
 impl ProjectionFile {
     /// Creates a perspective projection with a vertical field of view in degrees, between a near
-    /// and a far plane. A plane that is `None` is fitted to the models.
+    /// and a far plane. If `planes` is `None`, both are fitted to the models.
     ///
     /// # Errors
-    /// Returns an error if the angle is not between 0 and 180 degrees, or a distance is not greater
-    /// than 0.
+    /// Returns an error if the angle is not between 0 and 180 degrees, or if a distance is not
+    /// greater than 0.
     pub fn perspective(
         fov_y_degrees: f64,
         planes: impl Into<Option<[f64; 2]>>,
@@ -136,8 +136,7 @@ impl ProjectionFile {
     /// bottom and top borders.
     ///
     /// # Errors
-    /// Returns an error if a number is not finite, or the distance of a plane is not greater than
-    /// 0.
+    /// Returns an error if a number is not finite, or if a plane's distance is not greater than 0.
     pub fn frustum(window: [f64; 4], planes: [f64; 2]) -> Result<Self, InvalidNumber> {
         let [left, right, bottom, top] = window;
         let [near, far] = planes;
@@ -167,7 +166,7 @@ impl ViewportFile {
 
 impl LightFile {
     /// Creates a white directional light, such as sunlight, that travels in the given direction.
-    /// Its illuminance is in lux.
+    /// Its intensity is the illuminance in lux.
     ///
     /// # Errors
     /// Returns an error if the intensity is negative or not finite.
@@ -190,8 +189,8 @@ impl LightFile {
         Ok(Self::Point { position, intensity, range: None, color, shadows: None })
     }
 
-    /// Creates a white spot light with a cone of 45 degrees around its axis. Its intensity is in
-    /// candela.
+    /// Creates a white spot light with a cone that extends 45 degrees from its axis. Its intensity
+    /// is in candela.
     ///
     /// # Errors
     /// Returns an error if the intensity is negative or not finite.

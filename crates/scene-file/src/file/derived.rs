@@ -9,11 +9,11 @@ const STRIP_HEIGHT: u32 = 28;
 const LEAST_ROWS_PER_STRIP_ROW: u32 = 4;
 
 impl SceneFile {
-    /// Returns the paths of all environment and backdrop images and of the sheet's title block,
+    /// Returns the paths of all environment and background images and of the sheet's title block,
     /// relative to the scene's folder.
     ///
-    /// Insets may have their own backdrops. The caller uses the list for access checks and to
-    /// detect changed files.
+    /// Viewports may have separate background images. The caller uses the list for access checks
+    /// and to detect changed files.
     pub fn image_paths(&self) -> impl Iterator<Item = &str> {
         let own = self.viewports.iter().filter_map(|viewport| viewport.background.as_ref());
         let behind = own.chain(&self.image.background).filter_map(|background| match background {

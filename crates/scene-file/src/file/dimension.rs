@@ -57,8 +57,8 @@ pub(crate) fn is_dimensions_list(element: &ValueType) -> bool {
 
 scene_enum! {
     /// A dimension on a sheet. Lengths are measured on the object, in millimeters or inches,
-    /// whatever the scale. A dimension is placed in a view that shows its true size; without such a
-    /// view, it is omitted with a warning.
+    /// regardless of the scale. A dimension is placed in a view that shows its true size; without
+    /// such a view, it is omitted with a warning.
     pub enum DimensionFile as "Dimension" {
         /// The overall width, height and depth, placed outside all other dimensions.
         Overall,
@@ -113,8 +113,8 @@ scene_enum! {
             /// inches.
             decimals: Option<u32> = None,
         },
-        /// The diameter of a circle, marked Ø. It is an arrow to the circle if a view shows it as a
-        /// circle, otherwise a length across it.
+        /// The diameter of a circle, marked Ø. It is an arrow to the circle in a view that shows
+        /// its true shape, otherwise a length across it.
         Diameter {
             /// The circle or arc.
             circle: PlaceFile,
@@ -190,7 +190,7 @@ scene_enum! {
     }
 }
 
-/// Returns the center of a box.
+/// The center of a box.
 const HALVES: Triple = Triple([0.5; 3]);
 
 scene_struct! {

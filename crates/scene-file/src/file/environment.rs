@@ -44,14 +44,14 @@ scene_enum! {
 }
 
 impl EnvironmentFile {
-    /// Returns the studio around a model without a scene file. Together with the key light, it
-    /// lights matte white to at most 0.95.
+    /// The studio around a model without a scene file. Together with the key light, it lights matte
+    /// white to at most 0.95.
     pub const STUDIO: Self =
         Self::Studio { strength: NonNegative::BARE_STUDIO, rotation_degrees: None };
-    /// Returns the studio around a model with lights but without a scene file.
+    /// The studio around a model with lights but without a scene file.
     pub const DIMMED_STUDIO: Self =
         Self::Studio { strength: NonNegative::DIMMED_STUDIO, rotation_degrees: None };
-    /// Returns the sky with all defaults.
+    /// The sky with all defaults.
     pub const SKY: Self = Self::Sky { sun: Triple::ONES, strength: NonNegative::ONE };
 
     /// Returns the image in a file, with all defaults.

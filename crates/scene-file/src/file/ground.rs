@@ -8,7 +8,7 @@ scene_enum! {
     #[derive(Copy)]
     pub enum GroundFile as "Ground" {
         /// A shadow catcher: a horizontal plane that shows only the shadows on it, as under
-        /// products in a catalog. In a transparent picture its alpha is the fraction of light that
+        /// products in a catalog. In a transparent picture, its alpha is the fraction of light that
         /// the shadows block. It is invisible from below. If the scene does not set `shadows`, they
         /// are `On()`. An environment and ambient light leave a soft shadow around objects on it,
         /// unless `shadows` are `Off`.
@@ -23,6 +23,6 @@ scene_enum! {
 }
 
 impl GroundFile {
-    /// Returns the ground with all defaults.
+    /// The ground with all defaults.
     pub const DEFAULT: Self = Self::Shadow { height: None, framed: true };
 }

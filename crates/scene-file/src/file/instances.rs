@@ -12,7 +12,7 @@ scene_enum! {
         /// In rows, columns and layers. The first instance is at the model's position, and the
         /// others are offset from it.
         Grid {
-            /// The counts along x, y and z, each at least 1.
+            /// The numbers of instances along x, y and z, each at least 1.
             count: (u32, u32, u32),
             /// The distances between neighbors along x, y and z, in world units.
             step: Triple,
@@ -29,8 +29,8 @@ scene_enum! {
             /// The position of the first instance in degrees, counterclockwise around the axis: 0
             /// is toward x, or toward y if the axis is x. Default: 0.
             start_degrees: Finite = Finite::ZERO,
-            /// The angle over which the instances are spread. On a full circle the last one is one
-            /// step before the first; otherwise it is at the end of the angle. Default: 360.
+            /// The angle over which the instances are spread. On a full circle, the last instance
+            /// is one step before the first; otherwise it is at the end of the angle. Default: 360.
             sweep_degrees: Finite = FULL_CIRCLE,
             /// Whether each instance rotates with its position, so that the same side of every
             /// instance faces the center. Default: true.

@@ -1,4 +1,4 @@
-//! The style of line drawings in a scene file: choice of edges, hidden lines, line widths.
+//! The style of line drawings in a scene file: choice of edges, hidden lines and line widths.
 
 use crate::color::Color;
 use crate::number::{CreaseAngle, HandDrawn, HatchSpacing, Percent, Positive};
@@ -15,7 +15,7 @@ scene_struct! {
         /// The treatment of hidden lines. Default: `Removed`.
         pub hidden: HiddenLines = HiddenLines::Removed,
         /// Faces that meet at more than this angle have a crease edge between them. Default: 30,
-        /// but none if the model's vertex normals are the same on both sides of the edge.
+        /// but no crease edge where the model's vertex normals are the same on both sides.
         pub crease_degrees: Option<CreaseAngle> = None,
         /// Faces that meet at more than this angle without a crease, such as a flat face and its
         /// fillet, have a tangent edge between them. Default: only where the material changes.

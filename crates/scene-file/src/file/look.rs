@@ -34,7 +34,7 @@ scene_enum! {
         Ids,
         /// Cel shading: the material colors in three steps of light, with outlines.
         Toon,
-        /// X-ray: translucent surfaces that look denser the more edge-on they are seen.
+        /// X-ray: translucent surfaces, denser the more nearly they are seen edge-on.
         XRay,
         /// The edges of all triangles, including hidden ones.
         Wireframe,

@@ -44,8 +44,8 @@ scene_enum! {
             /// false.
             leader: bool = false,
         },
-        /// The visible edges of the surfaces: silhouettes, boundaries, creases. Line drawings show
-        /// them anyway.
+        /// The visible edges of the surfaces: silhouettes, boundaries and creases. Line drawings
+        /// show them anyway.
         Edges,
     }
 }

@@ -32,8 +32,8 @@ scene_enum! {
             /// The distance of the far plane. Default: just behind the models.
             far: Option<Positive>,
         },
-        /// Orthographic: parallel, perpendicular to the image. Set the height of the window, all
-        /// four of its borders, or neither.
+        /// Orthographic: a parallel projection, perpendicular to the image. Set the height of the
+        /// window, all four of its borders, or neither.
         Orthographic {
             /// The height of the view volume in scene units. Default: from the framing.
             height: Option<Positive>,
@@ -82,8 +82,8 @@ scene_enum! {
             /// The distance of the far plane. Default: just behind the models.
             far: Option<Positive>,
         },
-        /// The perspective of a calibrated camera, from the entries of its matrix K: focal lengths
-        /// and principal point in pixels, with rows counted from the top.
+        /// The perspective projection of a calibrated camera, from the entries of its matrix K:
+        /// focal lengths and principal point in pixels, with rows counted from the top.
         Intrinsics {
             /// The focal length in columns.
             fx: Positive,
@@ -165,8 +165,8 @@ scene_enum! {
             x: (Finite, Finite) = point(-3.2, 0.4),
             /// The vanishing point of lines along z. Default: on the right.
             z: (Finite, Finite) = point(2.4, 0.4),
-            /// The position of the eye between the two, 0 at x and 1 at z. Default: 0.57, the
-            /// center of the picture.
+            /// The position of the eye between the vanishing points, 0 at x and 1 at z. Default:
+            /// 0.57, the center of the picture.
             fraction: Finite = Finite::constant(0.57),
         },
         /// Three-point perspective, with no axis parallel to the picture plane. Picture coordinates
@@ -194,7 +194,7 @@ scene_enum! {
 }
 
 impl ProjectionFile {
-    /// Returns a perspective with all defaults.
+    /// A perspective projection with all defaults.
     pub const PERSPECTIVE: Self = Self::Perspective {
         fov_y_degrees: None,
         fov_x_degrees: None,
@@ -203,7 +203,7 @@ impl ProjectionFile {
         near: None,
         far: None,
     };
-    /// Returns an orthographic projection with all defaults.
+    /// An orthographic projection with all defaults.
     pub const ORTHOGRAPHIC: Self = Self::Orthographic {
         height: None,
         left: None,
@@ -250,7 +250,7 @@ impl ProjectionFile {
         Self::ThreePoint { x: point(-3.2, 1.2), y: point(0.1, -5.0), z: point(2.4, 1.2) }
     }
 
-    /// Whether it is one of the classical projections, which choose their own windows.
+    /// Whether this is one of the classical projections, which fit their windows to the models.
     #[must_use]
     pub fn is_classical(&self) -> bool {
         !matches!(
@@ -264,7 +264,7 @@ impl ProjectionFile {
     }
 }
 
-/// A lens centered on the picture.
+/// The shift of a lens centered on the picture.
 pub(super) const NO_SHIFT: (Finite, Finite) = point(0.0, 0.0);
 
 /// 45 degrees, the usual direction of depth in oblique drawings.

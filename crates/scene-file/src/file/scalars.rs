@@ -13,7 +13,7 @@ scene_struct! {
         pub attribute: String,
         /// The colormap. Default: `Viridis`.
         pub colormap: Colormap = Colormap::Viridis,
-        /// The values of the first and last color; values outside the range get the color at its
+        /// The values of the first and last color; values outside this range get the color of its
         /// nearer end. Default: the smallest and the largest value of the model.
         pub range: Option<(Finite, Finite)> = None,
     }

@@ -20,8 +20,8 @@ scene_struct! {
 }
 
 impl SectionFile {
-    /// Creates a section plane through a point that removes the half to which the direction points;
-    /// returns `None` if a number is not finite or the direction is 0.
+    /// Creates a section plane through `point` that removes the half into which `normal` points.
+    /// Returns `None` if a number is not finite or `normal` is 0.
     #[must_use]
     pub fn new(point: [f64; 3], normal: [f64; 3]) -> Option<Self> {
         let is_finite = point.iter().chain(&normal).all(|number| number.is_finite());

@@ -20,15 +20,15 @@ scene_enum! {
             /// maps, each covering 90°. All point lights together have at most 67 million texels;
             /// beyond that, their maps shrink. Default: 2048.
             size: Option<u32>,
-            /// The angle that the light subtends, in degrees from 0 to 30. Shadows get softer with
-            /// distance from the object that casts them; 0 makes them all sharp. Default: 0.53,
-            /// like the sun.
+            /// The angle that the light subtends, in degrees from 0 to 30. Shadow edges get softer
+            /// with distance from the object that casts them; 0 makes all edges hard. Default:
+            /// 0.53, like the sun.
             softness_degrees: Option<Softness>,
         },
     }
 }
 
 impl ShadowsFile {
-    /// Returns shadows with all defaults.
+    /// Shadows with all defaults.
     pub const DEFAULT: Self = Self::On { size: None, softness_degrees: None };
 }

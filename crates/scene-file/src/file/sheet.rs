@@ -69,15 +69,15 @@ scene_struct! {
         /// The exploded view on the assembly page, with or without balloons. Default: the parts
         /// stay in place.
         pub exploded: Option<ExplodedFile> = None,
-        /// Whether each item in the list has a separate page with its principal views. Default:
-        /// false.
+        /// Whether each item in the parts list has a separate page with its principal views.
+        /// Default: false.
         pub part_sheets: bool = false,
-        /// The densities for computing the masses in the list. Default: none, so that the list has
-        /// no masses.
+        /// The densities from which the masses in the parts list are computed. Default: none, so
+        /// the list has no masses.
         pub densities: Vec<DensityFile> = Vec::new(),
-        /// Views in addition to the standard views or instead of them, and ways to show them. If
-        /// the list contains a `View`, it must name all views; otherwise the sheet also has the
-        /// front, top, side and axonometric views. Default: none.
+        /// Views in addition to or instead of the standard views, and ways to show views. If the
+        /// list contains a `View`, it must name all views; otherwise the sheet also has the front,
+        /// top, side and axonometric views. Default: none.
         pub views: Vec<SheetViewFile> = Vec::new(),
         /// The second line of the title. If it, an owner, a document type, an approver or a
         /// revision is set, the title block has all fields of ISO 7200. Default: none.
@@ -123,8 +123,7 @@ named_enum! {
         Letter = "8½ × 11 inches.",
         Tabloid = "11 × 17 inches.",
         Auto = "The smallest of A4 to A0 that holds the views at 1:1 or larger, or at the given \
-                scale. If A0 is too small, the smallest size at which a larger sheet would allow \
-                no larger scale.",
+                scale. If A0 is too small, the smallest size that allows the same scale as A0.",
     }
 }
 

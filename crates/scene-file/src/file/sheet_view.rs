@@ -43,7 +43,7 @@ scene_enum! {
             caption: Option<String>,
         },
         /// A section along parallel planes joined by steps. It is shown in the view that faces the
-        /// planes, or in a separate view. The view along the steps has its cutting line.
+        /// planes, or in a separate view. The view along the steps shows the cutting line.
         Stepped {
             /// The direction of the removed side, perpendicular to the planes.
             normal: Triple,
@@ -80,7 +80,7 @@ scene_enum! {
             /// The half that is cut, as seen on the paper. Default: `Right`.
             side: ViewSideFile = ViewSideFile::Right,
         },
-        /// Cuts a view open around a point, out to a freehand line.
+        /// Cuts a view open around a point, as far as a freehand line.
         LocalSection {
             /// The view.
             of: NamedView,

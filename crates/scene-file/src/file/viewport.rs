@@ -9,10 +9,9 @@ use crate::number::{Fraction, Positive};
 use crate::schema::{named_enum, scene_enum, scene_struct};
 
 scene_struct! {
-    /// A rectangle of the picture that shows another view, drawn over the picture. It appears in
-    /// pictures, frame sequences and line drawings; passes and `explain` use only the scene's
-    /// camera. In SVG and PDF all views are line drawings. Set its position with either `at` or
-    /// `pixels`.
+    /// A rectangle with another view, drawn over the picture. It appears in pictures, frame
+    /// sequences and line drawings; passes and `explain` use only the scene's camera. In SVG and
+    /// PDF all views are line drawings. Set its position with either `at` or `pixels`.
     pub struct ViewportFile as "Viewport" {
         /// Left, top, width and height as fractions of the picture without its caption, from 0 to
         /// 1, measured from the upper left corner. Default: from `pixels`.
@@ -59,7 +58,7 @@ scene_struct! {
 scene_enum! {
     /// A stereo pair: two pictures, for two eyes on either side of the camera. They look in the
     /// same direction through off-axis windows. A point at the convergence distance has the same
-    /// position in both, without vertical parallax. The projection must be a perspective.
+    /// position in both, without vertical parallax. The projection must be perspective.
     #[derive(Copy)]
     pub enum StereoFile as "Stereo" {
         /// The left eye's picture in the left half, the right eye's in the right half.
@@ -70,8 +69,8 @@ scene_enum! {
             /// picture. Default: the distance to the center of the models.
             convergence: Option<Positive>,
         },
-        /// One on top of the other, for red-cyan glasses: red from the left eye's picture, green
-        /// and blue from the right eye's.
+        /// One picture on top of the other, for red-cyan glasses: red from the left eye's picture,
+        /// green and blue from the right eye's.
         Anaglyph {
             /// The interocular distance, in world units. Default: a thirtieth of the convergence.
             eye_distance: Option<Positive>,

@@ -1,7 +1,7 @@
 //! The formatter's tree: tokens grouped into brackets and items, each with its comment.
 //!
 //! Unlike the parser's syntax tree, it keeps comments, blank lines and the spelling of literals,
-//! and it knows nothing about fields or types. An item is everything between two commas.
+//! and it does not know the declared fields or types. An item is everything between two commas.
 
 use crate::syntax::{Token, TokenKind};
 
@@ -132,14 +132,14 @@ impl<'a> ItemReader<'a> {
     /// Reads an element and the line comments inside it.
     ///
     /// Line comments cannot stay inside, since the element may end up on one line; they are
-    /// returned, to be placed before it. Block comments stay among the words.
+    /// returned to be placed before the element. Block comments stay among the words.
     fn read_element(&mut self) -> (Element, Vec<&'a str>) {
         let (mut parts, mut comments) = (Vec::new(), Vec::new());
         let mut text = String::new();
         while let Some(token) = self.peek() {
             match token.kind {
                 TokenKind::Comma | TokenKind::Close => break,
-                // A comment after the element, whether or not a comma follows.
+                // The comment follows the element, with or without a comma after it.
                 TokenKind::LineComment if self.is_element_end() => break,
                 TokenKind::LineComment => comments.push(token.text),
                 TokenKind::Colon => text.push_str(": "),

@@ -1,5 +1,5 @@
 //! Tests that follow the hints. Each row has a field as a newcomer writes it, words from the help,
-//! and the field rewritten as the help says, which must give a valid scene.
+//! and the field rewritten as the help suggests. The rewritten field must give a valid scene.
 
 use super::{mistakes, scene_with};
 use crate::parse_scene;
@@ -182,7 +182,7 @@ fn following_a_hint_gives_a_valid_scene() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// A model written without its list and brackets gets one hint with both.
+/// A model without its list and brackets gets one hint that shows both.
 #[test]
 fn models_without_lists_get_a_hint_with_the_whole_field() {
     for scene in ["(model: \"a.glb\")", "(models: \"a.glb\")", "(model: (path: \"a.glb\"))"] {
@@ -225,7 +225,7 @@ fn a_misspelled_field_does_not_hide_the_mistakes_in_its_value() {
 }
 
 #[test]
-fn grids_along_two_axes_get_a_hint_with_three() {
+fn grids_with_two_numbers_get_a_hint_with_three() {
     let grid = "(models: [(path: \"a.glb\", instances: Grid(count: (20, 10), step: (2, 3)))])";
     let found = mistakes(grid);
     let is_known = |(told, part): (&(String, (usize, usize), String), &str)| told.2.contains(part);

@@ -1,4 +1,4 @@
-//! Tests: words from three.js, Blender, glTF and f3d, each used instead of a scene file word.
+//! Tests of words from three.js, Blender, glTF and f3d, used instead of the scene language's words.
 
 use super::{mistakes, scene_with};
 
@@ -116,7 +116,7 @@ const MODEL_WORDS: [(&str, &str); 20] = [
 ];
 
 #[test]
-fn words_from_other_programs_get_our_names() {
+fn words_from_other_programs_get_a_hint_with_the_right_word() {
     let in_scene = WORDS.map(|(field, expected)| (scene_with(field), expected));
     let in_model = MODEL_WORDS
         .map(|(field, expected)| (format!("(models: [(path: \"a.glb\", {field})])"), expected));
@@ -131,7 +131,7 @@ fn words_from_other_programs_get_our_names() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Any field of the language that is written directly in the scene gets a hint with its position.
+/// A field written directly in the scene by mistake gets a hint that shows where it belongs.
 #[test]
 fn misplaced_fields_get_a_hint_with_their_position() {
     use crate::reference::{FieldEntry, Shape, all_types};
@@ -146,7 +146,7 @@ fn misplaced_fields_get_a_hint_with_their_position() {
     let own: Vec<&str> = fields_of(types[0].shape).iter().map(|field| field.name).collect();
     let mut wrong = Vec::new();
     for field in types.iter().flat_map(|entry| fields_of(entry.shape)) {
-        // Here, `width` and `height` are taken to mean the picture's.
+        // In the scene, `width` and `height` are taken for the size of the picture.
         if own.contains(&field.name) || ["width", "height"].contains(&field.name) {
             continue;
         }
