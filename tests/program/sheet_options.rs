@@ -187,6 +187,24 @@ fn checking_a_scene_warns_about_problems_of_the_sheet() {
 }
 
 #[test]
+fn an_included_title_block_is_relative_to_its_own_file() {
+    let sandbox = Sandbox::new("sheet_included_block");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
+    std::fs::create_dir(sandbox.path_of("lib")).expect("a folder");
+    sandbox.write_file(
+        "lib/block.svg",
+        "<svg viewBox=\"0 0 90 20\"><rect width=\"90\" height=\"20\"/></svg>",
+    );
+    sandbox.write_file("lib/sheet.ron", "Scene(sheet: Sheet(title_block: \"block.svg\"))");
+    let scene = "Scene(include: \"lib/sheet.ron\", models: [(path: \"box.gltf\")])";
+    sandbox.write_file("scene.ron", scene);
+    assert_succeeds(&sandbox, &["sheet", "scene.ron", "-o", "out.svg"]);
+    let (_, layers) = read_drawing(&sandbox, "out.svg");
+    let block = layers.get("title-block").expect("a block");
+    assert_eq!(block[0][..2], [[320.0, 267.0], [410.0, 267.0]]);
+}
+
+#[test]
 fn checking_a_scene_reads_title_blocks_only_where_allowed() {
     let sandbox = Sandbox::new("sheet_check_block");
     std::fs::create_dir(sandbox.path_of("inner")).expect("a folder");

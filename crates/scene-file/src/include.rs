@@ -265,6 +265,7 @@ fn rebase_paths(file: &mut SceneFile, folder: &Path) {
             rebased(path);
         }
     }
+    file.sheet.iter_mut().filter_map(|sheet| sheet.title_block.as_mut()).for_each(rebased);
 }
 
 /// Merges a scene over another: lists are concatenated, and other fields are replaced as a whole if
