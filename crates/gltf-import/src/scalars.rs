@@ -34,8 +34,9 @@ const NOT_FINITE_CODE: f32 = 0.5;
 impl ScalarColors {
     /// Finds the attribute among the names in a file.
     ///
-    /// # Errors Returns [`NO_SUCH_ITEM`](codes::NO_SUCH_ITEM), with a list of the names, if none of
-    /// them matches.
+    /// # Errors
+    /// Returns [`NO_SUCH_ITEM`](codes::NO_SUCH_ITEM), with a list of the names, if none of them
+    /// matches.
     pub fn find_among(&self, names: &[String], location: &str) -> Result<usize, Diagnostic> {
         let wanted = self.attribute.as_str();
         let bare_wanted = bare_name(wanted);

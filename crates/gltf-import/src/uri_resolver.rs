@@ -153,8 +153,9 @@ impl<'a> UriResolver<'a> {
     /// Exporters disagree about escaping, and some write Windows paths, so the first existing
     /// candidate is used. Each candidate is checked against the sandbox.
     ///
-    /// # Errors Fails if the URI is empty, if the path leaves the sandbox, if no candidate exists,
-    /// or if the file is too large.
+    /// # Errors
+    /// Fails if the URI is empty, if the path leaves the sandbox, if no candidate exists, or if the
+    /// file is too large.
     fn read_asset(&self, uri: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
         if uri.is_empty() {
             return Err(Diagnostic::invalid(pointer, "the URI is empty"));
@@ -178,8 +179,8 @@ impl<'a> UriResolver<'a> {
 
     /// Reads the file at a relative path. Returns `None` if it does not exist.
     ///
-    /// # Errors Fails if the path leaves the sandbox, or if the file is too large or is not a
-    /// regular file.
+    /// # Errors
+    /// Fails if the path leaves the sandbox, or if the file is too large or is not a regular file.
     fn read_candidate(
         &self,
         path: &str,
@@ -267,8 +268,8 @@ impl AssetSandbox {
 /// the meantime and special files report a size of 0. One byte more than the limit is read, to
 /// detect a file that exceeds it.
 ///
-/// # Errors Fails if the file does not exist, cannot be read, is not a regular file, or is too
-/// large.
+/// # Errors
+/// Fails if the file does not exist, cannot be read, is not a regular file, or is too large.
 pub fn read_file(path: &Path, limits: &Limits, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
     let to_diagnostic = |error: std::io::Error| unreadable_file(pointer, path, &error);
     let metadata = path.metadata().map_err(to_diagnostic)?;

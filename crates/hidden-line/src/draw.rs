@@ -54,7 +54,8 @@ impl DrawnFaces {
 /// Draws the edges of a subject with hidden-line removal. `workers` is the number of threads,
 /// optionally with a monitor. The number does not change the drawing.
 ///
-/// # Errors Fails if the image has no pixels, if there are too many triangles, or on cancellation.
+/// # Errors
+/// Fails if the image has no pixels, if there are too many triangles, or on cancellation.
 pub fn draw<'a>(
     subject: &Subject<'_>,
     options: &DrawOptions,
