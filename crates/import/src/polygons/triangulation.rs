@@ -12,7 +12,7 @@
 
 use super::orientation::orient2d;
 
-/// Maximum number of point-in-triangle tests for all polygons of a file. So many tests take about
+/// Maximum number of point-in-triangle tests for all polygons of a file. That number takes about
 /// 0.1 s.
 ///
 /// An ear is tested only against the reflex corners within its range along the polygon's longer

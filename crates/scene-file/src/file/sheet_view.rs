@@ -80,7 +80,7 @@ scene_enum! {
             /// The half that is cut, as seen on the paper. Default: `Right`.
             side: ViewSideFile = ViewSideFile::Right,
         },
-        /// Cuts a view open around a point, as far as a freehand line.
+        /// Cuts a view open around a point, up to a freehand line.
         LocalSection {
             /// The view.
             of: NamedView,
