@@ -3,7 +3,7 @@
 use homog::ClipRangeError;
 use thiserror::Error;
 
-/// A parameter was rejected. Every message names the parameter, its value and the allowed range.
+/// An error in the parameters of a projection; the message states the violated condition.
 #[derive(Clone, Copy, PartialEq, Debug, Error)]
 #[non_exhaustive]
 pub enum ProjectionError {
@@ -61,10 +61,10 @@ pub enum ProjectionError {
     /// The center of projection is in the projection plane.
     #[error("the center of projection is on the projection plane")]
     CenterOnPlane,
-    /// There is no vanishing point (p = q = r = 0), so this is not a perspective.
+    /// There is no vanishing point (p = q = r = 0), so this is not a perspective projection.
     #[error("p, q and r are all 0: this is a parallel projection, without vanishing points")]
     NoVanishingPoint,
-    /// No eye has these two or three vanishing points.
+    /// No eye sees these two or three vanishing points in perpendicular directions.
     #[error("no eye sees these vanishing points in perpendicular directions: {reason}")]
     ImpossibleVanishingPoints {
         /// The reason why no eye exists.

@@ -112,7 +112,7 @@ impl Window {
         Self::new(self.left() + dx, self.right() + dx, self.bottom() + dy, self.top() + dy)
     }
 
-    /// Returns the window shifted so that pixel centers sample the given offset.
+    /// Returns the window shifted so that each pixel is sampled at the given offset.
     ///
     /// # Errors
     /// Returns an error if a size is not positive or a number is not finite.
@@ -143,7 +143,7 @@ macro_rules! window_methods {
                 $with(self, &|window: Window| window.shifted(x, y))
             }
 
-            /// Returns the projection whose pixel centers sample the given offset.
+            /// Returns the projection that samples each pixel at the given offset.
             ///
             /// # Errors
             /// Returns an error if a size is not positive or a number is not finite.

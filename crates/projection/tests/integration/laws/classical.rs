@@ -200,7 +200,7 @@ proptest! {
         prop_assert!((image - eye).cross(p - eye).length() < 1e-9 * size * size);
     }
 
-    /// C72, PR-1: the error shrinks with the reciprocal of the eye's distance.
+    /// C72, PR-1: the error decreases as the reciprocal of the eye's distance.
     #[test]
     fn parallel_projection_is_the_limit_of_an_eye_going_to_infinity(
         o in oblique(),
