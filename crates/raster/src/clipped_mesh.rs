@@ -251,7 +251,7 @@ impl Frame {
         }
     }
 
-    /// Clips a line in clip space, `width` pixels wide, and adds the visible part.
+    /// Clips a line in clip space and adds the visible part, `width` pixels wide.
     pub fn clip_line(
         &mut self,
         screen: &ScreenProjection,
