@@ -47,7 +47,7 @@ pub(crate) fn byte_array(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Numbe
     read_array(name, value, "u", "uint8")
 }
 
-/// Reads elements from an argument with one of the dtype `kinds`, cast to `dtype`.
+/// Reads an argument whose dtype is of one of the `kinds`, and casts its elements to `dtype`.
 fn read_array<T: Element + Copy>(
     name: &str,
     value: &Bound<'_, PyAny>,

@@ -91,8 +91,8 @@ impl NativeCamera {
     }
 }
 
-/// Returns whether a camera frames its model. Classical projections do not, because they fit their
-/// own windows.
+/// Returns whether a camera can have a fixed pose. Classical projections cannot, because they fit
+/// their windows to the models.
 fn can_stand(file: &CameraFile) -> bool {
     let lens = file.projection.as_ref();
     lens.is_none_or(|lens| {

@@ -176,7 +176,7 @@ fn read_passes(options: &Keywords<'_, '_>) -> PyResult<(bool, Vec<Pass>)> {
     Ok((has_color, passes))
 }
 
-/// Returns whether a normalized name refers to a pass: by the library's name, or as `ids`,
+/// Returns whether a normalized name refers to this pass: the library's name for it, or `ids`,
 /// `model_ids` and so on.
 fn means_pass(wanted: &str, pass: Pass) -> bool {
     let own = plain_name(pass.name());
