@@ -180,7 +180,7 @@ impl DepthCurve {
     }
 
     /// Returns the distance between the stored depth, rounded to f32, and the next value toward
-    /// far.
+    /// the far depth.
     #[expect(clippy::cast_possible_truncation, reason = "the stored depth is an f32")]
     fn float_step(self, distance: f64) -> Option<f64> {
         let here = self.depth(distance)? as f32;

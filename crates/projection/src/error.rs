@@ -59,7 +59,7 @@ pub enum ProjectionError {
     #[error("the projectors are parallel to the projection plane and never meet it")]
     ParallelToPlane,
     /// The center of projection is in the projection plane.
-    #[error("the center of projection is on the projection plane")]
+    #[error("the center of projection is in the projection plane")]
     CenterOnPlane,
     /// There is no vanishing point (p = q = r = 0), so this is not a perspective projection.
     #[error("p, q and r are all 0: this is a parallel projection, without vanishing points")]

@@ -155,8 +155,8 @@ impl Placement {
             && back.distance(DVec3::Z) < 1e-12
     }
 
-    /// Returns the camera's map, which takes the eye to the origin and the camera's axes to x, y
-    /// and z.
+    /// Returns the map to camera space, which takes the eye to the origin and the camera's axes to
+    /// x, y and z.
     pub(crate) fn as_affine(&self) -> Affine<View, View> {
         let rows = self.axes.map(|axis| axis.extend(-axis.dot(self.eye)));
         let matrix = DMat4::from_cols(rows[0], rows[1], rows[2], DVec4::W).transpose();
