@@ -75,7 +75,7 @@ impl NativeCamera {
         }
         if matches!(self.file.view, ViewFile::Frame { .. }) && models.is_empty() {
             let help = "use the camera of a rendered picture, frame.camera, or pass eye and target";
-            let message = "the camera frames a model, and has no position before rendering";
+            let message = "the camera frames a model and has no position before rendering";
             return Err(Failure::argument("camera", message).with_help(help));
         }
         let mut file = SceneFile { camera: self.file.clone(), ..SceneFile::default() };

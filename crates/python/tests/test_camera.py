@@ -210,5 +210,5 @@ def test_pictures_of_calibrated_cameras_agree_with_the_formula():
         assert np.abs(found - centers[whole]).max() < 0.01
     errors = np.abs(errors)
     assert np.sqrt((errors**2).mean()) < 0.005, np.sqrt((errors**2).mean())
-    # Errors along rows and columns do not average out.
+    # If the sides run along rows and columns, the errors do not average out.
     assert np.quantile(errors, 0.98) < 0.02 and errors.max() < 1 / 15, errors.max()

@@ -146,8 +146,8 @@ impl ScreenProjection {
 
     /// Returns whether a triangle that may extend behind the eye survives culling.
     ///
-    /// The sign of the determinant of the (x, y, w) of its vertices is its winding before the
-    /// divide (Olano and Greer, *Triangle Scan Conversion using 2D Homogeneous Coordinates*, 1997).
+    /// Its winding before the divide is the sign of the determinant of its vertices' (x, y, w)
+    /// (Olano and Greer, *Triangle Scan Conversion using 2D Homogeneous Coordinates*, 1997).
     /// It is correct even with vertices behind the eye, where the divide would reverse the winding.
     fn retains(&self, cull: CullMode, [p, q, r]: [HPoint<Clip>; 3]) -> bool {
         let [[px, py, _, pw], [qx, qy, _, qw], [rx, ry, _, rw]] = [p, q, r].map(<[f64; 4]>::from);
@@ -322,7 +322,7 @@ mod tests {
             assert!(!up.retains(CullMode::CounterClockwise, triangle));
             assert!(!up.retains(CullMode::Clockwise, [a, c, b]));
             assert!(up.retains(CullMode::Nothing, [a, c, b]));
-            // With y down, the same numbers show the other face.
+            // With y down, the same coordinates show the other face.
             assert!(!screen(ClipRange::VULKAN).retains(CullMode::Clockwise, triangle));
         }
     }
