@@ -218,8 +218,8 @@ fn misprint_m14b_a_window_has_two_different_corners() {
     assert!(close(divided(map.transform_point(Point::new(1.0, 1.0, -1.0))), [1.0, 1.0, -1.0]));
 }
 
-/// Ortho is a translation, by −((−near) + (−far))/2 along z, followed by a scale. If the parenthesis
-/// is closed too early, −(−near) + (−far)/2, the box is not centered.
+/// Ortho is a translation, by −((−near) + (−far))/2 along z, followed by a scale. If the
+/// parenthesis is closed too early, −(−near) + (−far)/2, the box is not centered.
 #[test]
 fn misprint_m15b_the_box_is_moved_by_the_mean_of_near_and_far() {
     let (near, far) = (2.0, 6.0);
