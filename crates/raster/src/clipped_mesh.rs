@@ -69,11 +69,11 @@ impl<'a> SourceMesh<'a> {
 }
 
 impl ScreenProjection {
-    /// Creates a projection through a viewport, such as [`Viewport::image_for`] with the frame's
+    /// Creates a projection through a viewport, for example [`Viewport::image_for`] with the frame's
     /// size and the projection's convention.
     #[must_use]
     pub fn new(viewport: &Viewport) -> Self {
-        // The grid ends GUARD_BAND pixels beyond the picture; subtracting one pixel leaves a margin
+        // The grid covers the pixel coordinates in GUARD_BAND; one pixel on each side is a margin
         // for rounding in the divide.
         let area = viewport.area();
         let band = |side: f64, center: f64| {
