@@ -53,7 +53,7 @@ impl PixelRays {
         (pixel, -view.z)
     }
 
-    /// Returns the view-space point at pixel coordinates and a depth: x and y such that clip.x =
+    /// Returns the view-space point at pixel coordinates and a depth: its x and y satisfy clip.x =
     /// ndc.x · clip.w and clip.y = ndc.y · clip.w.
     fn view_point(&self, [column, row]: [f64; 2], depth: f64) -> DVec3 {
         let [width, height] = self.size.map(|side| side as f64);
