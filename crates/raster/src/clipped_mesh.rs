@@ -69,8 +69,8 @@ impl<'a> SourceMesh<'a> {
 }
 
 impl ScreenProjection {
-    /// Creates a projection through a viewport, for example [`Viewport::image_for`] with the frame's
-    /// size and the projection's convention.
+    /// Creates a projection through a viewport, for example one from [`Viewport::image_for`] with
+    /// the frame's size and the projection's convention.
     #[must_use]
     pub fn new(viewport: &Viewport) -> Self {
         // The grid covers the pixel coordinates in GUARD_BAND; one pixel on each side is a margin

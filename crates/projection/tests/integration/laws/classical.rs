@@ -14,7 +14,7 @@ use projection::{
 };
 use proptest::prelude::*;
 
-/// An example of a leaf of the tree, or a random projection of an adjustable kind.
+/// Generates examples of the leaves of the tree, and random projections with parameters.
 fn classical() -> impl Strategy<Value = Classical> {
     let leaves: Vec<_> =
         ProjectionClass::ALL.into_iter().filter_map(ProjectionClass::example).collect();
@@ -107,7 +107,7 @@ proptest! {
         p in point(),
     ) {
         let Ok(view_to_clip) = c.view_to_clip(volume, k) else {
-            prop_assert!(matches!(c, Classical::NPoint(_)), "only a volume behind an eye can fail");
+            prop_assert!(matches!(c, Classical::NPoint(_)), "only a volume behind an eye is rejected");
             return Ok(());
         };
         let inverse = c.clip_to_view(volume, k).expect("invertible like the map");
