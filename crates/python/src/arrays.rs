@@ -88,8 +88,8 @@ pub(crate) fn as_array<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<B
     numpy.call_method1("asarray", (value,)).map_err(|error| unreadable(name, error, value.py()))
 }
 
-/// Returns the error for an object that is not an array; errors not caused by the object are
-/// returned unchanged.
+/// Returns the error for an object that cannot be read as an array; errors not caused by the object
+/// are returned unchanged.
 fn unreadable(name: &str, error: PyErr, py: Python<'_>) -> PyErr {
     if !error.is_instance_of::<PyException>(py) {
         return error;
