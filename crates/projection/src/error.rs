@@ -73,11 +73,11 @@ pub enum ProjectionError {
     /// No axonometric projection has these three foreshortening ratios.
     #[error("no axonometric projection has the foreshortening ratios {x} : {y} : {z}; {reason}")]
     ImpossibleForeshortening {
-        /// The ratio of the x axis.
+        /// The foreshortening ratio of the x axis.
         x: f64,
-        /// The ratio of the y axis.
+        /// The foreshortening ratio of the y axis.
         y: f64,
-        /// The ratio of the z axis.
+        /// The foreshortening ratio of the z axis.
         z: f64,
         /// The violated condition.
         reason: &'static str,

@@ -49,7 +49,7 @@ fn transpose_rows(rows: [DVec4; 4]) -> [DVec4; 4] {
     [0, 1, 2, 3].map(|i| DVec4::from_array(rows.map(|row| row[i])))
 }
 
-/// Returns each row divided by its largest magnitude.
+/// Returns each row divided by the largest magnitude of its entries.
 fn scale_rows(rows: [DVec4; 4]) -> [DVec4; 4] {
     rows.map(|row| if max_coordinate(row) == 0.0 { row } else { row / max_coordinate(row) })
 }
@@ -76,7 +76,7 @@ fn eliminate_rows(rows: &mut [DVec4; 4]) -> usize {
 
 /// Returns the null vector of a rank-3 matrix with w = 1, or with w = 0 and maximum coordinate 1.
 pub(crate) fn null_vector(matrix: DMat4) -> Option<DVec4> {
-    // The columns of the adjugate are multiples of it; the largest one is the most accurate.
+    // The adjugate's columns are multiples of the null vector; the largest is the most accurate.
     let columns = [0, 1, 2, 3].map(|column| cofactors(matrix, column));
     let best =
         columns.into_iter().max_by(|a, b| max_coordinate(*a).total_cmp(&max_coordinate(*b)))?;

@@ -65,7 +65,7 @@ pub enum ProjectionClass {
 }
 
 impl ProjectionClass {
-    /// All nodes, parents before their children and siblings in order.
+    /// All nodes in the order of the tree, with parents before their children.
     pub const ALL: [Self; 17] = [
         Self::Planar,
         Self::Parallel,

@@ -107,7 +107,7 @@ proptest! {
         p in point(),
     ) {
         let Ok(view_to_clip) = c.view_to_clip(volume, k) else {
-            prop_assert!(matches!(c, Classical::NPoint(_)), "only a volume behind an eye is rejected");
+            prop_assert!(matches!(c, Classical::NPoint(_)), "only a volume behind an eye can fail");
             return Ok(());
         };
         let inverse = c.clip_to_view(volume, k).expect("invertible like the map");
