@@ -1,8 +1,8 @@
 //! Classical projections as matrices for rendering, with depth preserved.
 //!
-//! The classical projections drop z: their matrices are singular and cannot decide visibility. With
-//! depth preserved and a view volume around the object, each becomes an ordinary matrix from view
-//! space to clip space (PR-1, C89).
+//! The classical projections drop z, so their matrices are singular and visibility cannot be
+//! decided. With depth preserved and a view volume around the object, each becomes an ordinary
+//! matrix from view space to clip space (PR-1, C89).
 
 use crate::{
     Axonometric, Convention, NPoint, Oblique, Orthographic, Planometric, PrincipalView,
@@ -50,7 +50,7 @@ impl Classical {
         }
     }
 
-    /// Returns the depth-preserving variant, in which x and y are as in the picture and points with
+    /// Returns the depth-preserving variant, in which x and y match the picture and points with
     /// larger z are nearer to the viewer.
     #[must_use]
     pub fn depth_preserving(self) -> Projective<View, View> {
@@ -67,7 +67,7 @@ impl Classical {
     #[must_use]
     pub fn depth_preserving_inverse(self) -> Projective<View, View> {
         match self {
-            // The back view is its own inverse; a quarter turn is undone by the opposite turn.
+            // Every view is a rotation, so the transpose is the inverse.
             Self::Multiview(view) => {
                 Projective::from_raw(view.depth_preserving().raw().transpose())
             }
@@ -82,11 +82,11 @@ impl Classical {
     ///
     /// `volume` is the visible part of the picture. Its window is in the picture plane, and the
     /// near and far distances are measured from that plane away from the viewer. For perspective
-    /// projections, they are measured on the line x = y = 0 before the divide.
+    /// projections, they are measured along the line x = y = 0 before the divide.
     ///
     /// # Errors
     /// Returns an error if the near or far plane of a perspective projection is behind its eye, or
-    /// the product of picture and volume is out of the range of f64.
+    /// the product of the matrices is out of the range of f64.
     pub fn view_to_clip(
         self,
         volume: Orthographic,

@@ -1,10 +1,10 @@
-//! Perspective as drafters construct it: from vanishing points chosen in the picture to the eye.
+//! Perspective as drafters construct it: the eye follows from vanishing points in the picture.
 //!
 //! ```text
 //!   three points:  the principal point is the orthocenter of their triangle,
 //!                  the eye's distance from it is the height of the box corner above the triangle
 //!   two points:    the principal point is on the horizon between them,
-//!                  and the eye is on the semicircle over them
+//!                  and the eye is on the semicircle whose diameter joins them
 //!   one point:     the principal point is the vanishing point
 //!
 //!   VP x ●──────────────┼──────● VP z     horizon
@@ -18,7 +18,7 @@ use crate::{Frustum, ProjectionError, Window};
 use glam::DVec2;
 use homog::{Affine, Point, Vector, View, World};
 
-/// The eye and the world orientation for which three axes have the chosen vanishing points.
+/// The eye and the world orientation for which the axes have the chosen vanishing points.
 ///
 /// The picture plane is `distance` in front of the eye; positions on it are (x, y) in any unit and
 /// from any origin.
@@ -56,7 +56,7 @@ impl ConstructedPerspective {
     /// Constructs a two-point perspective: lines along x meet at `x`, lines along z meet at `z`,
     /// and y is parallel to the picture plane.
     ///
-    /// `fraction` is the position of the principal point between the two: 0 at `x`, 1 at `z`.
+    /// `fraction` is the position of the principal point between them: 0 at `x`, 1 at `z`.
     ///
     /// # Errors
     /// Returns an error if a number is not finite, the points coincide, or the fraction is not
@@ -144,7 +144,7 @@ impl ConstructedPerspective {
         self.distance
     }
 
-    /// Returns the map from the world to view space, a rotation. The eye is at the world's origin.
+    /// Returns the rotation from world space to view space. The eye is at the world's origin.
     #[must_use]
     pub fn world_to_view(self) -> Affine<World, View> {
         let [x, y, z] = self.axes;

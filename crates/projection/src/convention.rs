@@ -10,14 +10,14 @@
 //! ```
 //!
 //! All conventions have w > 0 in front of the eye. A projection is described once, without a
-//! convention, and can be written as a matrix in any of them. [`Convention::convert`] converts
+//! convention, and can be written as a matrix in any convention. [`Convention::convert`] converts
 //! matrices from other sources.
 
 use crate::ProjectionError;
 use glam::DMat4;
 use homog::{Clip, ClipRange, NdcY, Projective, View};
 
-/// The direction of the camera along its own z axis.
+/// The direction along the z axis in which the camera looks.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Handedness {
     /// View space is right-handed: x right, y up, looking along −z.
@@ -50,7 +50,7 @@ impl Convention {
     pub const OPENGL: Self = Self::new(Handedness::Right, ClipRange::OPENGL);
     /// Vulkan: y down, near at 0, far at 1.
     pub const VULKAN: Self = Self::new(Handedness::Right, ClipRange::VULKAN);
-    /// Direct3D as used by its helper library (D3D-1): left-handed, near at 0, far at 1.
+    /// Direct3D, as in its helper library (D3D-1): left-handed, near at 0, far at 1.
     pub const DIRECT3D: Self = Self::new(Handedness::Left, ClipRange::ZERO_ONE);
     /// Metal with a right-handed view space: near at 0, far at 1.
     pub const METAL: Self = Self::new(Handedness::Right, ClipRange::ZERO_ONE);
@@ -63,13 +63,13 @@ impl Convention {
         Self { handedness, range }
     }
 
-    /// Returns the extent of clip space: pass it to the viewport and to the clip volume.
+    /// Returns the extent of clip space, for the viewport and the clip volume.
     #[must_use]
     pub const fn range(self) -> ClipRange {
         self.range
     }
 
-    /// Returns this convention with the near and far depths exchanged (reversed z).
+    /// Returns this convention with the near and far depths swapped (reversed z).
     #[must_use]
     pub const fn reversed(self) -> Self {
         Self { range: self.range.reversed(), ..self }

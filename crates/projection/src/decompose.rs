@@ -11,10 +11,10 @@
 //!      no inverse     → classical: the center is the null vector of the matrix
 //! ```
 //!
-//! A matrix and its multiples are the same map, so a common factor is removed first and reported. A
-//! matrix does not identify its convention: the OpenGL matrix of (N, F) is the zero-to-one matrix
-//! of (2FN/(F+N), F). Therefore the caller must specify it; [`readings`] tries all named
-//! conventions.
+//! A matrix and its multiples define the same map, so a common factor is removed first and
+//! reported. A matrix does not identify its convention: the OpenGL matrix of (N, F) is the
+//! zero-to-one matrix of (2FN/(F+N), F). Therefore the caller must specify the convention;
+//! [`readings`] tries all named conventions.
 
 use crate::placement::{self, Placement};
 use crate::{
@@ -36,14 +36,14 @@ pub enum Decomposed {
     /// A perspective projection from another position or orientation: a camera and a lens in one
     /// matrix.
     PlacedFrustum {
-        /// The camera's map.
+        /// The map to camera space.
         placement: Affine<View, View>,
         /// The lens.
         frustum: Frustum,
     },
     /// A perspective projection whose near plane is inclined (Lengyel).
     ObliqueNear {
-        /// The camera's map; the identity if there is no camera.
+        /// The map to camera space; the identity if there is no camera.
         placement: Affine<View, View>,
         /// The window at distance 1 in front of the eye.
         slopes: Window,
@@ -62,7 +62,7 @@ pub enum Decomposed {
     /// An orthographic projection whose rotation is not axonometric: a camera and a box in one
     /// matrix.
     PlacedOrthographic {
-        /// The camera's map.
+        /// The map to camera space.
         placement: Affine<View, View>,
         /// The box.
         volume: Orthographic,
@@ -249,7 +249,7 @@ fn decompose_onto_plane(matrix: DMat4, rank: usize) -> Result<Decomposition, Dec
     })
 }
 
-/// Returns the classical projection with these rows and z dropped.
+/// Returns the classical projection that has these rows and drops z.
 fn recognize_onto_plane(x: DVec4, y: DVec4, w: DVec4) -> Option<Classical> {
     if x == DVec4::X && y == DVec4::Y && w != DVec4::W {
         return NPoint::new(w.x, w.y, w.z).ok().map(Into::into).filter(|_| w.w == 1.0);
@@ -277,7 +277,7 @@ fn upright_axonometric([x, y, z]: [DVec3; 3]) -> Option<Axonometric> {
 fn decompose_parallel(matrix: DMat4, convention: Convention) -> Result<Decomposed, DecomposeError> {
     let mut columns = matrix;
     columns.z_axis *= -convention.ahead();
-    // From here on, view space looks along −z.
+    // From here on, the camera looks along −z.
     let (x, y, z) = (columns.row(0), columns.row(1) * convention.top(), columns.row(2));
     if placement::maps_axes_separately(x, y, z) {
         let volume = decompose_upright_box(x.x, x.w, y.y, y.w, (-z.z, z.w), convention)?;
@@ -342,7 +342,7 @@ fn decompose_central(
 ) -> Result<Decomposition, DecomposeError> {
     let mut columns = matrix;
     columns.z_axis *= -convention.ahead();
-    // From here on, view space looks along −z and y points up.
+    // From here on, the camera looks along −z, and y points up.
     if convention.top() < 0.0 {
         columns = DMat4::from_diagonal(DVec4::new(1.0, -1.0, 1.0, 1.0)) * columns;
     }
@@ -386,15 +386,15 @@ fn decompose_frustum(
         .unwrap_or(Decomposed::PlacedFrustum { placement: found.as_affine(), frustum }))
 }
 
-/// Returns the near plane of a depth row: z' = w · near depth there, where w is the distance −z.
+/// Returns the near plane of a depth row, where z' = w · near depth and w is the distance −z.
 fn inclined_near_plane(depth: DVec4, convention: Convention) -> Plane<View> {
     let plane = depth + DVec4::Z * convention.near_depth();
     let inwards = (convention.far_depth() - convention.near_depth()).signum();
     Plane::from_raw(plane * (inwards / plane.truncate().length()))
 }
 
-/// Returns the named projection of an unrotated camera: its eye is at the origin, or it is
-/// elsewhere and the window is centered.
+/// Returns the named projection of an unrotated camera whose eye is at the origin, or in the plane
+/// z = 0 if the window is centered.
 fn recognize_frustum(found: Placement, frustum: Frustum) -> Option<Decomposed> {
     let (eye, w, near) = (found.eye, frustum.window(), frustum.near());
     let size = DVec4::new(w.width(), w.height(), near, 0.0);

@@ -64,7 +64,7 @@ impl DepthCurve {
     /// Returns the curve of a parallel projection, which is a straight line.
     ///
     /// # Errors
-    /// Returns an error if a distance is not finite or both are equal.
+    /// Returns an error if a distance is not finite or the distances are equal.
     pub fn parallel(near: f64, far: f64, convention: Convention) -> Result<Self, ProjectionError> {
         let volume = Orthographic::new(-1.0, 1.0, -1.0, 1.0, near, far)?;
         Ok(volume.depth_curve(convention))
@@ -83,7 +83,7 @@ impl DepthCurve {
         (row.factor, row.offset)
     }
 
-    /// Returns the depth of points at `distance`, or `None` in the plane of the eye, for NaN, and
+    /// Returns the depth of points at `distance`, or `None` in the plane of the eye, for NaN, or
     /// if the result is too large to represent.
     #[must_use]
     pub fn depth(self, distance: f64) -> Option<f64> {
@@ -106,12 +106,12 @@ impl DepthCurve {
 
     /// Returns the distance at which points have the given depth, which linearizes a depth buffer.
     ///
-    /// Returns `None` if no finite distance has this depth, as for the far depth of an infinite
-    /// projection.
+    /// Returns `None` if no finite distance has this depth, such as the far depth of a
+    /// projection without a far plane.
     #[must_use]
     pub fn distance(self, depth: f64) -> Option<f64> {
         let (at_near, at_far) = (self.convention.near_depth(), self.convention.far_depth());
-        // Both parts are exact differences near the planes, where it matters.
+        // Each difference is exact near its plane, where accuracy matters.
         let (from_near, to_far) =
             ((depth - at_near) / (at_far - at_near), (at_far - depth) / (at_far - at_near));
         let distance = match self.shape {
@@ -180,7 +180,7 @@ impl DepthCurve {
     }
 
     /// Returns the distance between the stored depth, rounded to f32, and the next value toward
-    /// far.
+    /// the far depth.
     #[expect(clippy::cast_possible_truncation, reason = "the stored depth is an f32")]
     fn float_step(self, distance: f64) -> Option<f64> {
         let here = self.depth(distance)? as f32;

@@ -3,7 +3,7 @@
 use homog::ClipRangeError;
 use thiserror::Error;
 
-/// A parameter was rejected. Every message names the parameter, its value and the allowed range.
+/// An error in the parameters of a projection; the message states the violated condition.
 #[derive(Clone, Copy, PartialEq, Debug, Error)]
 #[non_exhaustive]
 pub enum ProjectionError {
@@ -59,12 +59,12 @@ pub enum ProjectionError {
     #[error("the projectors are parallel to the projection plane and never meet it")]
     ParallelToPlane,
     /// The center of projection is in the projection plane.
-    #[error("the center of projection is on the projection plane")]
+    #[error("the center of projection is in the projection plane")]
     CenterOnPlane,
-    /// There is no vanishing point (p = q = r = 0), so this is not a perspective.
+    /// There is no vanishing point (p = q = r = 0), so this is not a perspective projection.
     #[error("p, q and r are all 0: this is a parallel projection, without vanishing points")]
     NoVanishingPoint,
-    /// No eye has these two or three vanishing points.
+    /// No eye sees these two or three vanishing points in perpendicular directions.
     #[error("no eye sees these vanishing points in perpendicular directions: {reason}")]
     ImpossibleVanishingPoints {
         /// The reason why no eye exists.
@@ -73,11 +73,11 @@ pub enum ProjectionError {
     /// No axonometric projection has these three foreshortening ratios.
     #[error("no axonometric projection has the foreshortening ratios {x} : {y} : {z}; {reason}")]
     ImpossibleForeshortening {
-        /// The ratio of the x axis.
+        /// The foreshortening ratio of the x axis.
         x: f64,
-        /// The ratio of the y axis.
+        /// The foreshortening ratio of the y axis.
         y: f64,
-        /// The ratio of the z axis.
+        /// The foreshortening ratio of the z axis.
         z: f64,
         /// The violated condition.
         reason: &'static str,

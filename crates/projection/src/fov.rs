@@ -13,7 +13,7 @@ pub enum Fov {
     Horizontal(f64),
     /// The angle between opposite corners.
     Diagonal(f64),
-    /// A lens with a focal length in front of a film, both in the same unit.
+    /// The focal length of a lens and the size of the film, both in the same unit.
     FocalLength {
         /// The focal length: the distance between lens and film.
         focal: f64,

@@ -78,7 +78,7 @@ impl Frustum {
         Self::from_window(window, near, far)
     }
 
-    /// Creates a frustum from parts that are already checked.
+    /// Creates a frustum from parts that have already been checked.
     pub(crate) const fn new_unchecked(window: Window, near: f64, far: f64) -> Self {
         Self { window, near, far }
     }

@@ -89,8 +89,7 @@ impl Intrinsics {
         Self { skew: check_finite("skew", skew)?, ..self }.checked()
     }
 
-    /// Returns this lens with its numbers reinterpreted under another pixel-center convention. The
-    /// numbers are unchanged.
+    /// Returns this lens with the same numbers, interpreted under another pixel-center convention.
     #[must_use]
     pub const fn with_pixel_centers(self, pixel_centers: PixelCenters) -> Self {
         Self { pixel_centers, ..self }
@@ -118,8 +117,8 @@ impl Intrinsics {
         Ok(lens.with_pixel_centers(PixelCenters::Half))
     }
 
-    /// Returns the lens of a perspective matrix, with pixel centers at half-integers: the inverse
-    /// of [`view_to_clip`](Self::view_to_clip).
+    /// Recovers the lens from a matrix such as [`view_to_clip`](Self::view_to_clip) returns, with
+    /// pixel centers at half-integers.
     ///
     /// # Errors
     /// Returns an error if the matrix is not the perspective projection of an unrotated camera, or
@@ -151,7 +150,7 @@ impl Intrinsics {
         self.focal_length
     }
 
-    /// Returns the principal point (cx, cy): the pixel coordinates of the line of sight.
+    /// Returns the principal point (cx, cy): where the line of sight meets the picture, in pixels.
     #[must_use]
     pub const fn principal_point(self) -> [f64; 2] {
         self.principal_point
@@ -169,7 +168,7 @@ impl Intrinsics {
         self.size
     }
 
-    /// Returns the positions of pixel centers.
+    /// Returns the pixel-center convention.
     #[must_use]
     pub const fn pixel_centers(self) -> PixelCenters {
         self.pixel_centers
@@ -184,7 +183,7 @@ impl Intrinsics {
 
     /// Returns the pixel coordinates of a point, or `None` if it is not in front of the eye.
     ///
-    /// View space is right-handed, with y up and looking along −z: X = x, Y = −y, Z = −z.
+    /// View space is right-handed, with y up and z backward; the axes of K are (x, −y, −z).
     #[must_use]
     pub fn project(self, point: Point<View>) -> Option<[f64; 2]> {
         let ([fx, fy], [cx, cy]) = (self.focal_length, self.principal_point);

@@ -41,16 +41,16 @@
 //! | --- | --- |
 //! | a camera's perspective, by angle or focal length | [`Perspective`], [`Fov`] |
 //! | an off-center perspective: stereo, walls, headsets | [`Frustum`], [`FourAngles`] |
-//! | a calibrated camera, by its matrix K | [`Intrinsics`] |
 //! | a box without foreshortening | [`Orthographic`] |
 //! | part of a picture | `view_offset` on the three above, with a [`ViewOffset`] |
-//! | lens shift, antialiasing | `shifted`, `jittered` on the three above, with a [`Jitter`] |
+//! | lens shift, antialiasing | `shifted`, `jittered` on the same three, with a [`Jitter`] |
+//! | a calibrated camera, by its matrix K | [`Intrinsics`] |
 //! | a mirror's or portal's near plane | [`oblique_near_plane`] |
 //! | front, top and side views | [`PrincipalView`] |
 //! | isometric, dimetric, trimetric | [`Axonometric`] |
 //! | cavalier, cabinet; military | [`Oblique`]; [`Planometric`] |
 //! | one-, two-, three-point perspective | [`NPoint`], [`ConstructedPerspective`] |
-//! | any of those five as a renderable matrix | [`Classical`] |
+//! | a classical projection as a renderable matrix | [`Classical`] |
 //! | any center and any plane | [`Projector`] |
 //! | P, M_orth, M_per of the textbook (Shirley and Marschner, ch. 8) | [`chapter`] |
 //! | glFrustum, gluPerspective, D3DX functions by name | [`api`] |

@@ -36,7 +36,7 @@ impl Oblique {
     /// Returns the factors for the oblique prism whose window is in the plane of projection
     /// (VV-1, C86).
     ///
-    /// `volume` contains the window on the plane, and the near and far distances from z = 0.
+    /// `volume` contains the window on that plane and the near and far distances from z = 0.
     #[must_use]
     pub fn factors(self, volume: Orthographic, convention: Convention) -> ParallelFactors {
         let right_handed = convention.right_handed();

@@ -8,7 +8,7 @@
 //! [ p q r 1 ]     the picture is z = 0 after the divide
 //! ```
 //!
-//! Points of the plane px + qy + rz = 0 do not move. The eye is at (0, 0, −1/r) or, for r = 0,
+//! Points in the plane px + qy + rz = 0 do not move. The eye is at (0, 0, −1/r) or, for r = 0,
 //! infinitely far away along z.
 //!
 //! One-point perspective from an eye (0, 0, d) has p = q = 0 and r = −1/d. The magnification d/(d −
@@ -69,8 +69,8 @@ impl NPoint {
         Self::new(0.0, 0.0, -1.0 / d)
     }
 
-    /// Returns the perspective whose axes vanish at (x, 0, 0), (0, y, 0) and (0, 0, z); `None`
-    /// keeps the lines of an axis parallel.
+    /// Returns the perspective in which the axes vanish at (x, 0, 0), (0, y, 0) and (0, 0, z);
+    /// `None` keeps the lines of an axis parallel.
     ///
     /// # Errors
     /// Returns an error if a coordinate is 0 or not finite, or all are `None`.
@@ -112,7 +112,7 @@ impl NPoint {
         self.p == 0.0 && self.q == 0.0
     }
 
-    /// Returns the eye: (0, 0, −1/r), or for r = 0 the direction of z.
+    /// Returns the eye: (0, 0, −1/r) or, for r = 0, the direction of z.
     #[must_use]
     pub fn eye(self) -> HPoint<View> {
         if self.r == 0.0 {

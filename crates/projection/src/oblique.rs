@@ -163,7 +163,7 @@ impl Oblique {
         self.plane_z
     }
 
-    /// Returns the kind, with the length compared to twelve digits.
+    /// Returns the kind; lengths that agree to twelve digits count as equal.
     #[must_use]
     pub fn kind(self) -> ObliqueKind {
         let is = |length: f64| (self.length() - length).abs() < 1e-12;

@@ -1,4 +1,4 @@
-//! A near plane of any inclination, for mirrors and portals that clip at their own surface (Lengyel
+//! A near plane of any inclination, for clipping at the surface of a mirror or portal (Lengyel
 //! 2005).
 //!
 //! Only the depth row changes, so the picture stays the same. Ordinary near clipping then removes
@@ -9,7 +9,7 @@ use crate::{Convention, ProjectionError, ViewVolume};
 use glam::DVec4;
 use homog::{Clip, HPoint, Plane, Projective, View};
 
-/// Replaces the near plane of any projection matrix by `plane`: oblique near-plane clipping.
+/// Replaces the near plane of any projection matrix with `plane`: oblique near-plane clipping.
 ///
 /// The normal of the plane points to the visible side, and the eye must be on the other side. The
 /// plane gets the near depth of the convention. The corner of the old volume that is farthest in
@@ -19,8 +19,8 @@ use homog::{Clip, HPoint, Plane, Projective, View};
 /// Development 1(2), 2005.
 ///
 /// # Errors
-/// Returns an error if a number is not finite, the projection is singular, or the normal is zero.
-/// The eye must be behind the plane, and part of the volume must be in front of it.
+/// Returns an error if a number is not finite, the projection is singular, the normal is zero, the
+/// eye is not behind the plane, or no part of the volume is in front of the plane.
 ///
 /// ```
 /// use homog::{Normal, Plane, Point};

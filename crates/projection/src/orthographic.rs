@@ -44,7 +44,7 @@ impl Orthographic {
         Self::from_window(Window::new(left, right, bottom, top)?, near, far)
     }
 
-    /// Returns the projection of the box behind `window`, from `near` to `far`.
+    /// Returns the projection of the box with cross section `window`, from `near` to `far`.
     ///
     /// # Errors
     /// See [`new`](Self::new).

@@ -1,8 +1,8 @@
 //! Decomposes a central matrix into eye, orientation and lens: the linear algebra for `decompose`.
 //!
 //! Take the rows x, y, w of a matrix whose w row has a linear part of length 1. That linear part is
-//! the line of sight. The part of x perpendicular to it points right, and the perpendicular part of
-//! y points up. The eye is where all three rows vanish.
+//! the line of sight. The components of x and y perpendicular to it point right and up. The eye is
+//! where all three rows vanish.
 
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use homog::{Affine, Vector, View};
@@ -15,7 +15,7 @@ pub(crate) fn is_negligible(small: DVec3, large: DVec4) -> bool {
     small.abs().max_element() <= RELATIVE_ROUNDING * large.abs().max_element()
 }
 
-/// Returns whether the vector has no component along the unit vector.
+/// Returns whether the vector has no component along `unit`.
 pub(crate) fn is_perpendicular(vector: DVec3, unit: DVec3) -> bool {
     vector.dot(unit).abs() <= 1e-9 * vector.length()
 }
@@ -49,7 +49,7 @@ fn transpose_rows(rows: [DVec4; 4]) -> [DVec4; 4] {
     [0, 1, 2, 3].map(|i| DVec4::from_array(rows.map(|row| row[i])))
 }
 
-/// Returns each row divided by its largest entry.
+/// Returns each row divided by the largest magnitude of its entries.
 fn scale_rows(rows: [DVec4; 4]) -> [DVec4; 4] {
     rows.map(|row| if max_coordinate(row) == 0.0 { row } else { row / max_coordinate(row) })
 }
@@ -76,7 +76,7 @@ fn eliminate_rows(rows: &mut [DVec4; 4]) -> usize {
 
 /// Returns the null vector of a rank-3 matrix with w = 1, or with w = 0 and maximum coordinate 1.
 pub(crate) fn null_vector(matrix: DMat4) -> Option<DVec4> {
-    // The columns of the adjugate are multiples of it, and the largest column is the most accurate.
+    // The adjugate's columns are multiples of the null vector; the largest is the most accurate.
     let columns = [0, 1, 2, 3].map(|column| cofactors(matrix, column));
     let best =
         columns.into_iter().max_by(|a, b| max_coordinate(*a).total_cmp(&max_coordinate(*b)))?;
@@ -155,8 +155,8 @@ impl Placement {
             && back.distance(DVec3::Z) < 1e-12
     }
 
-    /// Returns the camera's map, which takes the eye to the origin and the camera's axes to x, y
-    /// and z.
+    /// Returns the map to camera space, which takes the eye to the origin and the camera's axes to
+    /// x, y and z.
     pub(crate) fn as_affine(&self) -> Affine<View, View> {
         let rows = self.axes.map(|axis| axis.extend(-axis.dot(self.eye)));
         let matrix = DMat4::from_cols(rows[0], rows[1], rows[2], DVec4::W).transpose();

@@ -65,7 +65,7 @@ pub enum ProjectionClass {
 }
 
 impl ProjectionClass {
-    /// All nodes, parents before their children and siblings in order.
+    /// All nodes in the order of the tree, with parents before their children.
     pub const ALL: [Self; 17] = [
         Self::Planar,
         Self::Parallel,
@@ -198,7 +198,7 @@ impl ProjectionClass {
 }
 
 const DEGREES_45: f64 = core::f64::consts::FRAC_PI_4;
-/// z points to the viewer: drawn to the lower left, it makes the top and right sides visible.
+/// Drawing z, which points to the viewer, to the lower left shows the top and right sides.
 const FROM_LOWER_LEFT: f64 = 5.0 * DEGREES_45;
 
 impl Classical {

@@ -59,7 +59,7 @@ impl ViewVolume {
     /// Returns the six half-spaces whose intersection is the volume: left, right, bottom, top,
     /// near, far (CL-1).
     ///
-    /// The value of each plane is nonnegative inside. The normals do not have length 1.
+    /// The value of each plane is nonnegative inside. The normals are not scaled to length 1.
     #[must_use]
     pub fn planes(self) -> [Plane<View>; 6] {
         let rows = self.view_to_clip.raw().transpose();

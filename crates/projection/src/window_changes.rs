@@ -1,8 +1,7 @@
-//! Changes to the window: lens shift, sub-images, jitter, and the four angles of one eye of a
-//! headset.
+//! Changes to the window: lens shift, tiles, jitter, and the four angles of one eye of a headset.
 //!
-//! They change only the window, so they work the same way for perspective and parallel projections
-//! and leave lines, depth and vanishing points unchanged.
+//! They change only the window, so they work the same way for perspective and parallel projections.
+//! Depth stays the same, as do lines and vanishing points on the picture plane.
 //!
 //! ```
 //! use projection::{Convention, Fov, Perspective, ViewOffset};
@@ -19,7 +18,7 @@ use crate::error::{check_finite, check_positive};
 use crate::{Frustum, Orthographic, Perspective, ProjectionError, Window};
 use core::f64::consts::FRAC_PI_2;
 
-/// A sub-image of a larger picture, like the view offset of three.js: a rectangle in pixels from
+/// A tile of a larger picture, like the view offset of three.js: a rectangle in pixels from
 /// the top left corner, with y down. It may extend beyond the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ViewOffset {
@@ -112,7 +111,7 @@ impl Window {
         Self::new(self.left() + dx, self.right() + dx, self.bottom() + dy, self.top() + dy)
     }
 
-    /// Returns the window shifted so that pixel centers sample the given offset.
+    /// Returns the window shifted so that each pixel is sampled at the given offset.
     ///
     /// # Errors
     /// Returns an error if a size is not positive or a number is not finite.
@@ -143,7 +142,7 @@ macro_rules! window_methods {
                 $with(self, &|window: Window| window.shifted(x, y))
             }
 
-            /// Returns the projection whose pixel centers sample the given offset.
+            /// Returns the projection that samples each pixel at the given offset.
             ///
             /// # Errors
             /// Returns an error if a size is not positive or a number is not finite.

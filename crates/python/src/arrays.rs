@@ -47,7 +47,7 @@ pub(crate) fn byte_array(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Numbe
     read_array(name, value, "u", "uint8")
 }
 
-/// Reads elements from an argument with one of the dtype `kinds`, cast to `dtype`.
+/// Reads an argument whose dtype is of one of the `kinds`, and casts its elements to `dtype`.
 fn read_array<T: Element + Copy>(
     name: &str,
     value: &Bound<'_, PyAny>,
@@ -88,8 +88,8 @@ pub(crate) fn as_array<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<B
     numpy.call_method1("asarray", (value,)).map_err(|error| unreadable(name, error, value.py()))
 }
 
-/// Returns the error for an object that is not an array; errors not caused by the object are
-/// returned unchanged.
+/// Returns the error for an object that cannot be read as an array; errors not caused by the object
+/// are returned unchanged.
 fn unreadable(name: &str, error: PyErr, py: Python<'_>) -> PyErr {
     if !error.is_instance_of::<PyException>(py) {
         return error;

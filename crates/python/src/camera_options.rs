@@ -126,7 +126,7 @@ fn read_pose(options: &Keywords<'_, '_>, pose: &Bound<'_, PyAny>) -> PyResult<Vi
     Ok(ViewFile::Pose { rotation: rotation_file(rotation), eye: Triple(eye), axes })
 }
 
-/// Converts a rotation to the form of a scene file.
+/// Converts a rotation to the form used in scene files.
 pub(crate) fn rotation_file([x, y, z]: [[f64; 3]; 3]) -> RotationFile {
     RotationFile::Rows((Triple(x), Triple(y), Triple(z)))
 }

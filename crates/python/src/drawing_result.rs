@@ -87,8 +87,8 @@ impl NativeDrawing {
         NativeCamera::of_scene(&self.camera, &self.scene)
     }
 
-    /// Returns the object names and the segments: ends (N, 2, 2) in pixels with y down, visibility
-    /// (N,), class names, objects (N,) and edges (N,).
+    /// Returns the object names and the segments: endpoints (N, 2, 2) in pixels with y down,
+    /// visibility (N,), class names, objects (N,) and edges (N,).
     fn lines<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let style = self.scene.style.line_style();
         let (options, fill) = (style.to_draw_options(), style.to_fill_options());

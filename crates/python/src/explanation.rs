@@ -27,7 +27,7 @@ enum ExplainedPart {
     Node(Choice),
 }
 
-/// Explains a part of a subject and returns JSON.
+/// Explains a part of a subject and returns the explanation as JSON.
 #[pyfunction]
 pub(crate) fn explain(
     py: Python<'_>,

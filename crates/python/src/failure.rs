@@ -23,7 +23,7 @@ const RENDER_ERROR: &str = "RENDER_ERROR";
 /// The code for panics.
 const INTERNAL_ERROR: &str = "INTERNAL_ERROR";
 
-/// The result of operations that can fail without Python.
+/// The result of operations that need no Python and can fail.
 pub(crate) type Fallible<T> = Result<T, Failure>;
 
 /// The reason why a call failed.

@@ -101,7 +101,7 @@ pub(crate) fn compose(parts: Vec<(Bound<'_, Subject>, Bound<'_, PyAny>)>) -> PyR
 /// Reads an invertible matrix whose last row is 0, 0, 0, 1.
 ///
 /// # Errors
-/// Returns an error if the matrix has another form.
+/// Returns an error if the matrix is not finite or not of this form.
 pub(crate) fn affine_map<A: homog::Space, B: homog::Space>(
     name: &str,
     value: &Bound<'_, PyAny>,

@@ -124,7 +124,7 @@ fn read_mesh(mesh: &Keywords<'_, '_>, limits: &Limits) -> PyResult<MeshArrays> {
     })
 }
 
-/// Returns the number of corners of each face, and the vertices of all corners.
+/// Returns the number of corners of each face, and the vertex index of every corner.
 fn read_faces(faces: &Bound<'_, PyAny>, vertices: usize) -> PyResult<(Vec<u32>, Vec<u32>)> {
     let is_list = faces.is_instance_of::<PyList>() || faces.is_instance_of::<PyTuple>();
     if is_list && let Ok(polygons) = faces.extract::<Vec<Vec<i64>>>() {

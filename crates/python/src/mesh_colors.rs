@@ -9,7 +9,7 @@ use model::Image;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-/// Reads linear colors of the vertices or faces; `counts` contains both counts.
+/// Reads linear colors of the vertices or faces, given the `counts` of both.
 pub(crate) fn read_colors(
     mesh: &Keywords<'_, '_>,
     counts: [usize; 2],

@@ -75,7 +75,7 @@ impl NativeCamera {
         }
         if matches!(self.file.view, ViewFile::Frame { .. }) && models.is_empty() {
             let help = "use the camera of a rendered picture, frame.camera, or pass eye and target";
-            let message = "the camera frames a model, and has no position before rendering";
+            let message = "the camera frames a model and has no position before rendering";
             return Err(Failure::argument("camera", message).with_help(help));
         }
         let mut file = SceneFile { camera: self.file.clone(), ..SceneFile::default() };
@@ -91,8 +91,8 @@ impl NativeCamera {
     }
 }
 
-/// Returns whether a camera frames its model. Classical projections do not, because they fit their
-/// own windows.
+/// Returns whether a camera can have a fixed pose. Classical projections cannot, because they fit
+/// their windows to the models.
 fn can_stand(file: &CameraFile) -> bool {
     let lens = file.projection.as_ref();
     lens.is_none_or(|lens| {

@@ -53,7 +53,7 @@ impl PixelRays {
         (pixel, -view.z)
     }
 
-    /// Returns the view-space point at pixel coordinates and a depth: x and y such that clip.x =
+    /// Returns the view-space point at pixel coordinates and a depth: its x and y satisfy clip.x =
     /// ndc.x · clip.w and clip.y = ndc.y · clip.w.
     fn view_point(&self, [column, row]: [f64; 2], depth: f64) -> DVec3 {
         let [width, height] = self.size.map(|side| side as f64);
@@ -86,8 +86,8 @@ impl PixelRays {
         self.view_point(pixel, f64::from(depth)).length() as f32
     }
 
-    /// Returns the world-space origin and unit direction of the ray through a pixel. It starts in
-    /// the plane of the eye and, in perspective, at the eye itself.
+    /// Returns the world-space origin and unit direction of the ray through a pixel. The ray
+    /// starts in the plane of the eye and, in perspective, at the eye itself.
     pub(crate) fn ray(&self, pixel: [f64; 2]) -> ([f64; 3], [f64; 3]) {
         let origin = self.point_at(pixel, 0.0);
         let ahead = self.point_at(pixel, 1.0);

@@ -22,8 +22,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-/// The maximum number of pixels in a picture, which takes about four gigabytes with four samples
-/// and all passes.
+/// The maximum number of pixels in a picture. With four samples and all passes, such a picture
+/// takes about four gigabytes.
 const MAX_PIXELS: u64 = 1 << 26;
 /// The maximum number of idle renderers.
 const MAX_IDLE_RENDERERS: usize = 8;
@@ -176,7 +176,7 @@ fn read_passes(options: &Keywords<'_, '_>) -> PyResult<(bool, Vec<Pass>)> {
     Ok((has_color, passes))
 }
 
-/// Returns whether a normalized name refers to a pass: by the library's name, or as `ids`,
+/// Returns whether a normalized name refers to this pass: the library's name for it, or `ids`,
 /// `model_ids` and so on.
 fn means_pass(wanted: &str, pass: Pass) -> bool {
     let own = plain_name(pass.name());
@@ -238,7 +238,7 @@ impl<'a> RenderJob<'a> {
 }
 
 impl RenderedJob {
-    /// Returns the arrays of the job.
+    /// Converts the result to arrays.
     fn into_parts(self, py: Python<'_>) -> PyResult<FrameParts<'_>> {
         let arrays = PyDict::new(py);
         if let Some(picture) = self.picture {
@@ -324,7 +324,7 @@ fn render_jobs(
     for result in results {
         match result {
             Ok(done) => rendered.extend(done),
-            // A job that was canceled because of another failure ranks after it.
+            // A job that was canceled because of another failure ranks after that failure.
             Err(failure)
                 if first_failure.as_ref().is_none_or(|first| is_cause(&failure, first)) =>
             {

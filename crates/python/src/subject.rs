@@ -12,7 +12,7 @@ use self_cell::self_cell;
 use std::sync::{Arc, OnceLock};
 
 self_cell! {
-    /// Models and the mip chains of their textures, which borrow from them.
+    /// Models, and the mip chains of their textures, which borrow from the models.
     struct TexturedModels {
         owner: Vec<ModelInstance>,
         #[covariant]
@@ -55,7 +55,7 @@ impl Subject {
         Ok(Self { options, ..Self::new(origin, file, models) })
     }
 
-    /// Resolves a description with the models to a scene.
+    /// Resolves a description that uses the models to a scene.
     ///
     /// # Errors
     /// Returns an error if the description is invalid.

@@ -36,7 +36,7 @@ def sphere():
 
 
 def report(name, call, count=15):
-    """Return the medians of wall-clock time and of CPU time over all threads."""
+    """Print the medians of wall-clock time and of CPU time over all threads."""
     for _ in range(3):
         call()
     walls, processors = [], []
@@ -45,8 +45,8 @@ def report(name, call, count=15):
         call()
         walls.append(1e3 * (time.perf_counter() - wall))
         processors.append(1e3 * (time.process_time() - processor))
-    wall, processor = sorted(walls)[count // 2], sorted(processors)[count // 2] print(f"{name:50}
-    {wall:9.2f} ms, {processor:9.2f} ms of CPU time", flush=True)
+    wall, processor = sorted(walls)[count // 2], sorted(processors)[count // 2]
+    print(f"{name:50} {wall:9.2f} ms, {processor:9.2f} ms of CPU time", flush=True)
 
 
 def time_alberti():

@@ -1,4 +1,4 @@
-"""Make random valid and invalid calls: none may crash the process or leak memory.
+"""Make random valid and invalid calls: none of them may crash the process or leak memory.
 
     python fuzz_calls.py [CALLS] [SEED]
 

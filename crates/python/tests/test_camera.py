@@ -181,7 +181,7 @@ def test_pictures_of_calibrated_cameras_agree_with_the_formula():
     centers = np.stack([columns, rows], axis=-1)
     for _ in range(1000):
         K = np.array([[rng.uniform(150, 500), 0, 0], [0, rng.uniform(150, 500), 0], [0, 0, 1.0]])
-        # A lens shift of up to several pictures; the square stays in the picture.
+        # A lens shift of up to several picture widths; the square stays in the picture.
         K[:2, 2] = rng.uniform(-600, 600, 2)
         R, t = random_rotation(rng), rng.uniform(-5, 5, 3)
         middle = rng.uniform((120, 90), (136, 102))
@@ -210,5 +210,5 @@ def test_pictures_of_calibrated_cameras_agree_with_the_formula():
         assert np.abs(found - centers[whole]).max() < 0.01
     errors = np.abs(errors)
     assert np.sqrt((errors**2).mean()) < 0.005, np.sqrt((errors**2).mean())
-    # Errors along rows and columns do not average out.
+    # If the sides run along rows and columns, the errors do not average out.
     assert np.quantile(errors, 0.98) < 0.02 and errors.max() < 1 / 15, errors.max()

@@ -1,4 +1,4 @@
-"""Test that invalid input raises an exception with the argument and its value, and never aborts."""
+"""Test that invalid input raises an exception with the argument and value, and never aborts."""
 
 import pickle
 import signal
@@ -139,7 +139,7 @@ def test_invalid_render_options_are_rejected(teapot, pointer, options):
             alberti.render_many([{"model": teapot, **options}])
 
 
-# : A pose that overflows when combined with itself.
+# A pose that overflows when combined with itself.
 FAR = [[1, 0, 0, 1.7e308], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
 
 

@@ -1,4 +1,4 @@
-"""Make many calls: none may crash the process, and memory use must not grow."""
+"""Make many calls: none of them may crash the process, and memory use must not grow."""
 
 import subprocess
 import sys

@@ -136,12 +136,12 @@ DIFFERENT_SHAPES = {
     "concave_polygon.obj": 0.3,
     "space_in_material_name.obj": 0.3,
     "wallhole.obj": 0.03,
-    # Lines are dropped, and their ends remain as points.
+    # Lines are dropped, and their endpoints remain as points.
     "testline.obj": 1,
-    # Objects with the same id in two files in the archive are treated as one object.
+    # Objects with the same id in two files of the archive are treated as one object.
     "production_components.3mf": 1,
 }
-# Files where trimesh splits a surface by material, which makes the borders creases.
+# Files where trimesh splits a surface by material, which turns the borders into creases.
 DIFFERENT_NORMALS = {"chair_model.obj": 0.03}
 # Files where trimesh drops colors or materials.
 DIFFERENT_COLORS = {
@@ -149,7 +149,7 @@ DIFFERENT_COLORS = {
     "box_mat_with_spaces.obj": 1,
     # In OBJ, vertex colors multiply the plain material; trimesh's arrays then have no material.
     "cube_with_vertexcolors.obj": 1,
-    # Colors next to texture coordinates, face colors, floats, diffuse_red, or colors in the header.
+    # Colors along with texture coordinates, face colors, floats, diffuse_red, header colors.
     "fuze.ply": 1,
     "multi.ply": 1,
     "pond.0.ply": 1,

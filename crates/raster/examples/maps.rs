@@ -39,7 +39,7 @@ fn write(
     Ok(())
 }
 
-/// Returns numbers between 0 and 1 that look random but are the same in every run.
+/// A source of numbers between 0 and 1 that look random but are the same in every run.
 struct Numbers(u64);
 
 impl Numbers {

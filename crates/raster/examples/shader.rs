@@ -3,8 +3,8 @@
 //!
 //! Each corner carries its position on the floor. Blending these positions by the fragment's
 //! weights gives the position at the pixel, perspective-correct because the vertices carry their w.
-//! The derivatives of the weights give the size of the pixel on the floor: where it covers a whole
-//! square or more, the checkerboard fades to its mean.
+//! The derivatives of the weights give the size of the pixel on the floor: where a pixel covers a
+//! whole square or more, the checkerboard fades to its mean.
 
 use homog::{HPoint, Screen};
 use raster::{

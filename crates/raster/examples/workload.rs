@@ -1,5 +1,5 @@
-//! A fixed workload that runs only the rasterizer, for counting its instructions: `cargo xtask
-//! bench --instructions`.
+//! A fixed workload for counting the instructions of the rasterizer: `cargo xtask bench
+//! --instructions`.
 //!
 //! It draws twenty thousand triangles of a few pixels, as in typical models, and a stack of forty
 //! triangles across the whole picture, using baseline instructions. The argument is the number of

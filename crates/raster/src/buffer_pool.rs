@@ -27,8 +27,7 @@ pub(crate) struct ThreadBuffers {
 
 /// Buffers kept for the next drawing.
 ///
-/// If a frame is drawn twice at the same time, or cloned, the new drawing starts with empty
-/// buffers.
+/// A cloned frame, or a second drawing of a frame at the same time, starts with empty buffers.
 #[derive(Debug, Default)]
 pub(crate) struct BufferPool(Mutex<DrawBuffers>);
 

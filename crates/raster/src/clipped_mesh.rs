@@ -69,11 +69,11 @@ impl<'a> SourceMesh<'a> {
 }
 
 impl ScreenProjection {
-    /// Creates a projection through a viewport, such as [`Viewport::image_for`] with the frame's
-    /// size and the projection's convention.
+    /// Creates a projection through a viewport, for example one from [`Viewport::image_for`] with
+    /// the frame's size and the projection's convention.
     #[must_use]
     pub fn new(viewport: &Viewport) -> Self {
-        // The grid ends GUARD_BAND pixels beyond the picture; subtracting one pixel leaves a margin
+        // The grid covers the pixel coordinates in GUARD_BAND; one pixel on each side is a margin
         // for rounding in the divide.
         let area = viewport.area();
         let band = |side: f64, center: f64| {
@@ -146,8 +146,8 @@ impl ScreenProjection {
 
     /// Returns whether a triangle that may extend behind the eye survives culling.
     ///
-    /// The sign of the determinant of the (x, y, w) of its vertices is its winding before the
-    /// divide (Olano and Greer, *Triangle Scan Conversion using 2D Homogeneous Coordinates*, 1997).
+    /// Its winding before the divide is the sign of the determinant of its vertices' (x, y, w)
+    /// (Olano and Greer, *Triangle Scan Conversion using 2D Homogeneous Coordinates*, 1997).
     /// It is correct even with vertices behind the eye, where the divide would reverse the winding.
     fn retains(&self, cull: CullMode, [p, q, r]: [HPoint<Clip>; 3]) -> bool {
         let [[px, py, _, pw], [qx, qy, _, qw], [rx, ry, _, rw]] = [p, q, r].map(<[f64; 4]>::from);
@@ -251,7 +251,7 @@ impl Frame {
         }
     }
 
-    /// Clips a line in clip space, `width` pixels wide, and adds the visible part.
+    /// Clips a line in clip space and adds the visible part, `width` pixels wide.
     pub fn clip_line(
         &mut self,
         screen: &ScreenProjection,
@@ -322,7 +322,7 @@ mod tests {
             assert!(!up.retains(CullMode::CounterClockwise, triangle));
             assert!(!up.retains(CullMode::Clockwise, [a, c, b]));
             assert!(up.retains(CullMode::Nothing, [a, c, b]));
-            // With y down, the same numbers show the other face.
+            // With y down, the same coordinates show the other face.
             assert!(!screen(ClipRange::VULKAN).retains(CullMode::Clockwise, triangle));
         }
     }

@@ -33,7 +33,7 @@ fn c24_p_neither_flips_nor_reorders() {
     }
 }
 
-/// With the subscript, f_n would have to be a third number. Only the product f·n preserves both
+/// Read with the subscript, f_n would be a third number. Only the product f·n preserves both
 /// planes.
 #[test]
 fn misprint_m5_the_numerator_is_the_product_of_f_and_n() {
@@ -126,7 +126,7 @@ fn c65_two_eyes_share_a_window_and_shift_it_to_opposite_sides() {
 }
 
 /// VV-1: the shear x − (a/c)(z − z0), y − (b/c)(z − z0) makes the projectors parallel to z. Then a
-/// box is enough, and slanted edges of the prism become edges of the cube.
+/// box suffices, and the slanted edges of the prism become edges of the cube.
 #[test]
 fn c86_a_slanted_prism_is_sheared_straight_and_fitted() {
     let (a, b, c) = (0.6, -0.4, -1.5);
@@ -147,7 +147,7 @@ fn c86_a_slanted_prism_is_sheared_straight_and_fitted() {
 /// For every projection, the visible part fills the same cube, so a clipper does not depend on the
 /// projection.
 #[test]
-fn c89_parallel_and_perspective_end_in_the_same_volume() {
+fn c89_parallel_and_perspective_views_fill_the_same_cube() {
     let c = Convention::CHAPTER;
     let volume = Orthographic::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0).expect("valid");
     let slant = Oblique::cabinet(0.5).expect("valid");
@@ -174,7 +174,7 @@ fn c89_parallel_and_perspective_end_in_the_same_volume() {
 /// The cube [0, 1]³ is the canonical cube scaled by one half and moved along all three axes, not
 /// only along z.
 #[test]
-fn misprint_m7_a_volume_of_zero_to_one_has_three_sides() {
+fn misprint_m7_the_unit_cube_is_moved_along_three_axes() {
     let frustum = Frustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0).expect("valid");
     let cube = [Point::<Ndc>::new(-1.0, -1.0, -1.0), Point::new(1.0, 1.0, 1.0)];
     let unit = [Point::<Ndc>::ORIGIN, Point::new(1.0, 1.0, 1.0)];
@@ -218,8 +218,8 @@ fn misprint_m14b_a_window_has_two_different_corners() {
     assert!(close(divided(map.transform_point(Point::new(1.0, 1.0, -1.0))), [1.0, 1.0, -1.0]));
 }
 
-/// Ortho is a scale after a translation, whose z entry is −((−near) + (−far))/2. If the parenthesis
-/// is closed too early, −(−near) + (−far)/2, the box is not centered.
+/// Ortho is a translation, by −((−near) + (−far))/2 along z, followed by a scale. If the
+/// parenthesis is closed too early, −(−near) + (−far)/2, the box is not centered.
 #[test]
 fn misprint_m15b_the_box_is_moved_by_the_mean_of_near_and_far() {
     let (near, far) = (2.0, 6.0);
@@ -238,7 +238,7 @@ fn misprint_m15b_the_box_is_moved_by_the_mean_of_near_and_far() {
 /// GL-2 and D3D-1, entry by entry: the same lens for two graphics APIs, defined by height or by
 /// width.
 #[test]
-fn c60_c92_matrix_entries_of_a_lens_in_two_interfaces() {
+fn c60_c92_matrix_entries_of_a_lens_in_two_apis() {
     let (fov, aspect, near, far) = (0.9, 1.6, 0.5, 8.0);
     let lens = Perspective::new(Fov::Vertical(fov), aspect, near, far).expect("valid");
     let cot = 1.0 / libm::tan(fov / 2.0);

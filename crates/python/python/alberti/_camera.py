@@ -276,7 +276,7 @@ class Camera:
         return self._native.project(points)
 
     def unproject(self, depth: ArrayLike, pixels: ArrayLike | None = None) -> NDArray[np.float64]:
-        """Return the world points at depths along the view axis.
+        """Return the world points at the given depths along the view axis.
 
         Args:
             depth: Depths (height, width) of all pixels, like ``Frame.depth``; with ``pixels``, one

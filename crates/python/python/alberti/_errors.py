@@ -51,7 +51,7 @@ _MOST_WARNINGS = 8
 
 
 def warn_all(messages: Iterable[str], stacklevel: int = 3) -> None:
-    """Warn with the first few messages, and then with the number of the others."""
+    """Warn with the first few messages, and then with the number of remaining ones."""
     messages = list(messages)
     for message in messages[:_MOST_WARNINGS]:
         _warnings.warn(message, AlbertiWarning, stacklevel=stacklevel + 1)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 class Frame:
     """A rendered picture and its passes, as arrays with the top row first.
 
-    Every array is created once. Accessing a pass that was not rendered raises
+    Each array is created only once. Accessing a pass that was not rendered raises
     :class:`AlbertiError`.
     """
 

@@ -55,7 +55,7 @@ class Model:
             faces: Indices (F, 3) of triangles or (F, n) of polygons, counterclockwise seen from
                 outside; or a list of polygons with any number of corners; or None for points.
             normals: Normals (V, 3) of any length; without them, faces that meet at up to
-                ``crease`` degrees are smooth.
+                ``crease`` degrees are shaded smoothly.
             colors: sRGB colors of vertices (V, 3 or 4) or faces (F, 3 or 4): uint8, or floats
                 from 0 to 1.
             uv: Texture coordinates (V, 2) with (0, 0) at the lower left, as in OBJ and trimesh.

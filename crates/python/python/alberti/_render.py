@@ -130,7 +130,7 @@ def explain(
     Args:
         model: As for :func:`render`.
         point: Point (3,) in world space, or homogeneous (4,).
-        segment: The two ends (2, 3) of a segment in world space.
+        segment: The two endpoints (2, 3) of a segment in world space.
         pixel: Column and row of a pixel, to explain its surface and its color.
         node: Name or index of a node, to explain why it is visible or not.
         camera: As for :func:`render`.
@@ -162,7 +162,7 @@ def explain(
 
 
 def _job(model: Any, options: dict[str, Any]) -> tuple[_native.Subject, dict[str, Any]]:
-    """Return subject and options for the extension, with its native camera."""
+    """Return the subject and options for the extension, including the native camera."""
     if not isinstance(model, Model):
         if not type(model).__module__.startswith("trimesh"):
             message = f"is a {type(model).__name__}, expected a Model"

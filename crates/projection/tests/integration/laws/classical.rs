@@ -14,7 +14,7 @@ use projection::{
 };
 use proptest::prelude::*;
 
-/// An example of a leaf of the tree, or a random projection of an adjustable kind.
+/// Generates examples of the leaves of the tree, and random projections with parameters.
 fn classical() -> impl Strategy<Value = Classical> {
     let leaves: Vec<_> =
         ProjectionClass::ALL.into_iter().filter_map(ProjectionClass::example).collect();
@@ -200,7 +200,7 @@ proptest! {
         prop_assert!((image - eye).cross(p - eye).length() < 1e-9 * size * size);
     }
 
-    /// C72, PR-1: the error shrinks with the reciprocal of the eye's distance.
+    /// C72, PR-1: the error decreases as the reciprocal of the eye's distance.
     #[test]
     fn parallel_projection_is_the_limit_of_an_eye_going_to_infinity(
         o in oblique(),

@@ -142,7 +142,7 @@ proptest! {
     }
 
     #[test]
-    fn bare_and_flat_classical_matrices_are_recovered(
+    fn classical_matrices_without_volume_are_recovered(
         n in npoint(),
         o in oblique(),
         a in axonometric(),

@@ -28,7 +28,7 @@ fn any_number() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Generates numbers like `any_number`, but positive.
+/// Generates the magnitudes of numbers from `any_number`.
 fn any_size() -> impl Strategy<Value = f64> {
     any_number().prop_map(f64::abs)
 }
@@ -41,7 +41,7 @@ proptest! {
     #![proptest_config(samples::cases(512))]
 
     #[test]
-    fn frusta_and_boxes(
+    fn frusta_and_boxes_are_finite(
         e in prop::array::uniform4(any_number()),
         near in any_size(),
         far in any_size(),
@@ -80,7 +80,7 @@ proptest! {
     }
 
     #[test]
-    fn lenses(
+    fn lenses_and_changed_windows_are_finite(
         angle in any_number(),
         aspect in any_size(),
         film in any_size(),
@@ -127,7 +127,7 @@ proptest! {
     }
 
     #[test]
-    fn classical_projections(
+    fn classical_projections_are_finite(
         a in any_number(),
         b in any_number(),
         d in any_number(),
@@ -166,7 +166,7 @@ proptest! {
     }
 
     #[test]
-    fn constructions(
+    fn projectors_and_constructed_perspectives_are_finite(
         a in any_number(),
         b in any_number(),
         d in any_number(),
@@ -202,7 +202,7 @@ proptest! {
     }
 
     #[test]
-    fn depth_and_planes(
+    fn depth_curves_and_inclined_planes_are_finite(
         near in any_size(),
         far in any_size(),
         at in any_number(),
@@ -251,7 +251,7 @@ proptest! {
     }
 
     #[test]
-    fn any_matrix(entries in prop::array::uniform16(any_number()), c in convention()) {
+    fn decomposing_any_matrix_does_not_panic(entries in prop::array::uniform16(any_number()), c in convention()) {
         let matrix = DMat4::from_cols_array(&entries);
         let _ = decompose(reread(matrix), c);
     }

@@ -90,7 +90,7 @@ proptest! {
     }
 
     #[test]
-    fn frusta_and_lenses_without_skew_are_the_same(f in frustum(), c in convention()) {
+    fn frusta_and_lenses_without_skew_are_equivalent(f in frustum(), c in convention()) {
         // Mirrored windows do not have positive focal lengths.
         let (window, planes) = (f.window(), [f.near(), f.far()]);
         prop_assume!(window.left() < window.right() && window.bottom() < window.top());

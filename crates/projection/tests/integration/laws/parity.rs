@@ -3,7 +3,7 @@
 //! Two builders of glam 0.34 are compared only for centered windows. Its left-handed `frustum` uses
 //! the sign of the right-handed offset, and its Vulkan `orthographic` does not flip the y offset.
 //! Corners of off-center windows therefore do not map to corners of the canonical volume. Tests in
-//! `builders` check that ours do.
+//! `builders` check our builders.
 
 use super::samples::{self, distance, frustum, orthographic, perspective};
 use glam::DMat4;

@@ -8,8 +8,8 @@ use projection::{
 };
 use proptest::prelude::*;
 
-/// Configures this number of cases, or `PROPTEST_CASES`. Failures are not written to the source
-/// tree.
+/// Configures this number of cases, or the number in `PROPTEST_CASES`. Failures are not written to
+/// the source tree.
 pub(crate) fn cases(cases: u32) -> ProptestConfig {
     let asked = ProptestConfig::default();
     let cases = if std::env::var_os("PROPTEST_CASES").is_some() { asked.cases } else { cases };

@@ -62,7 +62,7 @@ proptest! {
 
     /// C83.
     #[test]
-    fn nonzero_entries_count_the_principal_vanishing_points(n in npoint()) {
+    fn each_nonzero_entry_gives_a_principal_vanishing_point(n in npoint()) {
         let found = principal_vanishing_points(n.depth_preserving()).expect("finite");
         prop_assert_eq!(found.count(), n.count());
         let class =

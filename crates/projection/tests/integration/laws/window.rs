@@ -162,7 +162,7 @@ proptest! {
     }
 
     #[test]
-    fn an_inclined_near_plane_cuts_there_and_changes_nothing_else(
+    fn an_inclined_near_plane_does_not_change_the_picture(
         p in perspective(),
         o in orthographic(),
         c in convention(),
