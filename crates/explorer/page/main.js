@@ -144,9 +144,7 @@ function showState(answer) {
 function showDepthTable(table) {
   byId('depth-details').hidden = !table;
   if (!table) return;
-  const columns = [text('distance'), text('depth'), text('depthStep', table.bits)];
-  const rows = table.rows.map(({ distance, depth, step }) => [distance, depth, step]);
-  byId('depth-table').replaceChildren(plainTable(columns, rows));
+  byId('depth-table').replaceChildren(plainTable(table.columns.map(word), table.rows));
 }
 
 /** Shows the pinned point in every space, its outcode and, on demand, every step. */

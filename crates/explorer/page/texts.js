@@ -42,8 +42,6 @@ const TEXTS = {
   depth: ['Depth', '深度'],
   depthLabel: ['Depth buffer value against distance from the eye', '深度缓冲中的深度与到视点距离的关系'],
   depthTable: ['Depth table', '深度表'],
-  distance: ['distance', '距离'],
-  depthStep: ['smallest step, {0} bits', '最小可分辨间隔（{0} 位）'],
   journey: ['Pinned point in every space', '固定点的变换历程'],
   pinLabel: ['Pinned point', '固定点'],
   space: ['space', '空间'],
