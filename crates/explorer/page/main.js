@@ -138,6 +138,8 @@ function showState(answer) {
   showLegend(answer);
   byId('depth').alt = text('depthLabel');
   showDepthTable(answer.depth_table);
+  // A wrong picture has no scene.
+  for (const id of ['copy-command', 'copy-scene']) byId(id).disabled = answer.scene === null;
 }
 
 /** Shows distances, depths, and the smallest step that the buffer resolves. */
