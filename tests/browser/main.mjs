@@ -10,6 +10,7 @@ import { readFile } from 'node:fs/promises';
 import path from 'node:path';
 import { Explorer, ROOT, assert, launchBrowser, serveFolder, startProgram } from './harness.mjs';
 import { STATEMENTS } from './lessons.mjs';
+import { testShown } from './shown.mjs';
 
 const isFirst = process.argv.includes('--first');
 const [program, folder] = process.argv.slice(2).filter((one) => one !== '--first').map((one) => path.resolve(one));
@@ -256,6 +257,7 @@ const browser = await launchBrowser();
 const native = await startProgram(program, ['--native', 'teapot.glb']);
 await testLessons(browser, native, 'native', 'teapot.glb');
 if (!isFirst) {
+  await testShown(browser, native, 'native', { model: 'teapot.glb' }, test);
   const plain = await startProgram(program, ['--native']);
   await testPage(browser, plain, 'native');
   plain.stop();
@@ -264,6 +266,7 @@ native.stop();
 if (folder) {
   const site = await serveFolder(folder);
   await testLessons(browser, site, 'WebAssembly', null);
+  await testShown(browser, site, 'WebAssembly', {}, test);
   await testPage(browser, site, 'WebAssembly');
   site.stop();
 }
