@@ -132,6 +132,7 @@ function settled() {
 function showState(answer) {
   shown = answer;
   hideNotice('engine');
+  updatePin();
   byId('consequences').replaceChildren(...(answer.consequences ?? []).map((one) => element('li', {}, word(one))));
   byId('matrix').replaceChildren(...stepsWithMatrices(answer.matrix.steps, word));
   showJourney(answer);
@@ -177,8 +178,9 @@ function showLegend({ colors, facts }) {
 
 // ---- The pinned point
 
+/** Returns the pinned point: the chosen point, or the engine's choice. */
 function pinOf() {
-  return (state.get('pin') ?? (lesson.pin ?? []).join(',')).split(',').map(Number);
+  return state.get('pin')?.split(',').map(Number) ?? shown?.pin ?? lesson.pin;
 }
 
 function buildPinControls() {

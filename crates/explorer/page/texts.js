@@ -13,6 +13,7 @@ const TEXTS = {
   themeDark: ['Dark', '深色'],
   loading: ['Loading …', '正在加载……'],
   parameters: ['Parameters', '参数'],
+  limits: ['Use a number from {0} to {1}.', '请输入 {0} 到 {1} 之间的数。'],
   reset: ['Reset', '重置'],
   undo: ['Undo', '撤销'],
   redo: ['Redo', '重做'],

@@ -11,7 +11,7 @@ use crate::pane_scene::COLORS;
 use crate::request::Request;
 use crate::words::{Sentence, sentence};
 use explain::{ApiConventions, TransformChain, explain_point, explain_transforms};
-use homog::{Point, Screen};
+use homog::{Affine, Point, Screen};
 use serde_json::{Map, Value as Json, json};
 
 /// Returns the state as JSON: link, scene file, command, sentences, numbers, matrices and journey.
@@ -99,8 +99,11 @@ fn journey_json(
     let ndc = clip.divide();
     let screen =
         chain.project_to_screen(clip).map(|screen| in_picture(screen, loaded, conventions));
-    let model = loaded.scene.models.first().and_then(|first| first.model_to_world.inverse());
-    let model = model.map(|to_model| <[f64; 3]>::from(to_model.transform_point(pin)));
+    // Without triangles, for example in a point cloud, only the placement in the scene is known.
+    let placed = || Some(loaded.scene.models.first()?.model_to_world);
+    let mesh_to_world = loaded.models.triangles.mesh_to_world_at(pin).or_else(placed);
+    let world_to_mesh = mesh_to_world.and_then(Affine::inverse);
+    let model = world_to_mesh.map(|to_mesh| <[f64; 3]>::from(to_mesh.transform_point(pin)));
     let view = chain.world_to_view().transform_point(pin);
     let mut json = explain_point(chain, pin).to_json();
     json["spaces"] = json!([
