@@ -93,6 +93,7 @@ export class Explorer {
   /** Opens a state by its link. */
   async goTo(hash) {
     await this.page.evaluate((to) => {
+      if (location.hash === to) return;
       delete document.body.dataset.settled;
       location.hash = to;
     }, hash);
@@ -146,7 +147,11 @@ export class Explorer {
   colors(pane) {
     return this.page.evaluate((id) => {
       const canvas = document.getElementById(id);
-      const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      const { width, height } = canvas;
+      // A copy, because Chromium warns about canvases that are read often.
+      const copy = Object.assign(document.createElement('canvas'), { width, height }).getContext('2d');
+      copy.drawImage(canvas, 0, 0);
+      const { data } = copy.getImageData(0, 0, width, height);
       const found = new Set();
       for (const color of new Uint32Array(data.buffer)) if (found.add(color).size >= 50) break;
       return found.size;

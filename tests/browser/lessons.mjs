@@ -134,6 +134,32 @@ export const STATEMENTS = [
     },
   },
   {
+    name: 'C36: divided before it is clipped, the floor appears in the sky, and this picture cannot be copied as a scene',
+    lesson: 'tear',
+    async check(page) {
+      const skyPixels = () =>
+        page.page.evaluate(() => {
+          const sky = document.createElement('canvas').getContext('2d');
+          sky.drawImage(document.getElementById('picture'), 0, 0);
+          const pixels = new Uint32Array(sky.getImageData(0, 0, 300, 80).data.buffer);
+          return pixels.filter((pixel) => pixel !== 0xfff5f2ee).length;
+        });
+      const copying = () => page.page.locator('#copy-command:disabled, #copy-scene:disabled').count();
+      assert((await skyPixels()) === 0 && (await copying()) === 0, 'clipped first');
+      await page.choose('order', 'divide');
+      assert((await skyPixels()) > 5000 && (await copying()) === 2, `divided first: ${await skyPixels()}`);
+      const said = await page.consequences();
+      assert(said.includes('upside down above the horizon') && said.includes('cannot be copied'), said);
+      await page.page.locator('#picture').click();
+      await page.page.locator('#notice').waitFor();
+      assert((await page.text('#notice')).includes('not where they appear'), await page.text('#notice'));
+      await page.choose('order', 'clip');
+      assert((await skyPixels()) === 0 && (await copying()) === 0, 'clipped again');
+      const [, clipped, outside] = (await page.consequences()).match(/in total, (\d+) are clipped and (\d+) are entirely outside/);
+      assert(JSON.stringify(await page.triangles()).includes(`"clipped":${clipped},"outside":${outside}`), 'totals');
+    },
+  },
+  {
     name: 'C68: half of the depth range ends at 2FN / (F + N)',
     lesson: 'depth-table',
     async check(page) {

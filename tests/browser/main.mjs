@@ -10,6 +10,8 @@ import { readFile } from 'node:fs/promises';
 import path from 'node:path';
 import { Explorer, ROOT, assert, launchBrowser, serveFolder, startProgram } from './harness.mjs';
 import { STATEMENTS } from './lessons.mjs';
+import { testOwnModel } from './own_model.mjs';
+import { testShown } from './shown.mjs';
 
 const isFirst = process.argv.includes('--first');
 const [program, folder] = process.argv.slice(2).filter((one) => one !== '--first').map((one) => path.resolve(one));
@@ -175,6 +177,28 @@ async function testPage(browser, server, engine) {
     await again.close();
   });
 
+  await test(`${engine}: a number out of range is marked, with its limits, until it is valid`, async () => {
+    const explorer = await open();
+    const { page } = explorer;
+    const field = page.locator('#parameter-fov-number');
+    const border = () => field.evaluate((one) => getComputedStyle(one).borderColor);
+    const valid = await border();
+    for (const [language, limits] of [['en', 'Use a number from 10 to 120.'], ['zh', '请输入 10 到 120 之间的数。']]) {
+      await page.selectOption('#language', language);
+      for (const [value, isValid] of [['200', false], ['60', true], ['-1', false], ['50', true]]) {
+        await field.fill(value);
+        await field.blur();
+        const shown = (await page.locator('main').innerText()).includes(limits);
+        assert(shown === !isValid, `${value}: ${shown ? 'a message' : 'no message'}`);
+        assert((await field.getAttribute('aria-invalid')) === String(!isValid), `${value}: aria-invalid`);
+        assert(((await border()) === valid) === isValid, `${value}: border`);
+        assert((await explorer.violations()).length === 0, value);
+      }
+    }
+    await explorer.settled();
+    await explorer.close();
+  });
+
   await test(`${engine}: an invalid link is reported, and the page still works`, async () => {
     for (const hash of ['#v=1&lesson=perspective&naer=2', '#v=9', '#v=1&lesson=none', '#%zz', '#v=1&lesson=perspective&near=x', '#near=1&near=2']) {
       const explorer = await open({ hash });
@@ -256,14 +280,17 @@ const browser = await launchBrowser();
 const native = await startProgram(program, ['--native', 'teapot.glb']);
 await testLessons(browser, native, 'native', 'teapot.glb');
 if (!isFirst) {
+  await testShown(browser, native, 'native', { model: 'teapot.glb' }, test);
   const plain = await startProgram(program, ['--native']);
   await testPage(browser, plain, 'native');
   plain.stop();
+  await testOwnModel(browser, program, test);
 }
 native.stop();
 if (folder) {
   const site = await serveFolder(folder);
   await testLessons(browser, site, 'WebAssembly', null);
+  await testShown(browser, site, 'WebAssembly', {}, test);
   await testPage(browser, site, 'WebAssembly');
   site.stop();
 }

@@ -1,6 +1,7 @@
 // Controls for a lesson's parameters: native inputs with labels, units and limits.
 
 import { element, formatNumber } from './dom.js';
+import { text } from './texts.js';
 
 /**
  * Fills the form with a lesson's parameters.
@@ -41,15 +42,21 @@ function numberControl(parameter, page) {
     ...attributes,
     step: 'any',
     'aria-label': unit ? `${name} (${unit})` : name,
-    'aria-describedby': `${id}-limits`,
+    'aria-describedby': `${id}-limits ${id}-error`,
   });
   range.addEventListener('input', () => page.change(key, range.value));
+  const error = element('span', { class: 'error', id: `${id}-error`, 'aria-live': 'polite' });
+  const showValidity = () => {
+    const isValid = number.checkValidity();
+    number.setAttribute('aria-invalid', !isValid);
+    error.textContent = isValid ? '' : text('limits', formatNumber(min), formatNumber(max));
+    return isValid;
+  };
   number.addEventListener('input', () => {
-    if (number.value !== '' && number.checkValidity()) page.change(key, String(number.valueAsNumber));
+    if (showValidity() && number.value !== '') page.change(key, String(number.valueAsNumber));
   });
   number.addEventListener('change', () => {
-    if (number.value === '') number.value = page.value(key);
-    number.reportValidity();
+    if (number.value === '' && showValidity()) number.value = page.value(key);
   });
   const row = element(
     'div',
@@ -63,6 +70,7 @@ function numberControl(parameter, page) {
       range,
       element('small', {}, formatNumber(max)),
     ),
+    error,
   );
   return {
     element: row,
@@ -71,6 +79,7 @@ function numberControl(parameter, page) {
       range.value = value;
       range.setAttribute('aria-valuetext', unit ? `${formatNumber(Number(value))} ${unit}` : formatNumber(Number(value)));
       if (Number(number.value) !== Number(value) || number.value === '') number.value = value;
+      showValidity();
     },
   };
 }

@@ -132,21 +132,22 @@ function settled() {
 function showState(answer) {
   shown = answer;
   hideNotice('engine');
+  updatePin();
   byId('consequences').replaceChildren(...(answer.consequences ?? []).map((one) => element('li', {}, word(one))));
   byId('matrix').replaceChildren(...stepsWithMatrices(answer.matrix.steps, word));
   showJourney(answer);
   showLegend(answer);
   byId('depth').alt = text('depthLabel');
   showDepthTable(answer.depth_table);
+  // A wrong picture has no scene.
+  for (const id of ['copy-command', 'copy-scene']) byId(id).disabled = answer.scene === null;
 }
 
 /** Shows distances, depths, and the smallest step that the buffer resolves. */
 function showDepthTable(table) {
   byId('depth-details').hidden = !table;
   if (!table) return;
-  const columns = [text('distance'), text('depth'), text('depthStep', table.bits)];
-  const rows = table.rows.map(({ distance, depth, step }) => [distance, depth, step]);
-  byId('depth-table').replaceChildren(plainTable(columns, rows));
+  byId('depth-table').replaceChildren(plainTable(table.columns.map(word), table.rows));
 }
 
 /** Shows the pinned point in every space, its outcode and, on demand, every step. */
@@ -177,8 +178,9 @@ function showLegend({ colors, facts }) {
 
 // ---- The pinned point
 
+/** Returns the pinned point: the chosen point, or the engine's choice. */
 function pinOf() {
-  return (state.get('pin') ?? (lesson.pin ?? []).join(',')).split(',').map(Number);
+  return state.get('pin')?.split(',').map(Number) ?? shown?.pin ?? lesson.pin;
 }
 
 function buildPinControls() {

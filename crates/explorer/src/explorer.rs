@@ -12,6 +12,7 @@ use crate::pane_scene::Observer;
 use crate::pick::pick_json;
 use crate::request::{DEFAULT_SIZE, Question, Request};
 use crate::state_answer::state_json;
+use crate::torn_picture::{torn_scene, torn_textures};
 use crate::volume_pane::volume_scene;
 use crate::words::sentence;
 use crate::world_pane::{Pointer, world_scene};
@@ -37,17 +38,26 @@ pub struct Answer {
 #[derive(Debug, Default)]
 pub struct Explorer {
     store: ModelStore,
-    picture: PanePicture,
+    /// The main picture. Its scene is cached only if the triangles are torn.
+    picture: Pane,
     /// The `world` pane with its scene, cached under the key of its state.
     world: Pane,
     volume: Pane,
 }
 
-/// A pane next to the main picture, with its pictures and its last scene.
+/// A pane with its pictures and its last scene.
 #[derive(Debug, Default)]
 struct Pane {
     picture: PanePicture,
     scene: Option<(String, Arc<Scene>)>,
+}
+
+impl Pane {
+    /// Returns the last scene if it has this key.
+    fn known_scene(&self, key: &str) -> Option<Arc<Scene>> {
+        let known = self.scene.as_ref().filter(|(known, _)| known == key);
+        known.map(|(_, scene)| Arc::clone(scene))
+    }
 }
 
 impl Explorer {
@@ -173,10 +183,20 @@ impl Explorer {
         monitor: &Arc<dyn Monitor>,
     ) -> Result<Answer, ExplorerError> {
         let (text, loaded) = self.load(&request.state, request.size, request.samples)?;
-        let drawn = Drawn { scene: &loaded.scene, textures: &loaded.models.textures, monitor };
         let Request { state, size, samples, .. } = request;
-        let key = format!("{size:?} {samples} {:?} {text}", state.style);
-        answer_with_pixels(&mut self.picture, request, &key, drawn)
+        let key = format!("{size:?} {samples} {:?} {} {text}", state.style, state.is_torn());
+        let pane = &mut self.picture;
+        if !state.is_torn() {
+            let drawn = Drawn { scene: &loaded.scene, textures: &loaded.models.textures, monitor };
+            return answer_with_pixels(&mut pane.picture, request, &key, drawn);
+        }
+        let scene = match pane.known_scene(&key) {
+            Some(scene) => scene,
+            None => Arc::new(torn_scene(&loaded)?),
+        };
+        pane.scene = Some((key.clone(), Arc::clone(&scene)));
+        let drawn = Drawn { scene: &scene, textures: &torn_textures(), monitor };
+        answer_with_pixels(&mut pane.picture, request, &key, drawn)
     }
 
     fn depth(&mut self, request: &Request) -> Result<Answer, ExplorerError> {
@@ -187,7 +207,9 @@ impl Explorer {
 
     fn drawing(&mut self, request: &Request) -> Result<Answer, ExplorerError> {
         let (_, loaded) = self.load(&request.state, request.size, 4)?;
-        let page = draw_lines(&loaded.scene, thread_count(), &Default::default())?;
+        let torn = request.state.is_torn().then(|| torn_scene(&loaded)).transpose()?;
+        let scene = torn.as_ref().unwrap_or(&loaded.scene);
+        let page = draw_lines(scene, thread_count(), &Default::default())?;
         Ok(svg_answer(page.to_svg()))
     }
 
@@ -196,6 +218,17 @@ impl Explorer {
             let help = "add pixel=x,y, counted from the upper left corner";
             ExplorerError::new("malformed_query", "missing pixel", help)
         })?;
+        if request.state.is_torn() {
+            return Err(ExplorerError::in_language(
+                "nothing_there",
+                request.state.language,
+                sentence(
+                    "the triangles in this picture are not where they appear",
+                    "这幅图像中的三角形并不在它们看起来的位置",
+                ),
+                sentence("choose `clip first`, then click", "请先选择“先裁剪”，再点击"),
+            ));
+        }
         let (_, loaded) = self.load(&request.state, request.size, request.samples)?;
         let conventions = request.state.lesson.conventions;
         Ok(json_answer(&pick_json(&loaded.scene, conventions, pixel)?))
@@ -214,10 +247,9 @@ impl Explorer {
         // The picture of the state has a different aspect ratio than the pane.
         let (text, loaded) = self.load(state, DEFAULT_SIZE, 4)?;
         let key = format!("{observer:?} {} {text}", state.to_link());
-        let known = if is_world { &self.world.scene } else { &self.volume.scene };
-        let known = known.as_ref().filter(|(known, _)| *known == key);
+        let known = if is_world { &self.world } else { &self.volume }.known_scene(&key);
         let scene = match known {
-            Some((_, scene)) => Arc::clone(scene),
+            Some(scene) => scene,
             None if is_world => {
                 let (_, defaults) = self.load(&state.with_defaults(), DEFAULT_SIZE, 4)?;
                 let pointer = pointer(state, &loaded);

@@ -1,7 +1,7 @@
 //! The page state as a query string: a lesson, its values, the pinned point and the orbits.
 
 use crate::ExplorerError;
-use crate::lesson::{Choice, Domain, Lesson, Parameter, ParameterValue, Values};
+use crate::lesson::{Choice, Domain, Lesson, Parameter, ParameterValue, Values, VolumeStage};
 use crate::lessons::LESSONS;
 use crate::model_store::LoadedScene;
 use crate::query::Query;
@@ -113,6 +113,11 @@ impl LessonState {
     pub(crate) fn values(&self, size: [u32; 2]) -> Values<'_> {
         let model = self.model.as_deref();
         Values { lesson: self.lesson, parameters: &self.parameters, size, model }
+    }
+
+    /// Whether triangles are divided by w before they are clipped.
+    pub(crate) fn is_torn(&self) -> bool {
+        (self.lesson.volume)(&self.values(DEFAULT_SIZE)) == VolumeStage::Torn
     }
 
     /// Returns the link to the state: `#v=1&lesson=…`, without keys that have default values.

@@ -20,6 +20,7 @@ mod pick;
 mod query;
 mod request;
 mod state_answer;
+mod torn_picture;
 mod triangle_survey;
 mod volume_pane;
 mod words;

@@ -12,6 +12,11 @@ pub(crate) fn decimals(value: f64, count: i32) -> String {
     format!("{}", libm::round(value * scale) / scale + 0.0)
 }
 
+/// Returns a number of triangles in English words.
+pub(crate) fn count_triangles(count: usize) -> String {
+    format!("{count} {}", if count == 1 { "triangle" } else { "triangles" })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,7 +3,7 @@
 
 use crate::ExplorerError;
 use crate::triangle_survey::Containment;
-use camera::{Basis, ViewProjection, frame_parallel};
+use camera::{Basis, Camera, ViewProjection, frame_parallel};
 use drawing::{Overlay, PointLabel};
 use glam::DVec2;
 use homog::{Affine, Point, World};
@@ -166,6 +166,12 @@ fn observer_view(
     let volume = Orthographic::new(left, right, bottom, top, near, far)
         .map_err(|error| invalid(error.to_string()))?;
     Ok(ViewProjection { camera, view_to_clip: volume.view_to_clip(Convention::CHAPTER) })
+}
+
+/// Returns a camera at the origin that looks along −z.
+pub(crate) fn camera_at_origin() -> Result<Camera, ExplorerError> {
+    Camera::new(Point::ORIGIN, Basis::WORLD)
+        .map_err(|error| ExplorerError::new("invalid_scene", error.to_string(), "reset the view"))
 }
 
 /// Returns text next to a point, `offset` pixels away.

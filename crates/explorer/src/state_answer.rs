@@ -6,11 +6,12 @@ use crate::facts::{Facts, PLANES};
 use crate::lesson::ParameterValue;
 use crate::lesson_state::style_flag;
 use crate::model_store::LoadedScene;
+use crate::number_text::count_triangles;
 use crate::pane_scene::COLORS;
 use crate::request::Request;
 use crate::words::{Sentence, sentence};
 use explain::{ApiConventions, TransformChain, explain_point, explain_transforms};
-use homog::{Point, Screen};
+use homog::{Affine, Point, Screen};
 use serde_json::{Map, Value as Json, json};
 
 /// Returns the state as JSON: link, scene file, command, sentences, numbers, matrices and journey.
@@ -44,8 +45,8 @@ pub(crate) fn state_json(
         "lesson": lesson.id,
         "parameters": parameters,
         "link": state.to_link(),
-        "scene": text,
-        "command": command(request, text),
+        "scene": (!state.is_torn()).then_some(text),
+        "command": (!state.is_torn()).then(|| command(request, text)),
         "consequences": consequences.iter().map(Sentence::to_json).collect::<Vec<_>>(),
         "facts": facts.to_json(),
         "colors": COLORS.map(|(name, [r, g, b])| (name, format!("#{r:02x}{g:02x}{b:02x}"))).into_iter().collect::<std::collections::BTreeMap<_, _>>(),
@@ -98,8 +99,11 @@ fn journey_json(
     let ndc = clip.divide();
     let screen =
         chain.project_to_screen(clip).map(|screen| in_picture(screen, loaded, conventions));
-    let model = loaded.scene.models.first().and_then(|first| first.model_to_world.inverse());
-    let model = model.map(|to_model| <[f64; 3]>::from(to_model.transform_point(pin)));
+    // Without triangles, for example in a point cloud, only the placement in the scene is known.
+    let placed = || Some(loaded.scene.models.first()?.model_to_world);
+    let mesh_to_world = loaded.models.triangles.mesh_to_world_at(pin).or_else(placed);
+    let world_to_mesh = mesh_to_world.and_then(Affine::inverse);
+    let model = world_to_mesh.map(|to_mesh| <[f64; 3]>::from(to_mesh.transform_point(pin)));
     let view = chain.world_to_view().transform_point(pin);
     let mut json = explain_point(chain, pin).to_json();
     json["spaces"] = json!([
@@ -134,27 +138,29 @@ const PLANES_ZH: [&str; 6] = ["左", "右", "下", "上", "近", "远"];
 fn clipping_sentences(facts: &Facts) -> Vec<Sentence> {
     let survey = facts.survey;
     let all = facts.triangles[1];
+    let triangles = count_triangles(all);
     let mut sentences = Vec::new();
     for (at, (plane, plane_zh)) in PLANES.iter().zip(PLANES_ZH).enumerate() {
         let (clipped, outside) = (survey.clipped_by[at], survey.outside_of[at]);
-        let (are, is_or_are) =
-            (if clipped == 1 { "is" } else { "are" }, if outside == 1 { "is" } else { "are" });
+        let is_or_are = |count| if count == 1 { "is" } else { "are" };
+        let (are, is_or_are) = (is_or_are(clipped), is_or_are(outside));
         match (clipped, outside) {
             (0, 0) => {}
             (clipped, 0) => sentences.push(sentence(
-                format!("{clipped} of {all} triangles {are} clipped by the {plane} plane."),
+                format!("{clipped} of {triangles} {are} clipped by the {plane} plane."),
                 format!("{all} 个三角形中有 {clipped} 个被{plane_zh}平面裁剪。"),
             )),
             (0, outside) => sentences.push(sentence(
-                format!("{outside} of {all} triangles {is_or_are} outside the {plane} plane."),
+                format!("{outside} of {triangles} {is_or_are} entirely outside the {plane} plane."),
                 format!("{all} 个三角形中有 {outside} 个完全在{plane_zh}平面之外。"),
             )),
             (clipped, outside) => sentences.push(sentence(
-                format!("{clipped} of {all} triangles {are} clipped by the {plane} plane, and {outside} {is_or_are} entirely outside it."),
+                format!("{clipped} of {triangles} {are} clipped by the {plane} plane, and {outside} {is_or_are} entirely outside it."),
                 format!("{all} 个三角形中有 {clipped} 个被{plane_zh}平面裁剪，{outside} 个完全在它之外。"),
             )),
         }
     }
+    sentences.extend(overlap_sentence(facts));
     if survey.inside == all && all > 0 {
         sentences.push(sentence(
             "The whole model is inside the view volume, so nothing is clipped.",
@@ -168,4 +174,20 @@ fn clipping_sentences(facts: &Facts) -> Vec<Sentence> {
         ));
     }
     sentences
+}
+
+/// Returns the total numbers of clipped and outside triangles if the numbers of the planes overlap.
+fn overlap_sentence(facts: &Facts) -> Option<Sentence> {
+    let survey = facts.survey;
+    let totals = [(survey.clipped, survey.clipped_by), (survey.outside, survey.outside_of)];
+    let overlaps = totals.iter().any(|(total, by_plane)| by_plane.iter().sum::<usize>() > *total);
+    let [(clipped, _), (outside, _)] = totals;
+    overlaps.then(|| {
+        sentence(
+            format!(
+                "Some triangles count for several planes: in total, {clipped} are clipped and {outside} are entirely outside."
+            ),
+            format!("有些三角形对几个平面都计数：总共有 {clipped} 个被裁剪，{outside} 个完全在外。"),
+        )
+    })
 }

@@ -3,7 +3,7 @@
 
 use camera::ViewProjection;
 use clip::{Outcode, PlaneIndex, Volume, clip_triangle};
-use homog::{Bounds, Clip, HPoint, Point, Projective, World};
+use homog::{Affine, Bounds, Clip, HPoint, Model as ModelSpace, Point, Projective, World};
 use model::{MeshInstance, ModelInstance, Topology};
 use std::collections::BTreeMap;
 
@@ -13,6 +13,9 @@ const MAX_DRAWN: usize = 10_000;
 const MAX_COUNTED: usize = 300_000;
 /// The number of cells along the longest side of the first vertex-merging grid.
 const FIRST_GRID: f64 = 96.0;
+
+/// The distance at which a point still belongs to a triangle, as a fraction of the triangle's size.
+const NEXT_TO: f64 = 1e-3;
 
 /// A triangle in world space.
 pub(crate) type WorldTriangle = [Point<World>; 3];
@@ -26,20 +29,31 @@ pub(crate) struct WorldTriangles {
     pub(crate) counted: Vec<WorldTriangle>,
     /// A smaller set for drawing; `None` if the full set is small.
     reduced: Option<Vec<WorldTriangle>>,
+    /// The primitives in the order of their triangles.
+    parts: Vec<Part>,
+}
+
+/// A primitive with triangles.
+#[derive(Debug)]
+struct Part {
+    /// The number of triangles up to the end of this primitive.
+    end: usize,
+    /// The transform of its node and model.
+    mesh_to_world: Affine<ModelSpace, World>,
 }
 
 impl WorldTriangles {
     /// Collects the triangles of models.
     pub(crate) fn new(models: &[ModelInstance]) -> Self {
-        let mut count = 0;
-        visit_triangles(models, &mut |_| count += 1);
+        let parts = list_parts(models);
+        let count = parts.last().map_or(0, |part| part.end);
         let reduced = (count > MAX_DRAWN).then(|| merge_vertices(models));
         match reduced {
-            Some(few) if count > MAX_COUNTED => Self { count, counted: few, reduced: None },
+            Some(few) if count > MAX_COUNTED => Self { count, counted: few, reduced: None, parts },
             reduced => {
                 let mut counted = Vec::with_capacity(count);
                 visit_triangles(models, &mut |triangle| counted.push(triangle));
-                Self { count, counted, reduced }
+                Self { count, counted, reduced, parts }
             }
         }
     }
@@ -49,10 +63,57 @@ impl WorldTriangles {
         self.drawn().len() < self.count
     }
 
+    /// Returns the transform of the primitive whose surface contains a point, or otherwise of the
+    /// first primitive; `None` without triangles.
+    pub(crate) fn mesh_to_world_at(
+        &self,
+        point: Point<World>,
+    ) -> Option<Affine<ModelSpace, World>> {
+        let near = |(at, triangle): (usize, &WorldTriangle)| {
+            Some((distance_on_triangle(triangle, point)?, at))
+        };
+        let hits = self.counted.iter().enumerate().filter_map(near);
+        let at = hits.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, at)| at);
+        // A simplified model does not say to which primitive a triangle belongs.
+        let at = at.filter(|_| self.counted.len() == self.count);
+        let part = self.parts.iter().find(|part| part.end > at.unwrap_or(0))?;
+        Some(part.mesh_to_world)
+    }
+
     /// Returns the drawn triangles.
     pub(crate) fn drawn(&self) -> &[WorldTriangle] {
         self.reduced.as_deref().unwrap_or(&self.counted)
     }
+}
+
+/// Returns the distance of a point from the plane of a triangle if the point is next to it.
+fn distance_on_triangle(triangle: &WorldTriangle, point: Point<World>) -> Option<f64> {
+    let [a, b, c] = *triangle;
+    let (ab, ac, ap) = (b - a, c - a, point - a);
+    let normal = ab.cross(ac);
+    let size = normal.length();
+    let distance = ap.dot(normal).abs() / size;
+    let [u, v] = [ap.cross(ac), ab.cross(ap)].map(|part| part.dot(normal) / (size * size));
+    let is_inside = u >= -NEXT_TO && v >= -NEXT_TO && u + v <= 1.0 + NEXT_TO;
+    // Pixels are picked with the precision of the depth buffer.
+    let is_near = distance <= NEXT_TO * libm::sqrt(size);
+    (is_inside && is_near).then_some(distance)
+}
+
+/// Lists the primitives with triangles, in the order of [`visit_triangles`].
+fn list_parts(models: &[ModelInstance]) -> Vec<Part> {
+    let mut end = 0;
+    let mut parts = Vec::new();
+    for placed in models {
+        for (instance, primitive) in placed.model.scene_primitives() {
+            if primitive.topology == Topology::Triangles && !primitive.indices.is_empty() {
+                end += primitive.indices.len() / 3;
+                let to_model = placed.model.skin_primitive(instance, primitive).to_model;
+                parts.push(Part { end, mesh_to_world: to_model.then(placed.model_to_world) });
+            }
+        }
+    }
+    parts
 }
 
 /// Visits the triangles of models. A list of all triangles of a large model would not fit in the
@@ -211,7 +272,6 @@ impl Survey {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use homog::Affine;
     use import::MemoryFolder;
     use std::fmt::Write as _;
     use std::sync::Arc;

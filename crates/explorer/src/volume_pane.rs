@@ -4,10 +4,10 @@
 use crate::ExplorerError;
 use crate::facts::Facts;
 use crate::lesson::VolumeStage;
-use crate::pane_scene::{Observer, PaneGeometry, label_at, named_point};
+use crate::pane_scene::{Observer, PaneGeometry, camera_at_origin, label_at, named_point};
 use crate::triangle_survey::{Containment, classify, project};
 use crate::world_pane::Pointer;
-use camera::{Basis, Camera, ViewProjection};
+use camera::ViewProjection;
 use clip::{Volume, clip_triangle};
 use drawing::Overlay;
 use explain::ApiConventions;
@@ -131,11 +131,6 @@ fn affine_factors(facts: &Facts, count: usize) -> Option<Affine<View, View>> {
         1 => factors.shear,
         _ => factors.shear.then(factors.scale),
     })
-}
-
-fn camera_at_origin() -> Result<Camera, ExplorerError> {
-    Camera::new(Point::ORIGIN, Basis::WORLD)
-        .map_err(|error| ExplorerError::new("invalid_scene", error.to_string(), "reset the view"))
 }
 
 /// Returns labels with the coordinates of two opposite corners of the canonical view volume, in

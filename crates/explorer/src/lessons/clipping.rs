@@ -25,11 +25,11 @@ pub(super) static TEAR: Lesson = Lesson {
             "order",
             words("order", "次序"),
             &[
+                Choice { value: "clip", label: words("clip first", "先裁剪") },
                 Choice {
                     value: "divide",
                     label: words("divide first (wrong)", "先做透视除法（错误）"),
                 },
-                Choice { value: "clip", label: words("clip first", "先裁剪") },
             ],
         ),
         number(
@@ -65,8 +65,8 @@ fn tear_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
     )];
     sentences.push(match values.choice("order") {
         "divide" => sentence(
-            "If divided first, they end up in empty space: the view volume pane shows what would be drawn.",
-            "如果先做透视除法，它们会落到本来没有东西的地方：视见体窗格显示会画出什么。",
+            "Divided first, they appear upside down above the horizon or tear across the picture, which is wrong. A scene file is always clipped first, so this picture cannot be copied as a scene or command.",
+            "先做透视除法，它们会上下颠倒地出现在视平线之上，或撕裂整幅图像：这幅图像是错误的。场景文件总是先裁剪，所以这幅图像不能复制为场景或命令。",
         ),
         _ => sentence(
             "If clipped first, every remaining corner has w > 0.",

@@ -35,10 +35,16 @@ pub(super) static PERSPECTIVE: Lesson = Lesson {
         let fov = values.number("fov");
         let factor = libm::tan(20_f64.to_radians()) / libm::tan((0.5 * fov).to_radians());
         let factor = decimals(factor, 2);
-        let mut all = vec![sentence(
-            format!("field of view {fov}°: everything is {factor} times as large as at 40°."),
-            format!("视场角 {fov}°：所有物体的大小是 40° 时的 {factor} 倍。"),
-        )];
+        let mut all = vec![match fov == 40.0 {
+            true => sentence(
+                "field of view 40°: the sizes at other angles are compared with these sizes.",
+                "视场角 40°：其他角度下的大小都与此时的大小相比较。",
+            ),
+            false => sentence(
+                format!("field of view {fov}°: everything is {factor} times as large as at 40°."),
+                format!("视场角 {fov}°：所有物体的大小是 40° 时的 {factor} 倍。"),
+            ),
+        }];
         all.extend(distortion(facts));
         all.extend(planes_only_clip(facts));
         all

@@ -3,7 +3,7 @@
 use crate::facts::Facts;
 use crate::lesson::{Choice, Lesson, Source, choice, number};
 use crate::lesson_scene::{framed, model_scene};
-use crate::number_text::decimals;
+use crate::number_text::{count_triangles, decimals};
 use crate::words::{Sentence, sentence, words};
 use scene_file::file::{EnvironmentFile, ProjectionFile, StyleFile};
 
@@ -71,24 +71,31 @@ pub(super) static MODEL: Lesson = Lesson {
 pub(super) fn describe_model(facts: &Facts) -> Vec<Sentence> {
     let count = facts.triangles[0];
     let mut all = vec![sentence(
-        format!("The model has {count} triangles."),
+        format!("The model has {}.", count_triangles(count)),
         format!("模型有 {count} 个三角形。"),
     )];
     if facts.loaded.models.triangles.is_reduced() {
         let drawn = facts.loaded.models.triangles.drawn().len();
         all.push(sentence(
             format!(
-                "The world and view volume panes show a simplified model with {drawn} triangles."
+                "The world and view volume panes show a simplified model with {}.",
+                count_triangles(drawn)
             ),
             format!("世界窗格和视见体窗格用形状相同的 {drawn} 个三角形显示。"),
         ));
     }
     if let Some([near, far]) = facts.model_range {
         let [near, far] = [near, far].map(|distance| decimals(distance, 3));
-        all.push(sentence(
-            format!("It is {near} to {far} in front of the camera."),
-            format!("它在相机前方 {near} 到 {far} 处。"),
-        ));
+        all.push(match near == far {
+            true => sentence(
+                format!("It is {near} in front of the camera."),
+                format!("它在相机前方 {near} 处。"),
+            ),
+            false => sentence(
+                format!("It is {near} to {far} in front of the camera."),
+                format!("它在相机前方 {near} 到 {far} 处。"),
+            ),
+        });
     }
     all
 }

@@ -173,12 +173,14 @@ pub(super) static OBLIQUE: Lesson = Lesson {
             1.0 => ("cavalier", "斜等测"),
             _ => ("oblique", "斜投影"),
         };
+        let (sin, cos) = libm::sincos(values.number("phi").to_radians());
+        let [x, y] = [length * cos, length * sin].map(|factor| decimals(factor, 3));
         vec![sentence(
             format!(
-                "The projectors meet the picture at α = {alpha}°: {name}. x_p = x + z L₁ cos φ, y_p = y + z L₁ sin φ."
+                "The projectors meet the picture at α = {alpha}°: {name}. x_p = x + z L₁ cos φ = x + {x} z, y_p = y + z L₁ sin φ = y + {y} z."
             ),
             format!(
-                "投影线与投影平面的夹角 α = {alpha}°：{name_zh}。x_p = x + z L₁ cos φ，y_p = y + z L₁ sin φ。"
+                "投影线与投影平面的夹角 α = {alpha}°：{name_zh}。x_p = x + z L₁ cos φ = x + {x} z，y_p = y + z L₁ sin φ = y + {y} z。"
             ),
         )]
     },

@@ -187,10 +187,45 @@ fn a_floor_that_passes_the_eye_has_corners_with_negative_w() {
     let mut explorer = explorer_with_models();
     let behind = facts(&mut explorer, "lesson=tear&z=0")["behind_eye"].as_u64();
     assert!(behind > Some(100), "{behind:?}");
-    let query = |order: &str| format!("what=volume&size=60x60&samples=1&lesson=tear&order={order}");
-    let [torn, clipped] =
-        ["divide", "clip"].map(|order| explorer.answer(&query(order)).expect("a picture"));
-    assert!(torn != clipped);
+    for what in ["picture", "volume", "drawing"] {
+        let state = "size=60x60&samples=1&lesson=tear";
+        let [torn, clipped] = ["divide", "clip"].map(|order| {
+            explorer.answer(&format!("what={what}&{state}&order={order}")).expect("a picture")
+        });
+        assert!(torn != clipped, "{what}");
+    }
+    let torn = json(&mut explorer, "what=state&lesson=tear&order=divide");
+    assert_eq!((&torn["scene"], &torn["command"]), (&Json::Null, &Json::Null));
+    let error = explorer.answer("what=pick&lesson=tear&order=divide&pixel=9,9").expect_err("torn");
+    assert_eq!(error.code, "nothing_there");
+}
+
+/// The floor is below the eye, so nothing may be above the horizon. Divided by a negative w, the
+/// part behind the eye appears there.
+#[test]
+fn divided_first_the_floor_behind_the_eye_appears_above_the_horizon() {
+    let mut explorer = explorer_with_models();
+    let mut drawn_in_the_sky = |order: &str| {
+        let query = format!("what=picture&size=64x40&samples=1&lesson=tear&order={order}");
+        let pixels = explorer.answer(&query).expect("a picture").bytes;
+        let sky = &pixels.as_chunks::<4>().0[..64 * 8];
+        sky.iter().filter(|pixel| **pixel != [0xee, 0xf2, 0xf5, 0xff]).count()
+    };
+    assert_eq!(drawn_in_the_sky("clip"), 0);
+    assert!(drawn_in_the_sky("divide") > 100);
+}
+
+/// A triangle can be outside several planes, which the sentences say.
+#[test]
+fn overlapping_counts_are_explained() {
+    let mut explorer = explorer_with_models();
+    let said = consequences(&mut explorer, "lesson=tear");
+    let facts = facts(&mut explorer, "lesson=tear");
+    let totals = format!(
+        "in total, {} are clipped and {} are entirely outside.",
+        facts["clipped"], facts["outside"]
+    );
+    assert!(said.iter().any(|sentence| sentence.ends_with(&totals)), "{said:?}");
 }
 
 /// The point picked at a pixel projects to that pixel.
