@@ -16,8 +16,9 @@
 //! A corner on the plane counts as inside. A face in the plane is therefore kept whole, and a solid
 //! that only touches the plane from inside gets no cap.
 
+use crate::SectionPlane;
 use crate::sutherland_hodgman::{EdgeFraction, RingStep, clip_ring, crossing_fraction};
-use homog::{Plane, Point, Space};
+use homog::{Point, Space};
 
 /// A vertex of a triangle cut by a plane.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -62,6 +63,9 @@ impl<S: Space> CutTriangle<S> {
 /// Cuts a triangle with a plane and keeps the positive side, toward which the plane's normal
 /// points.
 ///
+/// A [`SectionPlane`] has a tolerance: a corner within it is on the plane, and the cut passes
+/// through that corner. A plain [`Plane`](homog::Plane) has none.
+///
 /// The result is empty if a corner is not finite or is too far away for its distance from the plane
 /// to be finite.
 ///
@@ -75,14 +79,18 @@ impl<S: Space> CutTriangle<S> {
 /// assert_eq!(left.edge(), Some([Point::new(-0.5, 0.0, 0.0), Point::new(0.5, 0.0, 0.0)]));
 /// ```
 #[must_use]
-pub fn cut_triangle<S: Space>(triangle: [Point<S>; 3], plane: Plane<S>) -> CutTriangle<S> {
+pub fn cut_triangle<S: Space>(
+    triangle: [Point<S>; 3],
+    plane: impl Into<SectionPlane<S>>,
+) -> CutTriangle<S> {
+    let section = plane.into();
     let corner = |i: usize| {
         let mut weights = [0.0; 3];
         weights[i] = 1.0;
         SectionVertex { point: triangle[i], weights }
     };
     let corners = [corner(0), corner(1), corner(2)];
-    let distances = triangle.map(|point| plane.evaluate(point));
+    let distances = triangle.map(|point| section.height(point));
     let mut left = CutTriangle { vertices: [corners[0]; 4], count: 0, edge: None };
     if !distances.iter().all(|distance| distance.is_finite()) {
         return left;

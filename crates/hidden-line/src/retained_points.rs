@@ -2,12 +2,9 @@
 
 use crate::Warning;
 use crate::edges::WorldMesh;
-use clip::cut_triangle;
+use clip::{SectionPlane, cut_triangle};
 use homog::{Bounds, Plane, Point, World};
 use model::ModelInstance;
-
-/// The distance, as a fraction of the models' diagonal, within which a point is on a plane.
-const TOUCHING: f64 = 1e-9;
 
 /// Returns the points of the model parts that section planes retain: the corners of the remaining
 /// triangles, the ends of the remaining lines, and the remaining point primitives. The objects
@@ -22,6 +19,9 @@ pub fn retained_points(
     uncut: &[u32],
 ) -> Vec<Point<World>> {
     let mesh = WorldMesh::from_models(models);
+    let diagonal = mesh.bounds_diagonal();
+    let sections: Vec<_> =
+        sections.iter().map(|plane| SectionPlane::for_size(*plane, diagonal)).collect();
     let position = |vertex: u32| Point::from_raw(mesh.points[vertex as usize]);
     let mut retained = Vec::new();
     let mut pieces: Vec<[Point<World>; 3]> = Vec::new();
@@ -41,7 +41,7 @@ pub fn retained_points(
     }
     for dot in &mesh.dots {
         let (at, is_cut) = (position(dot.point), uncut.binary_search(&dot.object).is_err());
-        if !is_cut || sections.iter().all(|plane| plane.evaluate(at) >= 0.0) {
+        if !is_cut || sections.iter().all(|plane| plane.height(at) >= 0.0) {
             retained.push(at);
         }
     }
@@ -49,15 +49,15 @@ pub fn retained_points(
 }
 
 /// Returns the triangles that remain after a plane cuts a triangle.
-fn cut_pieces(triangle: [Point<World>; 3], plane: Plane<World>) -> Vec<[Point<World>; 3]> {
+fn cut_pieces(triangle: [Point<World>; 3], plane: SectionPlane<World>) -> Vec<[Point<World>; 3]> {
     let cut = cut_triangle(triangle, plane);
     let left = cut.vertices();
     (2..left.len()).map(|k| [left[0], left[k - 1], left[k]].map(|vertex| vertex.point)).collect()
 }
 
 /// Returns the part of a line on the positive side of a plane.
-fn cut_line([a, b]: [Point<World>; 2], plane: &Plane<World>) -> Option<[Point<World>; 2]> {
-    let [from, to] = [a, b].map(|end| plane.evaluate(end));
+fn cut_line([a, b]: [Point<World>; 2], plane: &SectionPlane<World>) -> Option<[Point<World>; 2]> {
+    let [from, to] = [a, b].map(|end| plane.height(end));
     match [from >= 0.0, to >= 0.0] {
         [true, true] => Some([a, b]),
         [false, false] => None,
@@ -88,13 +88,14 @@ pub fn idle_section_warning(
     plane: Plane<World>,
     number: usize,
 ) -> Option<Warning> {
-    let tolerance = TOUCHING * Bounds::from_points(points.iter().copied())?.diagonal();
-    let distances = points.iter().map(|point| plane.evaluate(*point));
+    let diagonal = Bounds::from_points(points.iter().copied())?.diagonal();
+    let section = SectionPlane::for_size(plane, diagonal);
+    let distances = points.iter().map(|point| section.height(*point));
     let (least, most) = distances
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), d| (least.min(d), most.max(d)));
-    if most <= tolerance {
+    if most <= 0.0 {
         Some(Warning::SectionRemovesAll { number })
     } else {
-        (least >= -tolerance).then_some(Warning::SectionMisses { number })
+        (least >= 0.0).then_some(Warning::SectionMisses { number })
     }
 }

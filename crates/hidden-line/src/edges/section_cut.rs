@@ -6,6 +6,10 @@
 //!  ╱──────╲     └────┘ hatched
 //! ```
 //!
+//! Vertices within a tolerance of the plane are on it ([`SectionPlane`]), and the cut passes through
+//! them. Otherwise a plane through vertices that rounding has moved would cut needles off flat
+//! walls, whose normals are noise and which would be drawn as edges.
+//!
 //! Each triangle is cut separately. The cut edges are joined into loops without a tolerance,
 //! because neighboring triangles are cut at identical points. Loops are capped, and a cap hides
 //! everything behind it, like any other face.
@@ -18,7 +22,7 @@ use super::section_caps::{SectionLoop, triangulate_caps};
 use super::vertex_normal::VertexNormal;
 use super::world_mesh::{Dot, Face, LineEdge, WorldMesh};
 use crate::Warning;
-use clip::{CutTriangle, Outline, cut_triangle};
+use clip::{CutTriangle, Outline, SectionPlane, cut_triangle};
 use glam::DVec3;
 use homog::{Plane, Point, World};
 use model::EdgeVisibility;
@@ -41,7 +45,7 @@ type CutEdge = ([Point<World>; 2], u32);
 pub(super) fn cut_mesh(
     mesh: &mut WorldMesh,
     fillings: &[Face],
-    plane: Plane<World>,
+    plane: SectionPlane<World>,
     section: u16,
     warnings: &mut Vec<Warning>,
 ) {
@@ -69,7 +73,7 @@ pub(super) fn cut_mesh(
         let section_edge = ends.map(|end| add_point(mesh, end));
         mesh.section_edges.push(section_edge);
     }
-    add_caps(mesh, &openings, plane, section, warnings);
+    add_caps(mesh, &openings, plane.plane(), section, warnings);
 }
 
 /// Closes a cut: the loops of its edges become faces with a separate material.
@@ -118,7 +122,7 @@ fn add_point(mesh: &mut WorldMesh, point: Point<World>) -> u32 {
 fn cut_face(
     mesh: &mut WorldMesh,
     face: &Face,
-    plane: Plane<World>,
+    plane: SectionPlane<World>,
     retained: &mut Vec<Face>,
     openings: &mut Vec<CutEdge>,
 ) {
@@ -174,11 +178,11 @@ fn part_edge_visibility(
 }
 
 /// Cuts the lines that are not sides of faces, and retains the parts on the positive side.
-fn cut_line_edges(mesh: &mut WorldMesh, plane: Plane<World>) {
+fn cut_line_edges(mesh: &mut WorldMesh, plane: SectionPlane<World>) {
     let lines = std::mem::take(&mut mesh.line_edges);
     for line in lines {
         let ends = line.ends.map(|end| mesh.points[end as usize]);
-        let heights = ends.map(|end| plane.evaluate(Point::from_raw(end)));
+        let heights = ends.map(|end| plane.height(Point::from_raw(end)));
         let retained = match heights.map(|height| height >= 0.0) {
             _ if !mesh.is_cut(line.object) => line.ends,
             [true, true] => line.ends,
@@ -194,10 +198,10 @@ fn cut_line_edges(mesh: &mut WorldMesh, plane: Plane<World>) {
 }
 
 /// Removes the points on the negative side of a plane.
-fn remove_dots(mesh: &mut WorldMesh, plane: Plane<World>) {
+fn remove_dots(mesh: &mut WorldMesh, plane: SectionPlane<World>) {
     let dots = std::mem::take(&mut mesh.dots);
     let position = |dot: &Dot| Point::from_raw(mesh.points[dot.point as usize]);
-    let is_retained = |dot: &Dot| !mesh.is_cut(dot.object) || plane.evaluate(position(dot)) >= 0.0;
+    let is_retained = |dot: &Dot| !mesh.is_cut(dot.object) || plane.height(position(dot)) >= 0.0;
     mesh.dots = dots.into_iter().filter(is_retained).collect();
 }
 
@@ -313,7 +317,8 @@ mod tests {
         let [x, y, z] = normal;
         let normal = Normal::new(x, y, z).normalized().expect("a direction");
         let mut warnings = Vec::new();
-        cut_mesh(&mut mesh, &[], Plane::through(point.into(), normal), 0, &mut warnings);
+        let plane = Plane::through(point.into(), normal);
+        cut_mesh(&mut mesh, &[], plane.into(), 0, &mut warnings);
         weld_equal_vertices(&mut mesh);
         assert!(warnings.is_empty(), "{warnings:?}");
         let caps = mesh.section_caps();
@@ -370,7 +375,7 @@ mod tests {
         let cut = |height: f64| {
             let mut mesh = solid_of_revolution(&CYLINDER, 8);
             let plane = Plane::through(Point::new(0.0, height, 0.0), Normal::new(0.0, -1.0, 0.0));
-            cut_mesh(&mut mesh, &[], plane, 0, &mut Vec::new());
+            cut_mesh(&mut mesh, &[], plane.into(), 0, &mut Vec::new());
             (mesh.faces.len(), mesh.section_edges.len())
         };
         let whole = solid_of_revolution(&CYLINDER, 8).faces.len();
@@ -385,7 +390,7 @@ mod tests {
         let hard = EdgeVisibility::Hard;
         mesh.faces.iter_mut().for_each(|face| face.edge_visibility = Some([hard; 3]));
         let plane = Plane::through(Point::new(0.0, 1.0, 0.0), Normal::new(0.0, -1.0, 0.0));
-        cut_mesh(&mut mesh, &[], plane, 0, &mut Vec::new());
+        cut_mesh(&mut mesh, &[], plane.into(), 0, &mut Vec::new());
         let sides = mesh.faces.iter().filter(|face| face.cap_section.is_none());
         for face in sides {
             let marks = face.edge_visibility.expect("marks");

@@ -21,6 +21,7 @@ use super::world_mesh::{Dot, Face, WorldMesh};
 use crate::projector::Projector;
 use crate::visibility::{Aabb, Bvh, DepthCover, Tolerance, TriangleMesh, mesh_bvh};
 use crate::{DrawOptions, EdgeClass, EdgeClasses, SilhouetteMethod, Warning};
+use clip::SectionPlane;
 use glam::DVec3;
 use homog::{Plane, Point, World};
 use model::ModelInstance;
@@ -155,7 +156,8 @@ impl WeldedSurface {
 
     /// Cuts the mesh with a section plane, caps it, and welds it again.
     fn cut_by_plane(&mut self, plane: Plane<World>, index: u16) {
-        let Self { mesh, fillings, warnings, .. } = self;
+        let Self { mesh, fillings, warnings, diagonal, .. } = self;
+        let plane = SectionPlane::for_size(plane, *diagonal);
         cut_mesh(mesh, fillings, plane, index, warnings);
         self.reweld();
     }

@@ -8,6 +8,7 @@
 
 mod edges;
 mod nearly_touching;
+mod section_rounding;
 mod sections;
 mod smoothness;
 mod solids;

@@ -1,11 +1,9 @@
 //! Lint for section planes that cut nothing: all models are on one side.
 
 use super::{Lint, Linter};
+use clip::SectionPlane;
 use homog::{Bounds, Point, World};
 use scene_file::PathStep::{Field, Index};
-
-/// Distances up to this fraction of the models' diagonal count as touching.
-const TOUCHING: f64 = 1e-9;
 
 /// Warns about sections that remove all models or touch none of them.
 ///
@@ -18,17 +16,17 @@ pub(super) fn lint_idle_sections(adviser: &Linter<'_>) -> Vec<Lint> {
     }
     let points = adviser.scene.world_points();
     let Some(bounds) = Bounds::from_points(points.iter().copied()) else { return Vec::new() };
-    // A plane flush with a face touches the models without cutting them.
-    let tolerance = TOUCHING * bounds.diagonal();
     let mut advice = Vec::new();
     for (number, plane) in adviser.scene.sections.iter().enumerate() {
-        let (least, most) = distance_range(plane, &points);
-        let (code, message) = if most <= tolerance {
+        // A plane flush with a face touches the models without cutting them.
+        let section = SectionPlane::for_size(*plane, bounds.diagonal());
+        let (least, most) = height_range(section, &points);
+        let (code, message) = if most <= 0.0 {
             (
                 "section-removes-all",
                 "this section removes everything: all models are on the side its normal points to",
             )
-        } else if least >= -tolerance {
+        } else if least >= 0.0 {
             (
                 "section-misses",
                 "this section cuts nothing: no model is on the side its normal points to",
@@ -46,12 +44,12 @@ pub(super) fn lint_idle_sections(adviser: &Linter<'_>) -> Vec<Lint> {
     advice
 }
 
-/// Returns the smallest and largest signed distances of the points from a plane.
-fn distance_range(plane: &homog::Plane<World>, points: &[Point<World>]) -> (f64, f64) {
+/// Returns the smallest and largest heights of the points above a section plane.
+fn height_range(section: SectionPlane<World>, points: &[Point<World>]) -> (f64, f64) {
     points
         .iter()
-        .map(|&point| plane.evaluate(point))
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), distance| {
-            (least.min(distance), most.max(distance))
+        .map(|&point| section.height(point))
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), height| {
+            (least.min(height), most.max(height))
         })
 }

@@ -2,7 +2,7 @@
 //! scale fits in either orientation.
 
 #[path = "../../../../tests/skip.rs"]
-mod skip;
+pub mod skip;
 
 use super::boxes::{PAPERS, Random, box_model, sheet};
 use super::lint::{faults, layer_extent};

@@ -16,6 +16,7 @@ mod overlays;
 mod parts_models;
 mod sections;
 mod separation;
+mod shared_parts;
 mod styles;
 mod symmetry_lines;
 mod title_blocks;
