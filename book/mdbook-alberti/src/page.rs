@@ -69,7 +69,10 @@ impl Renderer<'_> {
         let mut edits = Vec::new();
         self.edit_headings(page, &mut edits, &mut faults);
         if page.marks.fences.len() != page.english.fences.len() {
-            faults.push(format!("{}.md: the translation has a different number of fenced blocks", page.name));
+            faults.push(format!(
+                "{}.md: the translation has a different number of fenced blocks",
+                page.name
+            ));
         }
         let mut done: Vec<Range<usize>> = Vec::new();
         for (fence, source) in page.marks.fences.iter().zip(&page.english.fences) {
@@ -111,7 +114,10 @@ impl Renderer<'_> {
     /// Gives headings the ids of the English headings, so that links work in every language.
     fn edit_headings(&self, page: &Page, edits: &mut Vec<Edit>, faults: &mut Vec<String>) {
         if page.marks.headings.len() != page.english.headings.len() {
-            faults.push(format!("{}.md: the translation has a different number of headings", page.name));
+            faults.push(format!(
+                "{}.md: the translation has a different number of headings",
+                page.name
+            ));
         }
         let ids = page.english.heading_ids();
         for (heading, id) in page.marks.headings.iter().zip(ids) {

@@ -18,7 +18,11 @@ pub fn message_faults(msgid: &str, msgstr: &str) -> Vec<String> {
         if !lost.is_empty() || !new.is_empty() {
             faults.push(format!("{what}: missing {lost:?}, added {new:?}"));
         } else if before.len() != after.len() {
-            faults.push(format!("{what}: {} in the source, {} in the translation", before.len(), after.len()));
+            faults.push(format!(
+                "{what}: {} in the source, {} in the translation",
+                before.len(),
+                after.len()
+            ));
         }
     }
     if !source.text.contains(['*', '_']) && translated.text.contains(['*', '_']) {
