@@ -1,7 +1,7 @@
-//! Generates a module for each page of the book, whose documentation contains the page's Rust code.
+//! Generates a module for each page of the book, with the page's Rust code as its documentation.
 //!
-//! All other lines are empty, so a failing doctest reports the line number in the page. Figures,
-//! formulas and outputs are omitted because rustdoc would warn about their blocks.
+//! The page's other lines are left empty, so a failing doctest reports the line number in the page.
+//! Figures, formulas and commands are omitted because rustdoc would warn about their blocks.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -32,7 +32,7 @@ fn main() {
     fs::write(out.join("pages.rs"), modules).expect("OUT_DIR is writable");
 }
 
-/// Blanks all lines of a page except the Rust blocks and the title, where rustdoc starts counting.
+/// Blanks all lines of a page except the Rust blocks and the title, where rustdoc starts to count.
 fn rust_lines(page: &str) -> String {
     let mut is_rust = false;
     let mut out = String::new();

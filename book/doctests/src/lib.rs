@@ -1,4 +1,4 @@
-//! The Rust code of the book's pages as doctests, in a module named after each page.
+//! The Rust code of the book's pages as doctests, with one module per page.
 //!
 //! `cargo xtask test book` runs them. `build.rs` generates the modules.
 

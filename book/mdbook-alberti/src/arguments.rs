@@ -14,16 +14,16 @@ pub struct Arguments {
     out: Option<PathBuf>,
     program: Option<PathBuf>,
     is_partial: bool,
-    /// The only language to build or check, if specified.
+    /// The only language to build, if specified.
     pub language: Option<String>,
-    /// The minimum coverage in percent.
+    /// The minimum coverage of the translations, in percent.
     pub least: Option<f64>,
     /// Positional arguments.
     pub names: Vec<String>,
 }
 
 impl Arguments {
-    /// Parses the arguments after the command.
+    /// Parses the arguments that follow the command name.
     pub fn parse(words: &[String]) -> Result<Self> {
         let mut out = Self::default();
         let mut words = words.iter();
@@ -46,7 +46,7 @@ impl Arguments {
         Ok(out)
     }
 
-    /// Returns the folders and the program of an edition.
+    /// Returns the folders and the program that the arguments specify, or the defaults.
     pub fn edition(&self) -> Result<Edition> {
         let book = self.book.clone().unwrap_or("book".into());
         let root = self.project.clone().unwrap_or(".".into());

@@ -28,7 +28,7 @@ struct Extracted {
     messages: Vec<String>,
 }
 
-/// Writes `FOLDER/PAGE.pot`.
+/// Writes a template, `FOLDER/PAGE.pot`, for each page.
 pub fn write_templates(arguments: &Arguments) -> Result<()> {
     let [folder] = &arguments.names[..] else { bail!("pot FOLDER") };
     let folder = Path::new(folder);
@@ -39,7 +39,7 @@ pub fn write_templates(arguments: &Arguments) -> Result<()> {
     Ok(())
 }
 
-/// Brings the catalogs up to date.
+/// Updates the catalogs to the current pages, then prints the coverage.
 pub fn update(arguments: &Arguments) -> Result<()> {
     let edition = arguments.edition()?;
     for language in translations() {
@@ -77,7 +77,7 @@ pub fn check(arguments: &Arguments) -> Result<()> {
                     );
                 } else if message.is_fuzzy() {
                     found.push(
-                        "it is marked fuzzy: compare it with the source, then remove the flag"
+                        "this message is fuzzy; compare it with the source, then remove the mark"
                             .into(),
                     );
                 } else if !msgstr.is_empty() {
@@ -90,10 +90,10 @@ pub fn check(arguments: &Arguments) -> Result<()> {
         }
     }
     faults.iter().for_each(|fault| println!("{fault}"));
-    if faults.is_empty() { Ok(()) } else { Err(anyhow!("{} faults", faults.len())) }
+    if faults.is_empty() { Ok(()) } else { Err(anyhow!("{} errors in the catalogs", faults.len())) }
 }
 
-/// Checks that a translated page has the blocks and headings of its source.
+/// Checks that a translated page has as many blocks, captions and headings as its source.
 fn structure_fault(edition: &Edition, name: &str, catalog: &Catalog) -> Result<Option<String>> {
     let path = edition.source.join(format!("{name}.md"));
     if name == SUMMARY || !path.is_file() {
@@ -115,7 +115,7 @@ fn structure_fault(edition: &Edition, name: &str, catalog: &Catalog) -> Result<O
     }))
 }
 
-/// Prints the translated percentage of each page.
+/// Prints the translated percentage of each page; fails if a total is below the minimum.
 pub fn coverage(arguments: &Arguments) -> Result<()> {
     let edition = arguments.edition()?;
     let mut all_complete = true;

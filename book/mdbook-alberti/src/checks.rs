@@ -1,4 +1,4 @@
-//! Checks the built book: links and anchors, sizes, ids, topics, figures in the repository.
+//! Checks the pages and the built book: links and anchors, sizes, ids, topics, committed figures.
 
 use crate::arguments::Arguments;
 use crate::edition::Edition;
@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The largest page with its figures, in bytes.
+/// The maximum size of a page with its figures, in bytes.
 const PAGE_LIMIT: u64 = 400_000;
 
 /// The error for a link to a missing file.
@@ -23,7 +23,7 @@ const NO_FILE: &str = "the file does not exist";
 /// The page that lists every misprint.
 const MISPRINTS: &str = "printed-wrong";
 
-/// Runs all checks and prints the counts.
+/// Runs all checks; prints counts and errors.
 pub fn check(arguments: &Arguments) -> Result<()> {
     let edition = arguments.edition()?;
     let mut faults = source_faults(&edition)?;
@@ -72,7 +72,7 @@ fn source_faults(edition: &Edition) -> Result<Vec<String>> {
     Ok(faults)
 }
 
-/// Finds marks that a page loses when it is split into messages and reassembled.
+/// Describes the first mark that changes when a page is split into messages and reassembled.
 fn round_trip_fault(text: &str) -> Option<String> {
     let again = match translate_page(text, &Catalog::new(CatalogMetadata::new())) {
         Ok(again) => again,
@@ -108,7 +108,7 @@ fn unnamed_misprints(topics: &Topics, pages: &[Page]) -> Vec<String> {
         .collect()
 }
 
-/// Finds pictures among the repository's files.
+/// Finds pictures among the committed files of the book.
 fn committed_figures(edition: &Edition) -> Result<Vec<String>> {
     let mut git = std::process::Command::new("git");
     let output = git.current_dir(&edition.book).args(["ls-files", "."]).output();
@@ -152,7 +152,7 @@ fn edition_faults(folder: &Path, edition: &Edition) -> Result<Vec<String>> {
         faults.extend(
             repeated_ids(html)
                 .iter()
-                .map(|id| format!("{}: the id `{id}` appears twice", path.display())),
+                .map(|id| format!("{}: the id `{id}` appears more than once", path.display())),
         );
     }
     pages.insert(path, print);
@@ -192,7 +192,7 @@ fn repeated_ids(html: &str) -> Vec<&str> {
     attributes(html, &["id"]).filter(|id| !seen.insert(*id)).collect()
 }
 
-/// Returns the values of attributes outside scripts.
+/// Returns the values of the named attributes outside scripts.
 fn attributes<'a>(html: &'a str, names: &'a [&str]) -> impl Iterator<Item = &'a str> {
     let parts = html.split("<script").enumerate().map(|(at, part)| {
         if at == 0 { part } else { part.split_once("</script>").map_or("", |(_, rest)| rest) }
@@ -209,7 +209,7 @@ fn attributes<'a>(html: &'a str, names: &'a [&str]) -> impl Iterator<Item = &'a 
     })
 }
 
-/// Returns the reason why a link is broken.
+/// Returns why a link is broken, or `None` if it works or needs no check.
 fn link_fault(
     page: &Path,
     link: &str,
@@ -227,7 +227,7 @@ fn link_fault(
     if !target.is_file() {
         return Some(NO_FILE);
     }
-    // The explorer reads its state from the fragment.
+    // A fragment of the explorer's page is its state, not an anchor.
     let anchor = anchor.filter(|_| !target.ends_with("explorer/index.html"))?;
     let html = pages.get(&target).or_else(|| {
         let read = cache.entry(target.clone()).or_insert_with(|| fs::read_to_string(&target).ok());

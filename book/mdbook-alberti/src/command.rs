@@ -9,10 +9,10 @@ use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-/// The time limit of a command.
+/// The time limit for one command.
 const LIMIT: Duration = Duration::from_secs(60);
 
-/// The number of commands that run at the same time.
+/// The maximum number of commands that run at the same time.
 const THREADS: usize = 2;
 
 /// The maximum depth of references between files: a scene, its model, the model's images.
@@ -59,7 +59,7 @@ impl Job {
     pub fn parse(line: &str, kind: Kind) -> Result<Self, String> {
         let line = line.trim().replace("\\\n", " ");
         if line.contains('\n') {
-            return Err("a block must contain one command; `\\` at the end continues a line".into());
+            return Err("a block must contain one command; use `\\` to continue a line".into());
         }
         let words = shlex::split(&line).ok_or("unclosed quotation mark")?;
         match words.split_first() {
@@ -80,7 +80,7 @@ pub struct Runner {
 }
 
 impl Runner {
-    /// Creates a runner of `program` in the folder `root`.
+    /// Creates a runner for `program` with the working directory `root`.
     pub fn new(program: &Path, root: &Path, cache: &Path) -> Result<Self, String> {
         let error = |path: &Path, error: std::io::Error| format!("{}: {error}", path.display());
         let program = program.canonicalize().map_err(|found| error(program, found))?;
@@ -90,8 +90,7 @@ impl Runner {
         Ok(Self { program_hash: hash(&bytes), program, root: root.to_owned(), cache })
     }
 
-    /// Runs the commands that are not in the cache. The result for each job is a file or an error
-    /// message.
+    /// Returns each job's output file or error message; commands with cached output do not run.
     pub fn run_all(&self, jobs: &[Job]) -> Vec<Result<PathBuf, String>> {
         let next = Mutex::new(0);
         let answers: Mutex<Vec<Result<PathBuf, String>>> =
@@ -156,7 +155,7 @@ fn take_next(next: &Mutex<usize>, count: usize) -> Option<usize> {
     (at < count).then_some(at)
 }
 
-/// Collects a file and the files that it names in quotation marks.
+/// Collects a file and, if it is a text format, the files that it names in quotation marks.
 fn collect_inputs(path: &Path, depth: usize, found: &mut BTreeSet<PathBuf>) {
     if !path.is_file() || !found.insert(path.to_owned()) || depth == 0 {
         return;
@@ -174,7 +173,7 @@ pub fn hash(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Runs a command until it exits or reaches the time limit, and returns its output.
+/// Runs a command and returns its output; a command that exceeds the time limit is an error.
 fn run_limited(command: &mut Command) -> Result<Vec<u8>, String> {
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().map_err(|error| error.to_string())?;
@@ -188,10 +187,10 @@ fn run_limited(command: &mut Command) -> Result<Vec<u8>, String> {
             break status;
         }
         if start.elapsed() > LIMIT {
-            // This fails if the command has just exited, which does no harm.
+            // Killing a command that has just exited fails, but that is harmless.
             let _ = child.kill();
             let _ = child.wait();
-            return Err(format!("the command took more than {} s", LIMIT.as_secs()));
+            return Err(format!("the command exceeded the time limit of {} s", LIMIT.as_secs()));
         }
         std::thread::sleep(Duration::from_millis(5));
     };

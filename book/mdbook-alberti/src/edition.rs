@@ -1,4 +1,4 @@
-//! An edition: the book in one language, built to a folder.
+//! Editions: builds the book in one language into a folder.
 
 use crate::figure::copy_figures;
 use crate::language::Language;
@@ -13,7 +13,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
-/// An edition: its sources, its language and its output.
+/// The sources, program and output folder from which editions are built.
 pub struct Edition {
     /// The folder that contains `book.toml`.
     pub book: PathBuf,
@@ -23,16 +23,16 @@ pub struct Edition {
     pub catalogs: PathBuf,
     /// The working directory of the commands in the pages.
     pub root: PathBuf,
-    /// The path of the program.
+    /// The path of the `alberti` program.
     pub program: PathBuf,
-    /// The output folder for `en`, `zh` and the figure cache.
+    /// The folder in which `en`, `zh` and the figure cache are created.
     pub out: PathBuf,
     /// Whether pages in the table of contents may be missing.
     pub is_partial: bool,
 }
 
 impl Edition {
-    /// Reads the table of contents. A partial edition omits missing pages.
+    /// Reads the table of contents, without the missing pages if the edition is partial.
     pub fn summary(&self) -> Result<Summary> {
         let own = self.source.join("SUMMARY.md");
         let path = if own.is_file() { own } else { self.book.join("src/SUMMARY.md") };
@@ -68,7 +68,7 @@ impl Edition {
         self.source.join(location).is_file()
     }
 
-    /// Builds the book in a language.
+    /// Builds the book in the given language.
     pub fn build(&self, language: Language) -> Result<()> {
         let out = self.out.join(language.code());
         let config = self.config(language, &out)?;

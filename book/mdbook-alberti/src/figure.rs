@@ -1,4 +1,4 @@
-//! Figures: the attributes of a block, and the element in the page.
+//! Figures: parses the marked blocks and writes the HTML elements.
 
 use crate::command::{Job, Kind, hash};
 use crate::language::Language;
@@ -6,20 +6,20 @@ use crate::marks::Fence;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The maximum width of a figure in CSS pixels, which is the width of the text column.
+/// The maximum width of a figure in CSS pixels, equal to the width of the text column.
 const WIDEST: f64 = 640.0;
 
-/// The attributes of a block ```` ```alberti ````.
+/// The parsed contents of a block ```` ```alberti ````.
 #[derive(PartialEq, Eq, Debug)]
 pub struct FigureMark {
     /// The command that draws the figure.
     pub job: Job,
-    /// The query string with which the explorer shows the same state.
+    /// The query string that shows the figure's state in the explorer, if specified.
     pub explore: Option<String>,
 }
 
 impl FigureMark {
-    /// Parses a block.
+    /// Parses a block, which must have a caption.
     pub fn parse(fence: &Fence) -> Result<Self, String> {
         let (mut kind, mut explore) = (Kind::Svg, None);
         let words = shlex::split(fence.arguments()).ok_or("unclosed quotation mark")?;
@@ -50,7 +50,7 @@ impl FigureMark {
 
 /// A figure that has been drawn.
 pub struct Figure<'a> {
-    /// The file name in the cache.
+    /// The file in the cache.
     pub path: &'a Path,
     /// The caption as HTML.
     pub caption: &'a str,
@@ -63,7 +63,7 @@ pub struct Figure<'a> {
 }
 
 impl Figure<'_> {
-    /// Writes the element as a single line of HTML.
+    /// Returns the element as a single line of HTML.
     pub fn to_html(&self) -> Result<String, String> {
         let bytes =
             fs::read(self.path).map_err(|error| format!("{}: {error}", self.path.display()))?;
@@ -91,7 +91,7 @@ pub fn escape_attribute(text: &str) -> String {
     text.replace('&', "&amp;").replace('"', "&quot;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-/// Returns the width and height in CSS pixels.
+/// Returns the width and height of a PNG or SVG file in CSS pixels.
 fn size(bytes: &[u8]) -> Option<(f64, f64)> {
     if bytes.starts_with(b"\x89PNG") {
         let number = |at: usize| {
@@ -115,7 +115,7 @@ fn size(bytes: &[u8]) -> Option<(f64, f64)> {
     Some((length("width")?, length("height")?))
 }
 
-/// Copies the figures of a page to the folder next to it.
+/// Copies figures to a folder, which is created if it is missing.
 pub fn copy_figures(paths: &[PathBuf], folder: &Path) -> Result<(), String> {
     fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     for path in paths {

@@ -12,7 +12,7 @@ impl Formulas {
         converter.map(Self).map_err(|error| format!("{error:?}"))
     }
 
-    /// Converts an inline formula, and escapes characters that have a meaning in Markdown.
+    /// Converts an inline formula, and escapes Markdown's special characters in the result.
     pub fn inline(&self, latex: &str) -> Result<String, String> {
         Ok(escape_markdown(&self.convert(latex, MathDisplay::Inline)?))
     }
@@ -45,7 +45,7 @@ fn without_comments(latex: &str) -> String {
     latex.lines().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// Escapes characters in the text between tags that have a meaning in Markdown.
+/// Escapes Markdown's special characters in the text between tags.
 fn escape_markdown(html: &str) -> String {
     let mut out = String::new();
     let mut in_tag = false;

@@ -11,15 +11,15 @@ pub enum Language {
 
 /// The tool's labels in one language.
 pub struct Texts {
-    /// The link below a figure.
+    /// The text of the link below a figure.
     pub explore: &'static str,
-    /// The link to this language in the other editions.
+    /// The text of the link to this edition in the other editions.
     pub name: &'static str,
     /// The heading above the table of contents of the printed book.
     pub contents: &'static str,
     /// The column headings of the topic table.
     pub topics: [&'static str; 3],
-    /// The separator between a page and its section.
+    /// The separator between a page title and a section title, also used in tooltips.
     pub colon: &'static str,
     /// The word for a topic, used in the tooltip of its mark.
     pub topic: &'static str,
@@ -31,14 +31,14 @@ impl Language {
     /// All languages.
     pub const ALL: [Self; 2] = [Self::English, Self::Chinese];
 
-    /// Returns the language with a code: `en` or `zh`.
+    /// Returns the language with the given code, `en` or `zh`.
     pub fn parse(code: &str) -> Result<Self, String> {
         let mut all = Self::ALL.into_iter();
         all.find(|language| language.code() == code)
             .ok_or(format!("unknown language `{code}`; expected en or zh"))
     }
 
-    /// The language code, for paths and attributes.
+    /// Returns the language code, for paths and attributes.
     pub fn code(self) -> &'static str {
         match self {
             Self::English => "en",
@@ -46,7 +46,7 @@ impl Language {
         }
     }
 
-    /// The tool's labels in this language.
+    /// Returns the tool's labels in this language.
     pub fn texts(self) -> Texts {
         match self {
             Self::English => Texts {

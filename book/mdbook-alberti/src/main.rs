@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! mdbook-alberti                         run as a preprocessor: reads a book from stdin, writes it to stdout
-//! mdbook-alberti supports RENDERER       report that a renderer is supported: all are
-//! mdbook-alberti build --program FILE    build both editions, or --language CODE; --partial allows missing pages
+//! mdbook-alberti supports RENDERER       exit successfully: every renderer is supported
+//! mdbook-alberti build --program FILE    build both editions, or only --language CODE; --partial allows missing pages
 //! mdbook-alberti pot FOLDER              write catalog templates, one for each page
 //! mdbook-alberti update [PAGE…]          update the catalogs to the current pages
 //! mdbook-alberti check-po [PAGE…]        list errors in the catalogs
@@ -82,7 +82,7 @@ fn preprocess() -> Result<()> {
 fn build(arguments: &Arguments) -> Result<()> {
     let edition = arguments.edition()?;
     if edition.program.as_os_str().is_empty() {
-        return Err(anyhow!("--program FILE is required: the program that draws the figures"));
+        return Err(anyhow!("--program FILE is required; FILE must be the `alberti` program"));
     }
     let languages = match &arguments.language {
         Some(code) => vec![Language::parse(code).map_err(|error| anyhow!(error))?],

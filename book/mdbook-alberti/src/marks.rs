@@ -3,7 +3,7 @@
 use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
 use std::ops::Range;
 
-/// A fenced code block, and the paragraph after it if this is emphasized as a whole.
+/// A fenced code block with its caption, if any.
 #[derive(Debug)]
 pub struct Fence {
     /// The position in the text.
@@ -14,7 +14,7 @@ pub struct Fence {
     pub info: String,
     /// The text between the fences.
     pub body: String,
-    /// The emphasized paragraph after the block.
+    /// The paragraph after the block, if it is emphasized as a whole.
     pub caption: Option<Caption>,
 }
 
@@ -48,7 +48,7 @@ pub struct CodeSpan {
     pub line: usize,
     /// The text between the backticks.
     pub code: String,
-    /// The number of headings that begin before it.
+    /// The number of headings that begin before the span.
     pub section: usize,
 }
 
@@ -59,9 +59,9 @@ pub struct Heading {
     pub range: Range<usize>,
     /// The level: 1 for the page title.
     pub level: usize,
-    /// The text without markup and topics.
+    /// The text without markup and topic marks.
     pub text: String,
-    /// Whether the source specifies an id.
+    /// The id that the source specifies, if any.
     pub id: Option<String>,
 }
 
@@ -91,13 +91,13 @@ pub fn is_topic(code: &str) -> bool {
     }
 }
 
-/// Returns the LaTeX in a code span that begins and ends with a dollar sign.
+/// Returns the LaTeX of a code span if the span begins and ends with a dollar sign.
 pub fn inline_formula(code: &str) -> Option<&str> {
     let inner = code.strip_prefix('$')?.strip_suffix('$')?;
     (!inner.is_empty()).then_some(inner)
 }
 
-/// Creates a parser with the extensions that mdBook uses; smart punctuation is off in both.
+/// Creates a parser with the extensions that mdBook enables for the book.
 pub fn parse(text: &str) -> Parser<'_> {
     let options = Options::ENABLE_TABLES
         | Options::ENABLE_FOOTNOTES
@@ -203,7 +203,7 @@ fn read_fence(
     }
 }
 
-/// Returns the first paragraph if it is emphasized as a whole.
+/// Returns the paragraph at the start of `events` if it is emphasized as a whole.
 fn read_caption(text: &str, events: &[(Event<'_>, Range<usize>)]) -> Option<Caption> {
     let [(Event::Start(Tag::Paragraph), paragraph), (Event::Start(Tag::Emphasis), emphasis), ..] =
         events
@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn blocks_captions_and_headings_have_line_numbers() {
+    fn blocks_captions_headings_and_spans_are_found() {
         let text = "# Title `C4`\n\n```alberti format=png\nalberti render\n```\n\n*A *b* `$x$`.*\n\n## A `$z$` b\n\n\
             ```text\nx\n```\n\n*half* of it\n";
         let marks = Marks::read(text);

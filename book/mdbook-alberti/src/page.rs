@@ -11,10 +11,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::PathBuf;
 
-/// The outputs of the commands in all pages.
+/// The output file of each command in the book, or an error message.
 pub type Answers = BTreeMap<Job, Result<PathBuf, String>>;
 
-/// A page in a language.
+/// A page of an edition.
 pub struct Page {
     /// The file name without `.md`.
     pub name: String,
@@ -24,11 +24,11 @@ pub struct Page {
     pub english: Marks,
     /// The text in the edition's language.
     pub text: String,
-    /// The marks of that text.
+    /// The marks of `text`.
     pub marks: Marks,
 }
 
-/// Data that all pages share.
+/// A renderer of pages, with the data that all pages share.
 pub struct Renderer<'a> {
     /// The edition's language.
     pub language: Language,
@@ -36,7 +36,7 @@ pub struct Renderer<'a> {
     pub formulas: &'a Formulas,
     /// The outputs of the commands.
     pub answers: &'a Answers,
-    /// The topics marked on all pages.
+    /// The topics, with titles in the edition's language.
     pub topics: &'a Topics,
     /// The topic table as Markdown.
     pub topics_table: &'a str,
@@ -44,7 +44,7 @@ pub struct Renderer<'a> {
     pub has_explorer: bool,
 }
 
-/// The replacement of part of a text.
+/// A range of a text and its replacement.
 type Edit = (Range<usize>, String);
 
 /// Returns the command of a block, if any.
@@ -69,7 +69,7 @@ impl Renderer<'_> {
         let mut edits = Vec::new();
         self.edit_headings(page, &mut edits, &mut faults);
         if page.marks.fences.len() != page.english.fences.len() {
-            faults.push(format!("{}.md: the translation has different fenced blocks", page.name));
+            faults.push(format!("{}.md: the translation adds or loses fenced blocks", page.name));
         }
         let mut done: Vec<Range<usize>> = Vec::new();
         for (fence, source) in page.marks.fences.iter().zip(&page.english.fences) {
@@ -102,7 +102,7 @@ impl Renderer<'_> {
         }
     }
 
-    /// Returns the line of a code span in the English source.
+    /// Returns the line number of a code span in the English source, or `in the translation`.
     fn line(&self, page: &Page, span: &CodeSpan) -> String {
         let mut same = page.english.spans.iter().filter(|other| other.code == span.code);
         same.next().map_or("in the translation".into(), |other| other.line.to_string())
@@ -111,7 +111,7 @@ impl Renderer<'_> {
     /// Gives headings the ids of the English headings, so that links work in every language.
     fn edit_headings(&self, page: &Page, edits: &mut Vec<Edit>, faults: &mut Vec<String>) {
         if page.marks.headings.len() != page.english.headings.len() {
-            faults.push(format!("{}.md: the translation has different headings", page.name));
+            faults.push(format!("{}.md: the translation adds or loses headings", page.name));
         }
         let ids = page.english.heading_ids();
         for (heading, id) in page.marks.headings.iter().zip(ids) {
@@ -122,7 +122,7 @@ impl Renderer<'_> {
         }
     }
 
-    /// Renders a fenced block as a line of HTML, or returns `None` if it is not a mark.
+    /// Renders a fenced block, or returns `None` if it is ordinary code.
     fn block(&self, fence: &Fence) -> Result<Option<String>, String> {
         match fence.kind() {
             "alberti" => self.figure(fence).map(Some),
@@ -161,8 +161,8 @@ impl Renderer<'_> {
             "<span class=\"command\">$ {command}</span>\n{}",
             escape_attribute(text.trim_end())
         );
-        // Line breaks are written as character references, so the block stays one line of Markdown,
-        // even in a list.
+        // Line breaks are written as character references, so the block stays on one line of
+        // Markdown, even in a list.
         let shown = shown.replace('\n', "&#10;");
         Ok(format!(
             "<pre class=\"explain\"><code class=\"language-text nohighlight\">{shown}</code></pre>"
@@ -177,7 +177,7 @@ impl Renderer<'_> {
         }
     }
 
-    /// Renders a code span that is a mark. The first mark of a topic on a page is its anchor.
+    /// Renders a code span if it is a mark. A topic's first mark on a page is an anchor.
     fn span(&self, code: &str, seen: &mut BTreeSet<String>) -> Result<Option<String>, String> {
         if let Some(latex) = inline_formula(code) {
             return self.formulas.inline(latex).map(Some);
@@ -236,7 +236,7 @@ fn apply(text: &str, mut edits: Vec<Edit>) -> String {
     out + &text[at..]
 }
 
-/// Strips markup, topics and dollar signs from Markdown.
+/// Strips markup, topic marks and the dollar signs of formulas from Markdown.
 pub fn plain_text(markdown: &str) -> String {
     let text = parse(markdown).filter_map(|event| match event {
         Event::Text(text) => Some(text.to_string()),

@@ -32,8 +32,8 @@ pub struct Alberti {
 }
 
 impl Alberti {
-    /// Creates the preprocessor as mdBook runs it, with the default folders and the program in the
-    /// environment variable `ALBERTI`.
+    /// Creates the preprocessor for plain mdBook, with the default folders and the program that the
+    /// environment variable `ALBERTI` specifies, if any.
     pub fn by_place(context: &PreprocessorContext) -> Self {
         let root = context.root.parent().unwrap_or(Path::new(".")).to_owned();
         Self {
@@ -99,7 +99,7 @@ impl Alberti {
     /// Runs each command in the pages once.
     fn run_commands(&self, pages: &[Page], language: Language) -> Result<Answers, Vec<String>> {
         let fences = pages.iter().flat_map(|page| &page.marks.fences);
-        // Invalid commands are reported with their lines when the page is rendered.
+        // Invalid commands are reported with line numbers when their pages are rendered.
         let jobs: BTreeSet<Job> =
             fences.filter_map(|fence| block_job(fence, language)?.ok()).collect();
         let jobs: Vec<Job> = jobs.into_iter().collect();
@@ -118,7 +118,7 @@ impl Alberti {
         Ok(jobs.into_iter().zip(answers).collect())
     }
 
-    /// Returns the topics with their titles in a language.
+    /// Returns the topics, with titles in the given language.
     fn topics(&self, language: Language, folder: &Path) -> Result<Topics, String> {
         let path = self.root.join("tests/CONFORMANCE.md");
         let table = std::fs::read_to_string(&path)

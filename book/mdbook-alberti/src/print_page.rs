@@ -1,5 +1,4 @@
-//! The page with the whole book, `print.html`: adds a title and a table of contents before the
-//! chapters.
+//! Adds a title and a table of contents to `print.html`, the page that contains the whole book.
 
 use crate::language::Language;
 use anyhow::{Context as _, Result, anyhow};
@@ -51,7 +50,7 @@ pub fn headings(html: &str) -> Vec<(u8, &str, String)> {
     out.into_iter().map(|(_, level, id, text)| (level, id, text)).collect()
 }
 
-/// Removes links from the HTML of a heading: topic marks are dropped, other link text stays.
+/// Removes links from the HTML of a heading: drops topic marks, and keeps the text of other links.
 fn without_links(html: &str) -> String {
     let mut out = String::new();
     let mut rest = html.trim_end_matches("</a>");
@@ -70,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_table_of_contents_lists_headings_without_topics() {
+    fn the_table_of_contents_omits_topic_marks() {
         let html = "<h1 id=\"a\"><a class=\"header\" href=\"#a\">A <a class=\"topic\" href=\"#C1\">C1</a></a></h1>\
             <h3 id=\"x\"><a class=\"header\" href=\"#x\">X</a></h3><h2 id=\"b\"><a class=\"header\" href=\"#b\"><em>B</em></a></h2>";
         let expected = [(1, "a", "A".to_owned()), (2, "b", "<em>B</em>".to_owned())];

@@ -46,7 +46,7 @@ struct Parts {
     codes: Vec<String>,
     links: Vec<String>,
     paragraphs: usize,
-    /// The text, in which a code span is replaced by `⌷` and a topic mark by a word joiner.
+    /// The text, with each code span replaced by `⌷` and each topic mark by a word joiner.
     text: String,
 }
 
@@ -73,12 +73,12 @@ impl Parts {
     }
 }
 
-/// Returns whether a character is Han.
+/// Returns whether a character is a Han character.
 pub fn is_han(letter: char) -> bool {
     ('\u{4e00}'..='\u{9fff}').contains(&letter)
 }
 
-/// Finds Latin punctuation after Han characters, and missing spaces between the two scripts.
+/// Finds wrong punctuation after Han characters, and missing or superfluous spaces.
 fn han_faults(text: &str) -> Vec<String> {
     let letters: Vec<char> = text.chars().collect();
     let mut faults = Vec::new();

@@ -6,8 +6,7 @@ use crate::page::Page;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// The page that collects misprints; if a topic is also covered elsewhere, that section is listed
-/// first.
+/// The page that collects misprints. The topic table lists the sections of other pages first.
 const MISPRINTS: &str = "printed-wrong";
 
 /// Pages that mention topics without covering them.
@@ -36,7 +35,7 @@ impl Topics {
         Self { list }
     }
 
-    /// Returns the topics with replaced titles.
+    /// Returns the topics with translated titles.
     pub fn translated(&self, translate: impl Fn(&str) -> String) -> Self {
         let list = self.list.iter().map(|(id, title)| (id.clone(), translate(title))).collect();
         Self { list }
@@ -57,7 +56,7 @@ impl Topics {
         self.list.iter().find(|(other, _)| other == id).map_or("", |(_, title)| title)
     }
 
-    /// Renders the table as Markdown.
+    /// Renders the topic table as Markdown.
     pub fn table(&self, pages: &[Page], language: Language) -> String {
         let places = places(pages);
         let [id, topic, place] = language.texts().topics;
@@ -99,7 +98,7 @@ fn places(pages: &[Page]) -> BTreeMap<&str, Vec<(&Page, usize)>> {
     places
 }
 
-/// Writes a link to a topic's mark, with page and section.
+/// Returns a link to a topic's mark, labeled with the titles of the page and the section.
 fn link(page: &Page, section: usize, id: &str, colon: &str) -> String {
     let heading = section.checked_sub(1).and_then(|at| page.marks.headings.get(at));
     let section = heading

@@ -19,7 +19,7 @@ pub fn read_catalog(path: &Path) -> Result<Catalog, String> {
     }
     // The library panics if a header field is missing.
     let parsed = std::panic::catch_unwind(|| po_file::parse(path)).map_err(|_| {
-        format!("{}: the header is incomplete; run `update` to write one", path.display())
+        format!("{}: the header is incomplete; copy it from another catalog", path.display())
     })?;
     parsed.map_err(|error| format!("{}: {error}", path.display()))
 }
@@ -31,18 +31,18 @@ pub fn find_translation<'a>(catalog: &'a Catalog, msgid: &str) -> Option<&'a str
     message.msgstr().ok().filter(|_| is_usable)
 }
 
-/// Translates a page.
+/// Translates a page; messages without a translation stay in English.
 pub fn translate_page(text: &str, catalog: &Catalog) -> Result<String, String> {
     let events = extract_events(text, None);
     let translated = translate_events(&events, catalog).map_err(|error| error.to_string())?;
     let translated = emphasis_as_html(translated);
     let (text, _) = reconstruct_markdown(&translated, None)
-        .map_err(|error| format!("the markup of a translation differs from the source: {error}"))?;
+        .map_err(|error| format!("a translation's markup does not match the source: {error}"))?;
     Ok(translate_summaries(&text, catalog))
 }
 
-/// Writes emphasis as HTML elements, except for whole paragraphs: Markdown recognizes `_` only
-/// between spaces or punctuation, and Han text has no spaces between words.
+/// Converts emphasis to HTML elements, except for whole paragraphs: Markdown recognizes `_` only
+/// next to spaces or punctuation, and Han text has no spaces between words.
 fn emphasis_as_html(mut events: Vec<(usize, Event<'_>)>) -> Vec<(usize, Event<'_>)> {
     let mut open: Vec<usize> = Vec::new();
     for at in 0..events.len() {
@@ -67,13 +67,13 @@ fn emphasis_as_html(mut events: Vec<(usize, Event<'_>)>) -> Vec<(usize, Event<'_
     events
 }
 
-/// Translates a title or another short text.
+/// Translates a title or another short text, which stays unchanged if it has no translation.
 pub fn translate_line(text: &str, catalog: &Catalog) -> String {
     find_translation(catalog, text).unwrap_or(text).to_owned()
 }
 
-/// Returns the messages of a page that need a translation, in order and without duplicates. Code
-/// and messages without words are omitted.
+/// Returns the messages of a page that need a translation, without duplicates. The messages are in
+/// order, except that summaries come last. Code and messages without words are omitted.
 pub fn messages(text: &str) -> Result<Vec<String>, String> {
     let marks = Marks::read(text);
     let is_code = |line: usize| {
@@ -96,7 +96,7 @@ pub fn messages(text: &str) -> Result<Vec<String>, String> {
     Ok(out)
 }
 
-/// Returns whether a message contains a word in non-Han letters outside code, HTML and URLs.
+/// Returns whether a message has a word of two or more non-Han letters outside code, HTML and URLs.
 pub fn needs_translation(message: &str) -> bool {
     let words = |text: &str| {
         let mut parts = text.split(|letter: char| !letter.is_alphabetic() || is_han(letter));
@@ -107,7 +107,7 @@ pub fn needs_translation(message: &str) -> bool {
         .any(|(_, event)| matches!(event, Event::Text(text) if words(text)))
 }
 
-/// Returns the text in `<summary>…</summary>`, which the extraction treats as code.
+/// Returns the text of the `<summary>` elements, which the extraction treats as code.
 fn summaries(text: &str) -> impl Iterator<Item = &str> {
     text.split("<summary>")
         .skip(1)
@@ -127,7 +127,7 @@ fn translate_summaries(text: &str, catalog: &Catalog) -> String {
     out
 }
 
-/// Creates a catalog of messages that keeps the translations of an older catalog.
+/// Creates a catalog of `messages` that keeps the translations from an older catalog.
 pub fn update_catalog(page: &str, language: &str, messages: &[String], old: &Catalog) -> Catalog {
     let metadata = CatalogMetadata {
         project_id_version: format!("Alberti, the book: {page}"),
@@ -154,7 +154,7 @@ pub fn update_catalog(page: &str, language: &str, messages: &[String], old: &Cat
     catalog
 }
 
-/// Returns the translation of the obsolete message most similar to a new one.
+/// Returns the translation of the obsolete message most similar to a new one, if similar enough.
 fn most_similar<'a>(msgid: &str, messages: &[String], old: &'a Catalog) -> Option<&'a str> {
     let gone = old.messages().filter(|message| !messages.iter().any(|id| id == message.msgid()));
     let scored = gone

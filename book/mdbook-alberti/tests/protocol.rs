@@ -43,7 +43,7 @@ fn write_project(name: &str, page: &str) -> PathBuf {
     root
 }
 
-/// Builds the book and returns its page.
+/// Builds the book in a language and returns the HTML of its page.
 fn build(root: &Path, language: &str) -> Result<String, String> {
     let command = env!("CARGO_BIN_EXE_mdbook-alberti");
     let toml = format!(
@@ -80,7 +80,7 @@ fn plain_mdbook_builds_both_languages() {
 }
 
 #[test]
-fn a_figure_without_a_program_fails_the_build() {
+fn the_build_fails_if_the_program_is_missing() {
     let root =
         write_project("failing", "# Page\n\n```alberti\nalberti render a.ron\n```\n\n*A.*\n");
     assert!(build(&root, "en").is_err());
