@@ -90,7 +90,7 @@ impl Runner {
         Ok(Self { program_hash: hash(&bytes), program, root: root.to_owned(), cache })
     }
 
-    /// Returns each job's output file or error message. Only commands whose output is not cached run.
+    /// Returns each job's output file or error message; commands with cached output do not run.
     pub fn run_all(&self, jobs: &[Job]) -> Vec<Result<PathBuf, String>> {
         let next = Mutex::new(0);
         let answers: Mutex<Vec<Result<PathBuf, String>>> =

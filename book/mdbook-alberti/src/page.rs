@@ -69,10 +69,7 @@ impl Renderer<'_> {
         let mut edits = Vec::new();
         self.edit_headings(page, &mut edits, &mut faults);
         if page.marks.fences.len() != page.english.fences.len() {
-            faults.push(format!(
-                "{}.md: the translation has a different number of fenced blocks",
-                page.name
-            ));
+            faults.push(format!("{}.md: the translation adds or loses fenced blocks", page.name));
         }
         let mut done: Vec<Range<usize>> = Vec::new();
         for (fence, source) in page.marks.fences.iter().zip(&page.english.fences) {
@@ -114,10 +111,7 @@ impl Renderer<'_> {
     /// Gives headings the ids of the English headings, so that links work in every language.
     fn edit_headings(&self, page: &Page, edits: &mut Vec<Edit>, faults: &mut Vec<String>) {
         if page.marks.headings.len() != page.english.headings.len() {
-            faults.push(format!(
-                "{}.md: the translation has a different number of headings",
-                page.name
-            ));
+            faults.push(format!("{}.md: the translation adds or loses headings", page.name));
         }
         let ids = page.english.heading_ids();
         for (heading, id) in page.marks.headings.iter().zip(ids) {
@@ -183,8 +177,7 @@ impl Renderer<'_> {
         }
     }
 
-    /// Renders a code span, or returns `None` if it is ordinary code. A topic's first mark on a page is
-    /// the topic's anchor.
+    /// Renders a code span if it is a mark. A topic's first mark on a page is an anchor.
     fn span(&self, code: &str, seen: &mut BTreeSet<String>) -> Result<Option<String>, String> {
         if let Some(latex) = inline_formula(code) {
             return self.formulas.inline(latex).map(Some);

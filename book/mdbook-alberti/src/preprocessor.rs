@@ -32,8 +32,8 @@ pub struct Alberti {
 }
 
 impl Alberti {
-    /// Creates the preprocessor for plain mdBook, with the default folders. The environment variable
-    /// `ALBERTI` may specify the program.
+    /// Creates the preprocessor for plain mdBook, with the default folders and the program that the
+    /// environment variable `ALBERTI` specifies, if any.
     pub fn by_place(context: &PreprocessorContext) -> Self {
         let root = context.root.parent().unwrap_or(Path::new(".")).to_owned();
         Self {

@@ -50,7 +50,7 @@ pub fn headings(html: &str) -> Vec<(u8, &str, String)> {
     out.into_iter().map(|(_, level, id, text)| (level, id, text)).collect()
 }
 
-/// Removes links from the HTML of a heading. Topic marks are dropped; the text of other links stays.
+/// Removes links from the HTML of a heading: drops topic marks, and keeps the text of other links.
 fn without_links(html: &str) -> String {
     let mut out = String::new();
     let mut rest = html.trim_end_matches("</a>");
