@@ -132,15 +132,15 @@ fn sample_points(segment: &EdgeSegment) -> impl Iterator<Item = (DVec2, f64)> {
 
 /// Whether lines of a class are drawn only where the surface changes.
 const fn needs_reason(class: EdgeClass) -> bool {
-    match class {
+    matches!(
+        class,
         EdgeClass::Silhouette
-        | EdgeClass::Boundary
-        | EdgeClass::Crease
-        | EdgeClass::Intersection
-        | EdgeClass::Section
-        | EdgeClass::Tangent => true,
-        _ => false,
-    }
+            | EdgeClass::Boundary
+            | EdgeClass::Crease
+            | EdgeClass::Intersection
+            | EdgeClass::Section
+            | EdgeClass::Tangent
+    )
 }
 
 /// An image of the face visible in each pixel, at a multiple of the drawing's resolution.

@@ -161,7 +161,7 @@ impl<'a> Picking<'a> {
     /// Whether a position is near enough to a circle to mean it: within its radius, or a twentieth
     /// of the models' diagonal.
     fn is_within_reach(&self, circle: &WorldCircle, near: Point<World>) -> bool {
-        let diagonal = self.picker.bounds(None).map_or(0.0, |bounds| bounds.diagonal());
+        let diagonal = self.picker.bounds(None).map_or(0.0, Bounds::diagonal);
         circle.distance_to(near) <= circle.radius.max(NEAR_FRACTION * diagonal)
     }
 
