@@ -196,7 +196,8 @@ pub(crate) struct RenderArgs {
     pub(crate) timings: bool,
     /// Compare the line drawing with a z-buffer image and print the fraction that disagrees
     ///
-    /// The fraction is the share of the visible lines, by length, that the z-buffer hides.
+    /// The fraction is the share of the visible lines, by length, that the z-buffer hides. Lines
+    /// that cross flat faces, where the z-buffer image shows no edge, are also reported.
     #[arg(help_heading = "Lines", long)]
     pub(crate) verify: bool,
     /// Print a JSON report: size, camera, models, times, warnings, files with their SHA-256

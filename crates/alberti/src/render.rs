@@ -18,7 +18,7 @@ use super::render_job::RenderJob;
 use super::unused_flags::find_unused_flags;
 use super::{CliError, render_report, terminal_image};
 use files::visible_path;
-use hidden_line::{Agreement, DrawOptions, HiddenEdges};
+use hidden_line::{Agreement, DrawOptions, EdgeClass, HiddenEdges, SilhouetteMethod};
 use import::{FileFormat, ImageLoading, ImportOptions};
 use pipeline::{Origin, Scene, Timings};
 use scene::Outputs;
@@ -166,21 +166,33 @@ fn verify_drawing(scene: &Scene, threads: usize) -> Result<Agreement, CliError> 
     let (subject, fill) = (scene.drawing_subject(), style.to_fill_options());
     let drawing =
         drawing::draw(&subject, &options, &fill, threads).map_err(pipeline::RenderError::from)?;
-    Ok(hidden_line::verify_with_z_buffer(&subject, &drawing.segments)
-        .map_err(pipeline::RenderError::from)?)
+    let mut agreement = hidden_line::verify_with_z_buffer(&subject, &drawing.segments)
+        .map_err(pipeline::RenderError::from)?;
+    // Interpolated contours run inside facets.
+    if options.silhouettes == SilhouetteMethod::Interpolated {
+        let is_contour = |index: usize| drawing.segments[index].class == EdgeClass::Silhouette;
+        agreement.groundless_segments.retain(|(index, _)| !is_contour(*index));
+        agreement.groundless_length = agreement.groundless_segments.iter().map(|s| s.1).sum();
+    }
+    Ok(agreement)
 }
 
 /// Returns the message of `--verify`.
 ///
 /// The length is the total of all visible lines, in pixels; the percentage is the part behind the
 /// z-buffer's surface. Up to about 0.2% is normal, because the image resolves only a quarter of a
-/// pixel, while the drawing is exact.
+/// pixel, while the drawing is exact. Lines across flat faces are false, and are reported if there
+/// are any.
 fn agreement_message(agreement: &Agreement) -> String {
     let percent = 100.0 * agreement.disagreement_ratio();
-    let length = agreement.visible_length;
-    format!(
+    let (length, groundless) = (agreement.visible_length, agreement.groundless_length);
+    let mut message = format!(
         "verified: {percent:.4}% of {length:.0} px of visible lines is hidden in the z-buffer image"
-    )
+    );
+    if groundless > 0.0 {
+        message += &format!("; {groundless:.1} px cross flat faces, where it shows no edge");
+    }
+    message
 }
 
 /// Prints the time of each stage and their sum on the standard error stream.

@@ -22,10 +22,11 @@ use super::overlap_removal::{PageSegment, remove_overlaps};
 use super::polyline_chain::{PolylineChain, join_into_chains};
 use super::region_outline::{is_traced, outline_loops};
 use super::speckles::{LEAST_CHAIN_LENGTH, ShortChains, remove_speckles};
+use crate::Warning;
 use crate::{Drawing, Page};
 use glam::DVec2;
 use hidden_line::{EdgeClass, EdgeSegment, Region, RegionHatching};
-use page::palette::{WHITE, ink_on_paper};
+use page::palette::{BLACK, WHITE, ink_on_paper};
 use page::{
     Group, GroupContent, HatchArea, Ink, Layer, LineType, MILLIMETERS_PER_PIXEL, Pen, PlacedImage,
     Polyline, to_micrometers,
@@ -110,6 +111,9 @@ impl Drawing {
         page.layers = self.face_fill_layers(style, Placement::PICTURE, "", inks);
         page.layers.extend(self.to_layers(style, Placement::PICTURE, "", ink));
         page.warnings.clone_from(&self.warnings);
+        if let Some(invisible) = style.ink.filter(|own| *own != ink) {
+            page.warnings.push(Warning::InkReplaced { invisible, ink });
+        }
         page
     }
 
@@ -253,12 +257,32 @@ impl Drawing {
 }
 
 impl LineStyle {
-    /// Returns the ink of the style on paper of a given color: the style's own ink if it has one,
-    /// otherwise an ink that contrasts with the paper, as in [`ink_on_paper`].
+    /// Returns the ink of the style on paper of a given color: the style's own ink if it has one
+    /// that can be seen there, otherwise an ink that contrasts with the paper, as in
+    /// [`ink_on_paper`].
     #[must_use]
     pub fn ink_on(&self, paper: Option<Ink>) -> Ink {
-        self.ink.unwrap_or_else(|| ink_on_paper(paper))
+        self.ink.filter(|ink| can_be_seen(*ink, paper)).unwrap_or_else(|| ink_on_paper(paper))
     }
+
+    /// Returns the ink of a sheet: the style's own ink, or black. If it cannot be seen on the
+    /// style's paper, it is an ink that contrasts with that paper.
+    #[must_use]
+    pub fn ink_of_sheet(&self) -> Ink {
+        let paper = Some(self.paper.unwrap_or(WHITE));
+        let ink = self.ink.unwrap_or(BLACK);
+        if can_be_seen(ink, paper) { ink } else { ink_on_paper(paper) }
+    }
+}
+
+/// The smallest difference from the paper, in any of the channels red, green and blue, at which ink
+/// can be seen.
+const LEAST_CONTRAST: u8 = 32;
+
+/// Whether lines in this ink can be seen on the paper. On transparent paper, all can.
+fn can_be_seen(ink: Ink, paper: Option<Ink>) -> bool {
+    let differs = |paper: Ink| ink.iter().zip(paper).any(|(a, b)| a.abs_diff(b) >= LEAST_CONTRAST);
+    paper.is_none_or(differs)
 }
 
 impl<'a> LineKinds<'a> {

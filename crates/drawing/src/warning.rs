@@ -4,6 +4,7 @@ use crate::overlay::LabelFault;
 use core::cmp::Ordering;
 use core::fmt;
 use files::visible_excerpt;
+use page::Ink;
 
 /// A part of a drawing that is missing or not exact. The `Display` text gives the reason.
 ///
@@ -40,6 +41,13 @@ pub enum Warning {
     /// Outlines over surfaces are not drawn, because the models have too many copies with too many
     /// triangles.
     OutlinesLeftOut,
+    /// The ink of the style cannot be seen on the background, so the lines have another color.
+    InkReplaced {
+        /// The ink of the style.
+        invisible: Ink,
+        /// The color of the lines.
+        ink: Ink,
+    },
     /// The picture is empty.
     PictureEmpty {
         /// The reason.
@@ -62,6 +70,7 @@ impl Warning {
             Self::OutlinesTraced => 70,
             Self::OutlinesLeftOut => 71,
             Self::PictureEmpty { .. } => 72,
+            Self::InkReplaced { .. } => 73,
         }
     }
 
@@ -76,6 +85,10 @@ impl Warning {
                 Self::GlyphsMissing { text, characters },
                 Self::GlyphsMissing { text: b, characters: c },
             ) => (text, characters).cmp(&(b, c)),
+            (
+                Self::InkReplaced { invisible, ink },
+                Self::InkReplaced { invisible: other, ink: second },
+            ) => (invisible, ink).cmp(&(other, second)),
             (Self::PictureEmpty { reason: a }, Self::PictureEmpty { reason: b }) => a.cmp(b),
             _ => Ordering::Equal,
         }
@@ -140,6 +153,14 @@ impl fmt::Display for Warning {
                 "the models have so many instances that drawing their outlines would take too long, \
                  so the outlines are omitted: `--no-line-limits` draws them",
             ),
+            Self::InkReplaced { invisible, ink } => {
+                let [invisible, ink] = [invisible, ink].map(|[r, g, b]| format!("#{r:02x}{g:02x}{b:02x}"));
+                write!(
+                    f,
+                    "lines in {invisible} cannot be seen on this background, so they are drawn in \
+                     {ink}: set another `color` or background"
+                )
+            }
             Self::PictureEmpty { reason } => write!(f, "the picture is empty: {reason}"),
         }
     }

@@ -24,6 +24,17 @@ pub struct WorldCircle {
     pub sweep: f64,
 }
 
+impl WorldCircle {
+    /// Returns the distance of a point from the center or the circumference, whichever is nearer.
+    #[must_use]
+    pub fn distance_to(&self, point: Point<World>) -> f64 {
+        let arm = point.raw() - self.center.raw();
+        let height = arm.dot(self.axis.raw());
+        let beside = (arm - self.axis.raw() * height).length();
+        arm.length().min(DVec3::new(beside - self.radius, height, 0.0).length())
+    }
+}
+
 /// The maximum distance of points from their circle, as a fraction of the models' diagonal.
 pub(crate) const CIRCLE_TOLERANCE: f64 = 5e-5;
 

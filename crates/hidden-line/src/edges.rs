@@ -21,6 +21,7 @@ mod intersections;
 mod seams;
 mod section_caps;
 mod section_cut;
+mod shells;
 mod vertex_normal;
 mod weld;
 mod welded_surface;

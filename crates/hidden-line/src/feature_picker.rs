@@ -119,13 +119,7 @@ impl<'a> FeaturePicker<'a> {
     #[must_use]
     pub fn nearest_circle(&self, to: Point<World>, objects: Option<&[u32]>) -> Option<WorldCircle> {
         let circles = self.circles(objects);
-        let distance = |circle: &WorldCircle| {
-            let arm = to.raw() - circle.center.raw();
-            let height = arm.dot(circle.axis.raw());
-            let beside = (arm - circle.axis.raw() * height).length();
-            arm.length().min(DVec3::new(beside - circle.radius, height, 0.0).length())
-        };
-        circles.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        circles.min_by(|a, b| a.distance_to(to).total_cmp(&b.distance_to(to)))
     }
 
     /// Returns a search for planes of symmetry of all objects.

@@ -10,6 +10,7 @@
 //!   z-buffer  ▓▓▓▓░░░░░░░░░░░░▒▒▒▒    ids of the nearest faces, at 4 × the resolution
 //! ```
 
+use super::EdgeClass;
 use super::EdgeSegment;
 use super::edges::WeldedSurface;
 use super::face_raster::rasterize_faces;
@@ -28,6 +29,15 @@ const SUPERSAMPLING: u32 = 4;
 /// The distance from a point within which the z-buffer may show it, in drawing pixels.
 const SEARCH_RADIUS: f64 = 0.5;
 
+/// The distance from a point within which the z-buffer must show a reason for the line, in drawing
+/// pixels. It is larger than [`SEARCH_RADIUS`], so that a gap of half a pixel beside an edge is not
+/// mistaken for a missing reason.
+const REASON_RADIUS: f64 = 1.0;
+
+/// The cosine of the angle, a thousandth of a radian, below which planes count as parallel. Rounding
+/// of positions tilts small faces of a flat wall by less, and all edges that are drawn bend more.
+const PARALLEL_COSINE: f64 = 1.0 - 5e-7;
+
 /// The agreement of a drawing with the z-buffer image, as lengths on the screen in pixels.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Agreement {
@@ -41,6 +51,11 @@ pub struct Agreement {
     pub contradicted_length: f64,
     /// The index of each visible segment with denied parts, and the length of these parts.
     pub denied_segments: Vec<(usize, f64)>,
+    /// The length of the visible segments on flat parts of the z-buffer image, where it shows no
+    /// edge within a pixel.
+    pub groundless_length: f64,
+    /// The visible segments with a groundless part: their indices, and the length of that part.
+    pub groundless_segments: Vec<(usize, f64)>,
 }
 
 impl Agreement {
@@ -59,6 +74,12 @@ impl Agreement {
 /// it; a hidden point is contradicted if none of them is. Disagreement below about 0.2% of the
 /// length is normal, because the image resolves a quarter of a pixel.
 ///
+/// A visible point is groundless if all faces within a pixel are in one plane and belong to one
+/// connected surface and material. Hatching, facets, marked edges and line primitives need no such reason.
+/// Contours that are interpolated across facets run inside them, so ignore their groundless parts.
+/// Where the cut faces of bodies overlap, the image shows one of them, so the outlines of the
+/// others can be groundless. So can edges where walls inside a body meet its surface.
+///
 /// # Errors
 /// Fails if the image has no pixels or exceeds the maximum z-buffer size.
 pub fn verify_with_z_buffer(
@@ -68,31 +89,58 @@ pub fn verify_with_z_buffer(
     let image = ZBufferImage::rasterize_subject(subject)?;
     let mut agreement = Agreement::default();
     for (index, segment) in segments.iter().enumerate() {
-        let [a, b] = segment.ends;
-        let length = (b - a).length();
-        let count = (length / SEARCH_RADIUS).ceil().max(1.0);
-        let step = length / count;
-        let at = |n: f64| {
-            let s = (n + 0.5) / count;
-            (a + (b - a) * s, segment.depths[0] + (segment.depths[1] - segment.depths[0]) * s)
-        };
-        let samples = (0..count as usize).map(|n| at(n as f64));
-        if segment.visible {
-            let denied =
-                samples.filter(|&(p, depth)| !image.shows_point(p, depth)).count() as f64 * step;
-            agreement.visible_length += length;
-            agreement.denied_length += denied;
-            if denied > 0.0 {
-                agreement.denied_segments.push((index, denied));
+        let length = segment.ends[0].distance(segment.ends[1]);
+        let fraction = |is_counted: &dyn Fn(DVec2, f64) -> bool| {
+            let (mut counted, mut count) = (0_u32, 0_u32);
+            for (point, depth) in sample_points(segment) {
+                count += 1;
+                counted += u32::from(is_counted(point, depth));
             }
-        } else {
-            let shown =
-                samples.filter(|&(p, depth)| !image.hides_point(p, depth)).count() as f64 * step;
+            length * f64::from(counted) / f64::from(count)
+        };
+        if !segment.visible {
             agreement.hidden_length += length;
-            agreement.contradicted_length += shown;
+            agreement.contradicted_length += fraction(&|p, depth| !image.hides_point(p, depth));
+            continue;
+        }
+        let denied = fraction(&|p, depth| !image.shows_point(p, depth));
+        agreement.visible_length += length;
+        agreement.denied_length += denied;
+        if denied > 0.0 {
+            agreement.denied_segments.push((index, denied));
+        }
+        if needs_reason(segment.class) {
+            let groundless = fraction(&|p, depth| image.is_flat_near(p, depth));
+            agreement.groundless_length += groundless;
+            if groundless > 0.0 {
+                agreement.groundless_segments.push((index, groundless));
+            }
         }
     }
     Ok(agreement)
+}
+
+/// Returns points on a segment about half a pixel apart, with their depths.
+fn sample_points(segment: &EdgeSegment) -> impl Iterator<Item = (DVec2, f64)> {
+    let ([a, b], [near, far]) = (segment.ends, segment.depths);
+    let count = ((b - a).length() / SEARCH_RADIUS).ceil().max(1.0);
+    (0..count as usize).map(move |n| {
+        let s = (n as f64 + 0.5) / count;
+        (a + (b - a) * s, near + (far - near) * s)
+    })
+}
+
+/// Whether lines of a class are drawn only where the surface changes.
+const fn needs_reason(class: EdgeClass) -> bool {
+    matches!(
+        class,
+        EdgeClass::Silhouette
+            | EdgeClass::Boundary
+            | EdgeClass::Crease
+            | EdgeClass::Intersection
+            | EdgeClass::Section
+            | EdgeClass::Tangent
+    )
 }
 
 /// An image of the face visible in each pixel, at a multiple of the drawing's resolution.
@@ -104,6 +152,8 @@ struct ZBufferImage {
     ids: Vec<Option<u32>>,
     /// The planes of the faces by id.
     planes: Vec<FacePlane>,
+    /// The shells and materials of the faces by id.
+    owners: Vec<[u32; 2]>,
     /// The transform from drawing points with depth to world space.
     to_world: DMat4,
     /// The distance, in world units, below which a point is considered to be in a plane.
@@ -159,6 +209,7 @@ impl ZBufferImage {
             scale: f64::from(finer),
             ids,
             planes,
+            owners: surface.shells_and_materials(),
             to_world,
             touching: surface.touch_tolerance().world,
         })
@@ -167,13 +218,15 @@ impl ZBufferImage {
     /// Whether something visible near a point is not in front of it.
     fn shows_point(&self, point: DVec2, depth: f64) -> bool {
         let at = self.unproject_point(point, depth);
-        self.face_ids_near(point).any(|id| id.is_none_or(|id| !self.is_face_in_front(id, at)))
+        self.face_ids_near(point, SEARCH_RADIUS)
+            .any(|id| id.is_none_or(|id| !self.is_face_in_front(id, at)))
     }
 
     /// Whether something visible near a point is in front of it.
     fn hides_point(&self, point: DVec2, depth: f64) -> bool {
         let at = self.unproject_point(point, depth);
-        self.face_ids_near(point).any(|id| id.is_some_and(|id| self.is_face_in_front(id, at)))
+        self.face_ids_near(point, SEARCH_RADIUS)
+            .any(|id| id.is_some_and(|id| self.is_face_in_front(id, at)))
     }
 
     /// Maps a point of the drawing, with its depth, to world space.
@@ -188,11 +241,36 @@ impl ZBufferImage {
         normal.dot(at) - offset < -self.touching
     }
 
-    /// Returns the ids of the pixels within [`SEARCH_RADIUS`] of a point of the drawing, or `None`
-    /// for pixels without a face.
-    fn face_ids_near(&self, point: DVec2) -> impl Iterator<Item = Option<u32>> {
+    /// Whether everything visible near a point is one flat face, or several in one plane with the
+    /// same shell and material.
+    fn is_flat_near(&self, point: DVec2, depth: f64) -> bool {
+        let mut ids = self.face_ids_near(point, REASON_RADIUS);
+        let Some(Some(first)) = ids.next() else { return false };
+        let at = self.unproject_point(point, depth);
+        let mut last = first;
+        ids.all(|id| {
+            let Some(id) = id else { return false };
+            // Most neighbors show the same face.
+            let is_alike = id == last || id == first || self.are_coplanar(id, first, at);
+            last = id;
+            is_alike
+        })
+    }
+
+    /// Whether two faces have the same shell and material, and the same plane near a point.
+    fn are_coplanar(&self, one: u32, other: u32, at: DVec3) -> bool {
+        let [a, b] = [one, other].map(|id| self.planes[id as usize]);
+        let [from_a, from_b] = [a, b].map(|plane| plane.normal.dot(at) - plane.offset);
+        self.owners[one as usize] == self.owners[other as usize]
+            && a.normal.dot(b.normal) > PARALLEL_COSINE
+            && (from_a - from_b).abs() <= self.touching
+    }
+
+    /// Returns the ids of the pixels within a radius of a point of the drawing, both in drawing
+    /// pixels, or `None` for pixels without a face.
+    fn face_ids_near(&self, point: DVec2, radius: f64) -> impl Iterator<Item = Option<u32>> {
         let at = point * self.scale;
-        let radius = SEARCH_RADIUS * self.scale;
+        let radius = radius * self.scale;
         let (left, right) = ((at.x - radius).floor() as i64, (at.x + radius).floor() as i64);
         let (top, bottom) = ((at.y - radius).floor() as i64, (at.y + radius).floor() as i64);
         let pixels = (top..=bottom).flat_map(move |y| (left..=right).map(move |x| (x, y)));

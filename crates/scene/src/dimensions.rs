@@ -32,6 +32,9 @@ const MAX_DIMENSIONS: usize = 500;
 /// The maximum number of largest circles that one entry may dimension.
 const MAX_DIAMETERS: u32 = 50;
 
+/// The angle in radians by which an arc with a diameter may be shorter than half a turn.
+const HALF_TURN_SLACK: f64 = 0.01;
+
 /// Returns the path of a dimension in the scene file.
 fn path_of<'a>(index: usize, steps: &[PathStep<'a>]) -> Vec<PathStep<'a>> {
     let start = [Field("sheet"), Field("dimensions"), Index(index)];
@@ -176,7 +179,8 @@ impl DimensionResolver<'_> {
                 one("Baseline", measure, *view, *side, *decimals)
             }
             DimensionFile::Diameter { circle, view, decimals } => {
-                one("Diameter", Measure::Diameter(self.circle(circle)?), *view, None, *decimals)
+                let circle = self.diameter_circle(circle)?;
+                one("Diameter", Measure::Diameter(circle), *view, None, *decimals)
             }
             DimensionFile::Radius { circle, view, decimals } => {
                 one("Radius", Measure::Radius(self.circle(circle)?), *view, None, *decimals)
@@ -220,6 +224,19 @@ impl DimensionResolver<'_> {
     /// Finds the circle at a position.
     fn circle(&self, place: &PlaceFile) -> Result<WorldCircle, SceneError> {
         self.picking.circle(place, &path_of(self.index, &[Field("circle")]))
+    }
+
+    /// Finds the circle at a position, which must span at least half a turn: a shorter arc has no
+    /// diameter to measure.
+    fn diameter_circle(&self, place: &PlaceFile) -> Result<WorldCircle, SceneError> {
+        let circle = self.circle(place)?;
+        if circle.sweep < core::f64::consts::PI - HALF_TURN_SLACK {
+            let degrees = libm::round(circle.sweep.to_degrees());
+            let message = format!("this is an arc of {degrees}°, which has no diameter");
+            let help = "dimension its radius: Radius(circle: …)";
+            return Err(self.error(&[Field("circle")], message, Some(help)));
+        }
+        Ok(circle)
     }
 
     /// Returns the two points that determine the distance between two picks.

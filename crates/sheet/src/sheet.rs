@@ -77,7 +77,7 @@ use length_format::LengthFormat;
 pub use length_format::{DecimalMark, DimensionUnit, NumberFormat};
 pub use measure::{Dimension, DimensionSide, LengthDirection, Measure};
 use model::{ModelInstance, model_names};
-use page::palette::{BLACK, WHITE};
+use page::palette::WHITE;
 use page::{Group, Ink, IsoLineGroup, Layer, Pen, Polyline};
 use projection::SheetAngle;
 pub use sheet_fill::{ScaleLimit, SheetFill};
@@ -296,7 +296,7 @@ impl Sheet {
         let size = DVec2::new(self.paper.width(), self.paper.height());
         let paper = Some(self.style.paper.unwrap_or(WHITE));
         let mut page = SheetPage::new(size, self.title_of(models), paper);
-        let ink = self.style.ink.unwrap_or(BLACK);
+        let ink = self.style.ink_of_sheet();
         page.warnings = self.warnings_of_layout(&plan, &layout, &page.title);
         let mut is_empty = true;
         for placed in &layout.views {
@@ -406,7 +406,7 @@ impl Sheet {
     ) {
         let view = &placed.planned.drawn_view();
         let placement: Placement = view.placement(&drawing, placed.scale, placed.center);
-        let (prefix, ink) = (format!("{}-", view.name), self.style.ink.unwrap_or(BLACK));
+        let (prefix, ink) = (format!("{}-", view.name), self.style.ink_of_sheet());
         let inks = [ink, self.style.paper.unwrap_or(WHITE)];
         // Fills come first, because lines are drawn over them.
         page.images.extend(drawing.face_fill_image(style, placement, &prefix));

@@ -1,7 +1,7 @@
 //! Line styles: edges between materials, outlines, and the removal of speckles.
 
 use super::stage::*;
-use drawing::{Drawing, LineStyle, draw};
+use drawing::{Drawing, LineStyle, Warning, draw};
 use hidden_line::EdgeClass;
 use model::{Material, Model, Primitive};
 use std::f64::consts::TAU;
@@ -129,4 +129,30 @@ fn the_silhouette_style_draws_only_the_outline() {
     // The small box, and the sides of the third box in front of the large one.
     let within = length_in(LineStyle::CONTOURS) - expected;
     assert!((within - 8.0 * 100.0 * page::MILLIMETERS_PER_PIXEL).abs() < 0.01, "{within}");
+}
+
+#[test]
+fn ink_that_cannot_be_seen_is_replaced_with_a_warning() {
+    let (white, blue, black) = ([255; 3], [22, 58, 110], [0; 3]);
+    let drawing =
+        draw_front(build_model(vec![cuboid_mesh([-1.0; 3], [1.0; 3])]), &LineStyle::BLUEPRINT);
+    for (style, paper, is_replaced) in [
+        (LineStyle::BLUEPRINT, Some(white), true),
+        (LineStyle::BLUEPRINT, Some([240; 3]), true),
+        (LineStyle::BLUEPRINT, Some(blue), false),
+        (LineStyle::BLUEPRINT, None, false),
+        (LineStyle::PATENT, Some(black), true),
+        (LineStyle::PATENT, Some(white), false),
+        (LineStyle::TECHNICAL, Some(white), false),
+    ] {
+        let page = drawing.to_page(&style, "", paper);
+        let is_reported =
+            page.warnings.iter().any(|warning| matches!(warning, Warning::InkReplaced { .. }));
+        assert_eq!(is_reported, is_replaced, "{paper:?}");
+        for layer in &page.layers {
+            let darkest = layer.pen.ink.iter().zip(paper.unwrap_or(blue));
+            let contrast = darkest.map(|(ink, paper)| ink.abs_diff(paper)).max();
+            assert!(contrast > Some(100), "{:?} on {paper:?}", layer.pen.ink);
+        }
+    }
 }

@@ -7,6 +7,7 @@
 #![allow(unreachable_pub, reason = "no other crate can use the modules of a test program")]
 
 mod edges;
+mod false_lines;
 mod nearly_touching;
 mod section_rounding;
 mod sections;

@@ -116,7 +116,7 @@ scene_enum! {
         /// The diameter of a circle, marked Ø. It is an arrow to the circle in a view that shows
         /// its true shape, otherwise a length across it.
         Diameter {
-            /// The circle or arc.
+            /// The circle, or an arc of at least half a turn.
             circle: PlaceFile,
             /// The view. Default: the first that shows it as a circle, otherwise a view from the
             /// side.

@@ -16,6 +16,9 @@ const CREASE_ANGLE: f64 = core::f64::consts::FRAC_PI_6;
 /// Directions are parallel if the sine of the angle between them is at most this.
 const PARALLEL_SINE: f64 = 1e-4;
 
+/// The fraction of the models' diagonal within which a position means a circle, however small it is.
+const NEAR_FRACTION: f64 = 0.05;
+
 /// A part of the models at which a dimension begins or ends.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Picked {
@@ -140,7 +143,48 @@ impl<'a> Picking<'a> {
         path: &[PathStep<'_>],
     ) -> Result<WorldCircle, SceneError> {
         let (near, objects) = self.place(place, path)?;
-        self.found(self.picker.nearest_circle(near, objects.as_deref()), "circle", path)
+        let objects = objects.as_deref();
+        let circle = self.found(self.picker.nearest_circle(near, objects), "circle", path)?;
+        // Only a given position can be wrong; the middle of a node may be far from its circles.
+        if place.near.is_some() && !self.is_within_reach(&circle, near) {
+            let [x, y, z] = near.raw().to_array();
+            let message = format!("there is no circle near ({x}, {y}, {z})");
+            return Err(self.origin.error_at(
+                path,
+                message,
+                Some(self.advise(&circle, near, objects)),
+            ));
+        }
+        Ok(circle)
+    }
+
+    /// Whether a position is near enough to a circle to mean it: within its radius, or a twentieth
+    /// of the models' diagonal.
+    fn is_within_reach(&self, circle: &WorldCircle, near: Point<World>) -> bool {
+        let diagonal = self.picker.bounds(None).map_or(0.0, Bounds::diagonal);
+        circle.distance_to(near) <= circle.radius.max(NEAR_FRACTION * diagonal)
+    }
+
+    /// Names the nearest circle, and the position with y and z exchanged if that is near a circle.
+    fn advise(&self, nearest: &WorldCircle, near: Point<World>, objects: Option<&[u32]>) -> String {
+        let name = |circle: &WorldCircle| {
+            let [x, y, z] = circle.center.raw().to_array().map(rounded);
+            let (radius, distance) = (rounded(circle.radius), rounded(circle.distance_to(near)));
+            (format!("center ({x}, {y}, {z}), radius {radius}"), distance)
+        };
+        let [x, y, z] = near.raw().to_array();
+        let exchanged = [[x, z, -y], [x, -z, y]].into_iter().find_map(|[x, y, z]| {
+            let point = Point::new(x, y + 0.0, z + 0.0);
+            let circle = self.picker.nearest_circle(point, objects)?;
+            self.is_within_reach(&circle, point).then_some((point, circle))
+        });
+        if let Some((point, circle)) = exchanged {
+            let [x, y, z] = point.raw().to_array();
+            let (circle, _) = name(&circle);
+            return format!("y points up here: ({x}, {y}, {z}) is near a circle with {circle}");
+        }
+        let (circle, distance) = name(nearest);
+        format!("the nearest circle has {circle}, at a distance of {distance}")
     }
 
     /// Returns the part that was found, or an error if there is none.
@@ -218,6 +262,11 @@ impl<'a> Picking<'a> {
         }
         Ok(nodes.swap_remove(number))
     }
+}
+
+/// Rounds a number in a message to three decimal places, without a negative zero.
+fn rounded(number: f64) -> f64 {
+    libm::round(number * 1e3) / 1e3 + 0.0
 }
 
 /// Returns a point in a box, where 0 is the corner with the smallest coordinates and 1 the opposite

@@ -16,13 +16,39 @@ o roof\nv 0 2 0\nv 4 2 0\nv 2 4 0\nv 0 2 1\nv 4 2 1\nv 2 4 1
 f 11 10 9\nf 12 13 14\nf 9 10 13 12\nf 10 11 14 13\nf 11 9 12 14
 ";
 
-/// Returns the sheet of a scene with these dimensions.
+/// Returns the sheet of the house with these dimensions.
 fn sheet_with(dimensions: &str) -> Result<Sheet, SceneError> {
+    sheet_of(HOUSE, dimensions)
+}
+
+/// Returns a disk of radius 4 around (10, 0, 20), 2 high, of which only some of 36 sectors remain.
+fn disk(sectors: usize) -> String {
+    use std::fmt::Write as _;
+    let (mut vertices, mut faces) = (String::new(), String::new());
+    let last = if sectors == 36 { 35 } else { sectors };
+    for height in [0.0, 2.0] {
+        let _ = writeln!(vertices, "v 10 {height} 20");
+        for at in 0..=last {
+            let (sine, cosine) = libm::sincos(std::f64::consts::TAU * at as f64 / 36.0);
+            let _ = writeln!(vertices, "v {} {height} {}", 10.0 + 4.0 * cosine, 20.0 - 4.0 * sine);
+        }
+    }
+    let count = last + 2;
+    for at in 0..sectors {
+        let (a, b) = (at + 2, (at + 1) % (last + 1) + 2);
+        let _ = writeln!(faces, "f 1 {b} {a}\nf {} {} {}", count + 1, count + a, count + b);
+        let _ = writeln!(faces, "f {a} {b} {} {}", count + b, count + a);
+    }
+    vertices + &faces
+}
+
+/// Returns the sheet of a model with these dimensions.
+fn sheet_of(obj: &str, dimensions: &str) -> Result<Sheet, SceneError> {
     let text = format!(
         "Scene(models: [(path: \"house.obj\")], sheet: (unit: Millimeter, dimensions: {dimensions}))"
     );
     let mut folder = MemoryFolder::default();
-    folder.insert("house.obj", HOUSE.as_bytes().to_vec());
+    folder.insert("house.obj", obj.as_bytes().to_vec());
     let file = parse_scene("scene.ron", &text).expect("a scene");
     let origin = Origin::from_text_in_memory("scene.ron", &text, folder);
     let scene = Scene::resolve(&origin, &file, &ResolveOptions::default()).expect("models");
@@ -150,5 +176,44 @@ fn errors_point_at_the_mistakes() {
         assert!(error.message.contains(message), "{dimension}: {}", error.message);
         let text = error.help.unwrap_or_default();
         assert!(text.contains(help), "{dimension}: {text}");
+    }
+}
+
+#[test]
+fn circles_far_from_a_position_are_reported() {
+    let disk = disk(36);
+    for (near, help) in [
+        ("(500, 0, 20)", "nearest circle has center (10, 0, 20), radius 4, at a distance of 486"),
+        // The position with z up.
+        ("(10, -20, 0)", "y points up here: (10, 0, 20) is near a circle with center (10, 0, 20)"),
+        ("(10, -20, 2)", "y points up here: (10, 2, 20) is near a circle with center (10, 2, 20)"),
+    ] {
+        let error =
+            sheet_of(&disk, &format!("[Diameter(circle: (near: {near}))]")).expect_err(near);
+        assert_eq!(error.message, format!("there is no circle near {near}"));
+        let text = error.help.unwrap_or_default();
+        assert!(text.contains(help), "{near}: {text}");
+    }
+    for near in
+        ["near: (10, 0, 20)", "near: (14.1, 0, 20)", "near: (10, 3, 20)", "fraction: (1, 1, 1)"]
+    {
+        sheet_of(&disk, &format!("[Diameter(circle: ({near}))]")).expect(near);
+    }
+}
+
+#[test]
+fn arcs_have_radii_but_no_diameters() {
+    for (sectors, has_diameter) in [(36, true), (18, true), (9, false)] {
+        let disk = disk(sectors);
+        let near = "(circle: (near: (14, 0, 20)))";
+        let error = sheet_of(&disk, &format!("[Diameter{near}]")).err();
+        assert_eq!(error.is_none(), has_diameter, "{sectors}: {error:?}");
+        if let Some(error) = error {
+            assert!(error.message.contains("an arc of 90°"), "{}", error.message);
+            assert!(error.help.is_some_and(|help| help.contains("Radius")));
+        }
+        let sheet = sheet_of(&disk, &format!("[Radius{near}]")).expect("a radius");
+        let Measure::Radius(circle) = &sheet.measures[0].measure else { panic!("{sectors}") };
+        assert!((circle.radius - 4.0).abs() < 1e-5);
     }
 }

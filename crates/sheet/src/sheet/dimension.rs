@@ -81,8 +81,9 @@ pub(super) struct DimensionSettings {
     pub(super) format: LengthFormat,
     /// The space around the outline for section lines and letters, in millimeters, or 0 if unused.
     pub(super) reserved: f64,
-    /// The length that a broken view omits along each axis of the paper, in object millimeters.
-    pub(super) left_out: DVec2,
+    /// The width and height that the image of the object lacks, in object millimeters: the part that
+    /// a broken view omits, and the distance between facets and circles.
+    pub(super) not_shown: DVec2,
 }
 
 impl DimensionSettings {
@@ -127,7 +128,7 @@ fn overall_dimension(
     let text = if side == OverallSide::Below { 1.0 + TEXT_GAP } else { 0.0 };
     let distance = (LINE_DISTANCE * letters).max(reserved + (text + 0.5) * letters);
     let axis = usize::from(side == OverallSide::Left);
-    let length = scale.to_object_length((ends[1] - ends[0]).length()) + settings.left_out[axis];
+    let length = scale.to_object_length((ends[1] - ends[0]).length()) + settings.not_shown[axis];
     LinearDimension { ends, outward, distance, length }
 }
 
@@ -202,7 +203,7 @@ mod tests {
     fn annotated(half: DVec2, side: OverallSide, reserved: f64) -> ViewAnnotations {
         let (scale, format) = (DrawingScale::STANDARD[5], LengthFormat::default());
         let settings =
-            DimensionSettings { letters: 3.5, scale, format, reserved, left_out: DVec2::ZERO };
+            DimensionSettings { letters: 3.5, scale, format, reserved, not_shown: DVec2::ZERO };
         let mut annotations = ViewAnnotations::default();
         add_overall_dimensions(&mut annotations, &[side], half, &settings);
         annotations

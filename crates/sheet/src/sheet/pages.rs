@@ -27,7 +27,7 @@ use glam::{DVec2, DVec3};
 use hidden_line::{Aabb, EdgeSegment, WeldedSurface};
 use homog::{Plane, World};
 use model::{ModelInstance, model_names, world_points};
-use page::palette::{BLACK, WHITE};
+use page::palette::WHITE;
 use page::{Cap, Ink, Join, Layer, LineType, PlacedImage, missing_glyphs};
 use viewport::DrawingScale;
 
@@ -179,7 +179,7 @@ impl<'a> DrawnAssembly<'a> {
             "" => model_names(models),
             title => title.to_owned(),
         };
-        let ink = sheet.style.ink.unwrap_or(BLACK);
+        let ink = sheet.style.ink_of_sheet();
         Self { sheet, models, parts, list, moves, warnings, ink, title }
     }
 

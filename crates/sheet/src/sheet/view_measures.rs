@@ -1,5 +1,7 @@
 //! The dimensions and center lines of views, and their assignment to views.
 
+mod round_extent;
+
 use super::Sheet;
 use super::annotation::ViewAnnotations;
 use super::center_line::{CENTER_LINE_OVERHANG, CenterLines};
@@ -26,12 +28,15 @@ pub(super) struct ViewMeasures {
     /// The convex hull of the object, in object millimeters from the center of the view, with y
     /// down.
     hull: Vec<DVec2>,
+    /// The width and height by which circles extend beyond their facets, in object millimeters.
+    pub(super) round_excess: DVec2,
 }
 
 impl ViewPlan {
     /// Assigns each dimension to the view that shows it, and warns about dimensions that no view
     /// shows. Adds center lines to every view except axonometric views.
     pub(super) fn add_measures(&mut self, sheet: &Sheet, models: &[ModelInstance]) {
+        self.add_round_extents(sheet, models);
         if sheet.measures.is_empty() && !sheet.center_lines && !sheet.symmetry_lines {
             return;
         }

@@ -407,7 +407,7 @@ impl PlannedView {
             scale,
             format: sheet.length_format(),
             reserved: of_marks.fold(of_lines.max(self.measures.reserve()), f64::max),
-            left_out: self.left_out(),
+            not_shown: self.left_out() + self.measures.round_excess,
         };
         self.measures.annotate(&mut annotations, &self.dimensions, half, &settings);
         add_overall_dimensions(&mut annotations, &self.dimensions, half, &settings);

@@ -1,12 +1,15 @@
 //! Dimensions read back from SVG, PDF and DXF, with lines and numbers compared with the formula.
 
 use super::boxes::{box_model, sheet};
+use super::center_lines::cylinder;
 use super::formats::{read_dxf, read_pdf, read_svg};
 use super::lint::faults;
 use camera::NamedView;
+use drawing::LineStyle;
 use glam::{DVec2, DVec3};
 use hidden_line::WorldCircle;
 use homog::{Point, Vector, World};
+use model::ModelInstance;
 use page::{Label, Polyline};
 use projection::SheetAngle;
 use sheet::{
@@ -214,4 +217,36 @@ fn dimensions_without_a_true_view_are_reported() {
     );
     assert_eq!(draw(&deep, Some(back)), Some(DimensionFault::NoSuchView(back)));
     assert_eq!(draw(&same, None), Some(DimensionFault::NoExtent));
+}
+
+/// Returns the numbers of the overall dimensions of a model, in ascending order.
+fn overall_lengths(model: ModelInstance) -> Vec<String> {
+    let sheet = Sheet { dimensions: true, ..sheet((Paper::A3.rotated(), "A3"), SheetAngle::First) };
+    let page = sheet.draw(&[model], &[], 1).unwrap();
+    let mut texts = read_dxf(&page, "dimensions-text").texts;
+    texts.sort();
+    texts
+}
+
+#[test]
+fn overall_dimensions_of_round_parts_are_those_of_the_circle() {
+    // The facets of 30 sides end 0.07 mm short of the circle at 90°.
+    for axis in [DVec3::Y, DVec3::X, DVec3::Z] {
+        assert_eq!(
+            overall_lengths(cylinder(DVec3::new(3.0, 1.0, 2.0), axis, (12.5, 40.0, 30))),
+            ["25", "25", "40"],
+            "{axis}"
+        );
+    }
+    // Ten sides are a prism: 2 · 12.5 mm · cos 18° from side to side.
+    let prism = overall_lengths(cylinder(DVec3::ZERO, DVec3::Y, (12.5, 40.0, 10)));
+    assert_eq!(prism, ["23.78", "25", "40"]);
+}
+
+#[test]
+fn ink_of_the_color_of_the_paper_is_replaced() {
+    let white = LineStyle { ink: Some([255; 3]), ..LineStyle::TECHNICAL };
+    let sheet = Sheet { style: white, ..sheet((Paper::A3, "A3"), SheetAngle::First) };
+    let page = sheet.draw(&[box_model(SIZE)], &[], 1).unwrap();
+    assert!(page.layers.iter().all(|layer| layer.pen.ink[0] < 128), "{:?}", page.layers[0].pen);
 }
