@@ -154,11 +154,11 @@ impl fmt::Display for Warning {
                  so the outlines are omitted: `--no-line-limits` draws them",
             ),
             Self::InkReplaced { invisible, ink } => {
-                let [invisible, ink] = [invisible, ink].map(|[r, g, b]| format!("#{r:02x}{g:02x}{b:02x}"));
+                let [from, to] = [invisible, ink].map(|[r, g, b]| format!("#{r:02x}{g:02x}{b:02x}"));
                 write!(
                     f,
-                    "lines in {invisible} cannot be seen on this background, so they are drawn in \
-                     {ink}: set another `color` or background"
+                    "lines in {from} cannot be seen on this background, so they are drawn in {to}: set \
+                     another `color` or background"
                 )
             }
             Self::PictureEmpty { reason } => write!(f, "the picture is empty: {reason}"),

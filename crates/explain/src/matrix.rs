@@ -78,7 +78,7 @@ fn check_finite<const N: usize>(rows: &[[f64; N]; N]) -> Result<(), String> {
     }
 }
 
-/// Returns the step with the inverse matrix, or the reason why there is none.
+/// Returns the step with the inverse matrix, or with the reason if the matrix is singular.
 fn inverse_step(map: Projective<View, Clip>) -> Step {
     let step = Step::new("inverse", "Inverse", Some("IV-1"));
     match map.inverse() {
