@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 const MODULE: [usize; 2] = [2_920_000, 1_222_000];
 /// The maximum size in bytes of everything that the page loads except the module and models: HTML,
 /// styles and scripts.
-const PAGE: usize = 80_000;
+const PAGE: usize = 84_000;
 
 /// Prints the sizes and checks the limits.
 ///
