@@ -260,6 +260,53 @@ async function testPage(browser, server, engine) {
     await explorer.close();
   });
 
+  await test(`${engine}: a lesson that is opened again is as it was left`, async () => {
+    const explorer = await open({ hash: '#v=1&lesson=perspective&fov=70' });
+    const choose = async (lesson) => {
+      await explorer.page.selectOption('#lesson', lesson);
+      await explorer.page.waitForFunction((id) => location.hash.includes(`lesson=${id}`), lesson);
+      await explorer.settled();
+    };
+    await choose('ortho');
+    await choose('perspective');
+    assert((await explorer.value('fov')) === '70', 'the parameter is lost');
+    await explorer.page.click('#reset');
+    assert((await explorer.value('fov')) === '40', 'reset');
+    await explorer.settled();
+    await explorer.close();
+  });
+
+  await test(`${engine}: sentences for students have no codes`, async () => {
+    const explorer = await open({ hash: '#v=1&lesson=frustum' });
+    const text = await explorer.page.locator('.lesson-text, .what-follows').allInnerTexts();
+    assert(!/\b[CM]\d/.test(text.join(' ')), text.join(' '));
+    assert(!(await (await explorer.goTo('#v=1&lesson=perspective'), explorer.consequences())).includes(' 1 times'), '1 times');
+    await explorer.close();
+  });
+
+  await test(`${engine}: a lesson for a file without a file says how to begin, and shows nothing else`, async () => {
+    const isNative = engine === 'native';
+    for (const [language, words] of [['en', 'To begin'], ['zh', isNative ? '启动程序' : '选择文件']]) {
+      const explorer = await open();
+      const { page } = explorer;
+      await page.selectOption('#language', language);
+      for (const lesson of ['model', 'scene']) {
+        const isOffered = (await page.locator(`#lesson option[value=${lesson}]`).count()) > 0;
+        assert(isOffered === !isNative, `${lesson} is ${isOffered ? '' : 'not '}offered`);
+        await explorer.goTo(`#v=1&lesson=${lesson}`);
+        assert((await explorer.text('#statement')).includes(words), await explorer.text('#statement'));
+        for (const one of ['.panes', '#parameters', '#copy-link', '#notice']) assert(await page.locator(one).isHidden(), one);
+        assert((await page.locator('#files').isHidden()) === isNative, 'files');
+        assert(!(await explorer.text('body')).includes('inside:'), 'the last lesson is still visible');
+        assert((await explorer.violations()).length === 0, (await explorer.violations()).join());
+      }
+      await explorer.goTo('#v=1&lesson=ortho');
+      assert((await explorer.text('.panes')).length > 200 && (await page.locator('#copy-link').count()) === 1, 'the next lesson');
+      await explorer.close();
+    }
+  });
+
+  if (engine === 'native') return;
   await test(`${engine}: broken files and files that are not models are reported`, async () => {
     const explorer = await open();
     const give = async (name, text) => {

@@ -23,7 +23,7 @@ export async function startEngine(urlOf) {
       throw {
         code: 'native-files',
         message: `The server does not accept files from the browser, so ${name} cannot be opened here.`,
-        help: 'Run `alberti explore --native MODEL`, or open the page without `?native`.',
+        help: 'Run `alberti explore --native MODEL`.',
       };
     },
   };

@@ -45,6 +45,22 @@ async function start() {
   addEventListener('hashchange', () => openLink(location.hash.slice(1)));
 }
 
+/** Returns the user's last file for a lesson that shows one. */
+function ownFile(id) {
+  const isOwn = { model: isModel, scene: isScene }[id] ?? (() => false);
+  return [...(server.files ?? []), ...client.files.keys()].findLast(isOwn);
+}
+
+/** Returns the lessons of the menu. A server reads no files from the browser. */
+function offered() {
+  return lessons.filter(({ id, models }) => models.length > 0 || !client.native || ownFile(id));
+}
+
+/** Whether the lesson shows the user's file, and there is none. */
+function isEmpty() {
+  return lesson.models.length === 0 && !state.get('model');
+}
+
 /** Opens a link. A malformed link is reported, and its lesson opens with defaults. */
 async function openLink(link) {
   if (lesson && new State(link).query() === state.query()) return;
@@ -55,8 +71,9 @@ async function openLink(link) {
   try {
     query = (await client.askJson(`${asked}&what=state&size=${SIZE.join('x')}`)).link;
   } catch (error) {
-    const further = error.code === 'missing_model' ? '' : text('badLinkHelp');
-    showNotice(error.message, `${sentence(error.help)} ${further}`.trim());
+    const isMissing = error.code === 'missing_model';
+    // Without any model, the lesson says how to begin.
+    if (!isMissing || asked.includes('model=')) showNotice(error.message, `${sentence(error.help)} ${isMissing ? '' : text('badLinkHelp')}`.trim());
     query = `v=1&lesson=${known.id}`;
   }
   if (lesson) state.replace(query.replace(/^#/, ''));
@@ -71,9 +88,11 @@ function showLesson() {
   lesson = chosen;
   shown = null;
   byId('lesson').value = lesson.id;
-  byId('source').textContent = [sourceName(lesson.source), ...(lesson.items ?? [])].join(' · ');
+  byId('source').textContent = sourceName(lesson.source);
   byId('title').textContent = word(lesson.title);
-  byId('statement').textContent = word(lesson.statement);
+  const hint = text(client.native ? 'startNative' : 'startModel');
+  byId('statement').textContent = isEmpty() ? `${word(lesson.statement)} ${hint}` : word(lesson.statement);
+  document.body.classList.toggle('empty', isEmpty());
   document.title = `${word(lesson.title)} – Alberti explorer`;
   updateControls = buildControls(byId('parameters'), [...lesson.parameters, styleParameter()], { value: valueOf, change: changeState, word });
   buildPinControls();
@@ -85,7 +104,7 @@ function showLesson() {
     document.querySelector('.cursor').hidden = true;
     byId('depth-details').open = lesson.id === 'depth-table';
   }
-  panes.select(lesson.panes);
+  panes.select(isEmpty() ? null : lesson.panes);
   stateChanged();
 }
 
@@ -226,8 +245,9 @@ async function pick(pixel) {
 function applyLanguage() {
   applyTexts();
   if (client.native) byId('engine').textContent = text('native');
+  document.querySelector('.files').hidden = client.native;
   const groups = new Map();
-  for (const { id, source, title } of lessons) {
+  for (const { id, source, title } of offered()) {
     if (!groups.has(source)) groups.set(source, element('optgroup', { label: sourceName(source) }));
     groups.get(source).append(element('option', { value: id }, word(title)));
   }
@@ -235,17 +255,21 @@ function applyLanguage() {
   if (lesson) showLesson();
 }
 
+/** The last state of each lesson. @type {Map<string, string>} */
+const visited = new Map();
+
+/** Opens a lesson as it was left, or with its default values. */
 function openLesson(id) {
-  const isOwn = { model: isModel, scene: isScene }[id] ?? (() => false);
-  const own = [...(server.files ?? []), ...client.files.keys()].findLast(isOwn);
-  const model = own ? `&model=${encodeURIComponent(own)}` : '';
-  history.pushState(null, '', `#v=1&lesson=${id}${model}`);
-  openLink(`v=1&lesson=${id}${model}`);
+  if (!isEmpty()) visited.set(lesson.id, state.query());
+  const own = ownFile(id);
+  const link = visited.get(id) ?? `v=1&lesson=${id}${own ? `&model=${encodeURIComponent(own)}` : ''}`;
+  history.pushState(null, '', `#${link}`);
+  openLink(link);
 }
 
 function stepLesson(by) {
-  const at = lessons.indexOf(lesson);
-  openLesson(lessons[(at + by + lessons.length) % lessons.length].id);
+  const all = offered();
+  openLesson(all.at((all.indexOf(lesson) + by) % all.length).id);
 }
 
 function undo() {

@@ -35,10 +35,10 @@ export class Panes {
     this.frameTimes = [];
   }
 
-  /** Shows these panes. `state` is the pane of text and numbers. @param {string[]} names */
+  /** Shows these panes and `state`, the pane of text and numbers; or none. @param {string[] | null} names */
   select(names) {
     this.panes = ['picture', 'state', 'world', 'volume', 'depth']
-      .filter((what) => what === 'state' || names.includes(what))
+      .filter((what) => names && (what === 'state' || names.includes(what)))
       .map((what) => ({ what, work: Work.coarse, row: 0, turn: 0 }));
   }
 

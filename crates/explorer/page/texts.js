@@ -29,6 +29,11 @@ const TEXTS = {
     'Or drop files on the page: glTF, STL, OBJ, PLY, 3MF. Add the .bin and textures of a .gltf. Files never leave the browser.',
     '也可将文件拖到页面上：glTF、STL、OBJ、PLY、3MF。.gltf 需同时选中其 .bin 与纹理。文件不会离开浏览器。',
   ],
+  startModel: [
+    'To begin, choose a file below or drop it on the page.',
+    '请先在下面选择文件，或将文件拖到页面上。',
+  ],
+  startNative: ['To begin, start the program with it: `alberti explore --native MODEL`.', '请先用它启动程序：`alberti explore --native MODEL`。'],
   picture: ['Picture', '图像'],
   pictureLabel: ['Picture from the camera', '相机所见的图像'],
   pictureHint: [

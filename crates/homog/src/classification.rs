@@ -68,6 +68,9 @@ pub struct Classification {
     pub rank: usize,
 }
 
+/// The size of rounding errors relative to the largest coordinate of a point.
+const NOISE: f64 = 1e-12;
+
 impl Classification {
     fn new(rows: [[f64; 4]; 4], rank: usize, relative: f64) -> Self {
         let largest = |numbers: &[f64]| numbers.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
@@ -120,7 +123,8 @@ impl fmt::Display for KindReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::OriginStays => f.write_str("w does not change, and neither does the origin"),
-            Self::OriginMoves { to: [x, y, z] } => {
+            Self::OriginMoves { to } => {
+                let [x, y, z] = without_noise(*to);
                 write!(f, "w does not change, but the origin moves to ({x}, {y}, {z})")
             }
             Self::WVaries { bottom_row } => {
@@ -131,6 +135,12 @@ impl fmt::Display for KindReason {
             Self::WVanishes => f.write_str("w is 0 everywhere, so no point has an image"),
         }
     }
+}
+
+/// Replaces coordinates that are only rounding errors of the largest one by 0.
+fn without_noise(point: [f64; 3]) -> [f64; 3] {
+    let largest = point.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+    point.map(|c| if c.abs() <= NOISE * largest { 0.0 } else { c })
 }
 
 /// Writes the linear form p x + q y + r z + h without zero terms or factors of 1.
@@ -242,6 +252,13 @@ mod tests {
         assert_eq!((flat.classify().kind, flat.classify().rank), (MapKind::Linear, 3));
         let nothing = Projective::<View, Clip>::from_rows([[0.0; 4]; 4]).classify();
         assert_eq!((nothing.reason, nothing.rank), (KindReason::WVanishes, 0));
+    }
+
+    #[test]
+    fn rounding_errors_of_the_origin_are_shown_as_zero() {
+        let reason = KindReason::OriginMoves { to: [5.551_115_123_125_783e-16, -2.5, -0.0] };
+        let text = reason.to_string();
+        assert_eq!(text, "w does not change, but the origin moves to (0, -2.5, 0)");
     }
 
     #[test]

@@ -91,8 +91,8 @@ pub(super) static CAMERA_ABOVE: Exercise = Exercise {
                 printed.z_axis.z = 0.0;
                 Some(rows_of(camera.rotation().raw() * printed))
             }),
-            "the third row of the translation lacks its 1, as in the printed notes (M11), so the world's z has no effect",
-            "平移矩阵第三行的 1 丢了，与笔记印错的一样（M11）：世界坐标的 z 不再起作用",
+            "the third row of the translation lacks its 1, as in the printed notes, so the world's z has no effect",
+            "平移矩阵第三行的 1 丢了，与笔记印错的一样：世界坐标的 z 不再起作用",
         ),
         mistake(
             "inverse-rotation",

@@ -30,8 +30,8 @@ pub(super) static CLIPPED_SEGMENT: Exercise = Exercise {
         mistake(
             "m28-cube",
             Wrong::Answer("1/4, 1/2"),
-            "clipped against x = ±1: in clip space the volume is −w ≤ x ≤ w (M28)",
-            "按 x = ±1 裁剪了：裁剪空间中视见体是 −w ≤ x ≤ w（M28）",
+            "clipped against x = ±1: in clip space the volume is −w ≤ x ≤ w",
+            "按 x = ±1 裁剪了：裁剪空间中视见体是 −w ≤ x ≤ w",
         ),
         mistake(
             "divided-too-early",
@@ -102,8 +102,8 @@ pub(super) static OUTCODE: Exercise = Exercise {
         mistake(
             "m28-cube",
             Wrong::Answer("2+4+16"),
-            "compared with ±1: in clip space the limits are −w and w (M28), and y = −3/2 is greater than −2",
-            "与 ±1 比较了：裁剪空间的边界是 −w 和 w（M28），y = −3/2 大于 −2",
+            "compared with ±1: in clip space the limits are −w and w, and y = −3/2 is greater than −2",
+            "与 ±1 比较了：裁剪空间的边界是 −w 和 w，y = −3/2 大于 −2",
         ),
         mistake(
             "sides-exchanged",

@@ -66,8 +66,8 @@ pub(super) static CABINET: Exercise = Exercise {
         mistake(
             "depth-dropped",
             Wrong::Answer("1, 1"),
-            "z was ignored: this is the orthographic image, not the oblique image (M25)",
-            "z 被丢掉了：这是正交投影的像，即斜投影的垂足（M25）",
+            "z was ignored: this is the orthographic image, not the oblique image",
+            "z 被丢掉了：这是正交投影的像，即斜投影的垂足",
         ),
         mistake(
             "foot-forgotten",

@@ -78,8 +78,8 @@ pub(super) static THIRD_ROW_OF_P: Exercise = Exercise {
         mistake(
             "m5-subscript",
             Wrong::Written(&["f_n", "n_f"]),
-            "f_n is a subscript, as misprinted in the textbook (M5): write the product of n and f as `n*f`",
-            "f_n 写成了下标，与教科书印错的一样（M5）：应是 f 与 n 的乘积 `n*f`",
+            "f_n is a subscript, as misprinted in the textbook: write the product of n and f as `n*f`",
+            "f_n 写成了下标，与教科书印错的一样：应是 f 与 n 的乘积 `n*f`",
         ),
         mistake(
             "opengl-row",
@@ -133,8 +133,8 @@ pub(super) static ORDER_OF_DEPTHS: Exercise = Exercise {
         mistake(
             "factor-forgotten",
             Wrong::Answer("(z1-z2)/(z1*z2)"),
-            "the factor f n is missing (it is a product, not a subscript: M5)",
-            "缺少因子 f n（它是乘积，不是下标：M5）",
+            "the factor f n is missing (it is a product, not a subscript)",
+            "缺少因子 f n（它是乘积，不是下标）",
         ),
         mistake(
             "linear",
@@ -145,8 +145,8 @@ pub(super) static ORDER_OF_DEPTHS: Exercise = Exercise {
         mistake(
             "m5-subscript",
             Wrong::Written(&["f_n", "n_f"]),
-            "f_n is a subscript, as misprinted in the textbook (M5): write the product of f and n as `n*f`",
-            "f_n 写成了下标，与教科书印错的一样（M5）：f 与 n 的乘积请写成 `n*f`",
+            "f_n is a subscript, as misprinted in the textbook: write the product of f and n as `n*f`",
+            "f_n 写成了下标，与教科书印错的一样：f 与 n 的乘积请写成 `n*f`",
         ),
     ],
     shape: AnswerShape::Parts(&[&["z1'-z2'"]]),
@@ -212,8 +212,8 @@ pub(super) static INVERSE_OF_P: Exercise = Exercise {
         mistake(
             "m5-subscript",
             Wrong::Written(&["f_n", "n_f"]),
-            "f_n is a subscript, as misprinted in the textbook (M5): write the product of f and n as `n*f`",
-            "f_n 写成了下标，与教科书印错的一样（M5）：f 与 n 的乘积请写成 `n*f`",
+            "f_n is a subscript, as misprinted in the textbook: write the product of f and n as `n*f`",
+            "f_n 写成了下标，与教科书印错的一样：f 与 n 的乘积请写成 `n*f`",
         ),
         mistake(
             "last-row-negated",
@@ -290,8 +290,8 @@ pub(super) static NEAR_CORNER: Exercise = Exercise {
         mistake(
             "m8-depth-reversed",
             Wrong::Places(&[(0, 2, "-n")]),
-            "near and far are swapped, as in OpenGL (M8): here z = n maps to +1",
-            "近平面与远平面按 OpenGL 的方式互换了（M8）：这里 z = n 映为 +1",
+            "near and far are swapped, as in OpenGL: here z = n maps to +1",
+            "近平面与远平面按 OpenGL 的方式互换了：这里 z = n 映为 +1",
         ),
         mistake(
             "p-only",
@@ -370,8 +370,8 @@ pub(super) static P_OF_ONE_AND_TWO: Exercise = Exercise {
         mistake(
             "m14-bottom-row",
             Wrong::Places(&[(3, 3, "1")]),
-            "the bottom row ends with 1, as misprinted in the lesson (M14), so w would be z + 1",
-            "最后一行以 1 结尾，与教程印错的一样（M14）：w 会成为 z + 1",
+            "the bottom row ends with 1, as misprinted in the lesson, so w would be z + 1",
+            "最后一行以 1 结尾，与教程印错的一样：w 会成为 z + 1",
         ),
         mistake(
             "last-row-negated",
@@ -388,8 +388,8 @@ pub(super) static P_OF_ONE_AND_TWO: Exercise = Exercise {
         mistake(
             "m9-negative-planes",
             Wrong::Answer("-1 0 0 0; 0 -1 0 0; 0 0 -3 -2; 0 0 1 0"),
-            "this is P for n = −1 and f = −2, but here n and f are +1 and +2, although the chapter has 0 > n > f (M9)",
-            "这是 n = −1、f = −2 时的 P：这里 n 和 f 是 +1 和 +2，虽然教科书该章规定 0 > n > f（M9）",
+            "this is P for n = −1 and f = −2, but here n and f are +1 and +2, although the chapter has 0 > n > f",
+            "这是 n = −1、f = −2 时的 P：这里 n 和 f 是 +1 和 +2，虽然教科书该章规定 0 > n > f",
         ),
         mistake(
             "opengl-signs",
@@ -442,8 +442,8 @@ pub(super) static IMAGE_OF_A_POINT: Exercise = Exercise {
         mistake(
             "m1-coordinate-lost",
             Wrong::Places(&[(1, 0, "1/z"), (1, 1, "1/z")]),
-            "x and y of the point are missing, as in the misprint y_s = d/z (M1): the result is x/z and y/z",
-            "点自身的 x 和 y 丢失了，与印错的 y_s = d/z 一样（M1）：应为 x/z 和 y/z",
+            "x and y of the point are missing, as in the misprint y_s = d/z: the result is x/z and y/z",
+            "点自身的 x 和 y 丢失了，与印错的 y_s = d/z 一样：应为 x/z 和 y/z",
         ),
         mistake(
             "w-lost",

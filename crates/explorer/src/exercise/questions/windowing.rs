@@ -191,8 +191,8 @@ pub(super) static WINDOW_TO_VIEWPORT: Exercise = Exercise {
         mistake(
             "m18-sign",
             Wrong::Places(&[(1, 2, "20+50*1")]),
-            "the window was moved by +1 in y, as misprinted in the slides (M18): −1 moves its corner to the origin",
-            "窗口在 y 方向移动了 +1，与课件印错的一样（M18）：要移动 −1 才能把角点移到原点",
+            "the window was moved by +1 in y, as misprinted in the slides: −1 moves its corner to the origin",
+            "窗口在 y 方向移动了 +1，与课件印错的一样：要移动 −1 才能把角点移到原点",
         ),
         mistake(
             "viewport-corner-forgotten",
