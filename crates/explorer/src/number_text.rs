@@ -14,7 +14,7 @@ pub(crate) fn decimals(value: f64, count: i32) -> String {
 
 /// Returns a number of triangles in English words.
 pub(crate) fn count_triangles(count: usize) -> String {
-    format!("{count} {}", if count == 1 { "triangle" } else { "triangles" })
+    files::counted(count, "triangle", "triangles")
 }
 
 #[cfg(test)]

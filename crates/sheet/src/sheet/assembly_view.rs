@@ -125,8 +125,8 @@ impl AssemblyLayout {
 
     /// Chooses a balloon center for each spot, or `None` if the spot's balloon does not fit.
     ///
-    /// Uses the ring nearest to the view on which all balloons fit. If there is none, uses the ring
-    /// on which the most leaders stay clear of other balloons.
+    /// Uses the ring nearest to the view on which all balloons fit. If they fit on no ring, uses the
+    /// ring on which the most leaders stay clear of other balloons.
     fn choose_places(&self, spots: &[DVec2]) -> Vec<Option<DVec2>> {
         let clearance = self.radius + 0.5 * BALLOON_GAP;
         let rings = (0..=RING_STEPS).map(|step| self.ring(f64::from(step) / f64::from(RING_STEPS)));
