@@ -55,7 +55,7 @@ pub fn compare_web_pictures() -> Outcome {
 struct Options {
     wide: bool,
     threads: u32,
-    /// The names of the targets to compare instead of builds; an empty list means all.
+    /// The targets to compare, by name, instead of builds; an empty list means all.
     targets: Option<Vec<String>>,
 }
 

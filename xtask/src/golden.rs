@@ -1,6 +1,6 @@
 //! `cargo xtask golden`: compares or replaces the golden images, one per scene.
 //!
-//! The comparison is the test `tests/goldens`, which this command runs. `--bless` replaces the
+//! The comparison is the suite `tests/goldens.rs`, which this command runs. `--bless` replaces the
 //! goldens of the named scenes, or of all scenes with `--all`. Look at the pictures before you use
 //! it. It does not work in CI.
 
@@ -33,8 +33,9 @@ fn compare_goldens(names: &[String]) -> Outcome {
         "--package",
         "alberti-tests",
         "--test",
-        "goldens",
+        "suites",
         "--",
+        "goldens",
     ]);
     let status = test.args(names).status().map_err(|error| error.to_string())?;
     if status.success() { Ok(()) } else { Err("some pictures differ from their goldens".into()) }

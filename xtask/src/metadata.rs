@@ -15,7 +15,7 @@ pub struct Package {
     /// The package names in its table `[dependencies]`; dependencies of tests and build scripts are
     /// omitted.
     pub dependencies: Vec<String>,
-    /// The names and source files of its integration tests, sorted by name.
+    /// Its integration tests with their source files, sorted by name.
     pub tests: Vec<(String, PathBuf)>,
 }
 

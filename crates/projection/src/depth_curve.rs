@@ -104,7 +104,7 @@ impl DepthCurve {
         }
     }
 
-    /// Returns the distance at which points have the given depth, which linearizes a depth buffer.
+    /// Returns the distance at which points have the given depth. Use it to linearize a depth buffer.
     ///
     /// Returns `None` if no finite distance has this depth, such as the far depth of a
     /// projection without a far plane.
@@ -179,8 +179,8 @@ impl DepthCurve {
         Ok(range / parts / slope)
     }
 
-    /// Returns the distance between the stored depth, rounded to f32, and the next value toward
-    /// the far depth.
+    /// Returns the change in distance that corresponds to one f32 step from the stored depth
+    /// toward the far depth.
     #[expect(clippy::cast_possible_truncation, reason = "the stored depth is an f32")]
     fn float_step(self, distance: f64) -> Option<f64> {
         let here = self.depth(distance)? as f32;

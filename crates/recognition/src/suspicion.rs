@@ -1,4 +1,4 @@
-//! Suspicions: known misprints that explain a matrix at least as well as its best reading.
+//! Suspicions: known misprints that explain a matrix about as well as its best reading.
 //!
 //! Each test undoes one misprint and reads the result. A misprint is assumed only if that reading
 //! needs clearly fewer digits, or if the original matrix has no meaningful reading. These rules are
@@ -13,7 +13,7 @@ use projection::{Convention, Frustum};
 
 /// The saving in cost required to assume a misprint.
 pub(crate) const SLIP: u32 = 6;
-/// The saving in cost from which a misprint is likely. Below it, the best reading is as likely.
+/// The minimum saving in cost at which a misprint counts as likely.
 const MARGIN: u32 = 4;
 /// The maximum extra cost, compared with the best reading, at which a misprint is still reported.
 const TOLD: u32 = 4;
@@ -256,7 +256,7 @@ fn tell_moved_apex(_: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     Some(Remedy { misprint: Misprint::ApexMoved, cost: best.cost, remedied })
 }
 
-/// Reports M16: the window begins exactly at x = 0, but y = 0 is neither an edge nor its center.
+/// Reports M16: the window begins at x = 0, but y = 0 is neither its edge nor its center.
 fn tell_frustum_offset_one(_: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let MatrixMeaning::Perspective { frustum, .. } = best.meaning else { return None };
     let w = frustum.window();

@@ -22,7 +22,7 @@ pub struct Limits {
 pub struct Run {
     /// The reports, in the order in which the steps ended.
     pub reports: Vec<StepReport>,
-    /// The names of the steps that did not start in time.
+    /// The steps that did not start in time, by name.
     pub left_out: Vec<String>,
     /// The wall-clock time in seconds.
     pub seconds: f64,

@@ -22,7 +22,7 @@ use std::sync::Arc;
 /// The fraction of the visible length that the z-buffer may hide.
 const MAX_DISAGREEMENT: f64 = 0.002;
 
-/// The numbers of the tested scenes.
+/// The tested scenes, by number.
 const SCENES: Range<u64> = 0..60;
 
 /// The worst scenes found in a search of many scenes.

@@ -1,4 +1,4 @@
-//! Tests of the STL importer with valid and broken files of both forms.
+//! Tests of the STL importer with valid and broken files in both formats.
 
 use super::*;
 use crate::load_bytes;

@@ -1,6 +1,6 @@
 //! Tests of recognition: a table of 120 matrices from books, graphics APIs and programs, half of
 //! them wrong, and 10,000 random matrices.
-// The names of the tests document them.
+// The test names document them.
 #![allow(missing_docs)]
 
 mod formulas;

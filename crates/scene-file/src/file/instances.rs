@@ -12,7 +12,7 @@ scene_enum! {
         /// In rows, columns and layers. The first instance is at the model's position, and the
         /// others are offset from it.
         Grid {
-            /// The numbers of instances along x, y and z, each at least 1.
+            /// The instance counts along x, y and z, each at least 1.
             count: (u32, u32, u32),
             /// The distances between neighbors along x, y and z, in world units.
             step: Triple,

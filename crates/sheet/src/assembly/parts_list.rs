@@ -36,7 +36,7 @@ pub struct PartsListItem {
     pub quantity: usize,
     /// The name, on one line.
     pub name: String,
-    /// The names of the part's materials, joined by commas; empty if there are none.
+    /// The part's material names, joined by commas; empty if there are none.
     pub material: String,
     /// The mass of a single part in grams, if known.
     pub mass: Option<f64>,

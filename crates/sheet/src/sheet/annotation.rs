@@ -85,7 +85,7 @@ pub(super) struct ViewAnnotations {
     items: Vec<PlacedShape>,
     /// The requested dimensions, each as a separate group.
     dimensions: Vec<PlacedDimension>,
-    /// The names of the dimensions for which there was no room.
+    /// The dimensions for which there was no room, by name.
     pub(super) left_out: Vec<String>,
     /// The text of missing labels, with the reasons.
     pub(super) labels_left_out: Vec<(String, SheetLabelFault)>,

@@ -219,7 +219,7 @@ fn dimensions_without_a_true_view_are_reported() {
     assert_eq!(draw(&same, None), Some(DimensionFault::NoExtent));
 }
 
-/// Returns the numbers of the overall dimensions of a model, in ascending order.
+/// Returns the values of a model's overall dimensions, in ascending order.
 fn overall_lengths(model: ModelInstance) -> Vec<String> {
     let sheet = Sheet { dimensions: true, ..sheet((Paper::A3.rotated(), "A3"), SheetAngle::First) };
     let page = sheet.draw(&[model], &[], 1).unwrap();
