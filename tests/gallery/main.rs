@@ -36,9 +36,10 @@ struct Variant {
 }
 
 /// The default, followed by every style, every light and every side.
-const VARIANTS: [Variant; 22] = [
+const VARIANTS: [Variant; 23] = [
     Variant { name: "default", change: |_| () },
     Variant { name: "flat", change: |file| file.style = StyleFile::Flat },
+    Variant { name: "unlit", change: |file| file.style = StyleFile::Unlit },
     Variant { name: "gouraud", change: |file| file.style = StyleFile::Gouraud },
     Variant { name: "clay", change: |file| file.style = StyleFile::Clay },
     Variant { name: "matcap", change: |file| file.style = StyleFile::Matcap },

@@ -22,6 +22,7 @@ pub fn all_styles() -> Vec<(&'static str, StyleFile)> {
     vec![
         ("shaded", StyleFile::Shaded),
         ("flat", StyleFile::Flat),
+        ("unlit", StyleFile::Unlit),
         ("gouraud", StyleFile::Gouraud),
         ("clay", StyleFile::Clay),
         ("matcap", StyleFile::Matcap),

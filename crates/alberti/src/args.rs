@@ -243,6 +243,8 @@ pub(crate) enum StyleArg {
     Shaded,
     /// Physically based shading with one normal per triangle
     Flat,
+    /// Base colors of the materials, without light
+    Unlit,
     /// Gouraud shading: lit at the vertices, interpolated between them
     Gouraud,
     /// Matte clay, lit by the scene's lights

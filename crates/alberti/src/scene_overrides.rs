@@ -237,6 +237,7 @@ impl From<StyleArg> for StyleFile {
         match style {
             StyleArg::Shaded => Self::Shaded,
             StyleArg::Flat => Self::Flat,
+            StyleArg::Unlit => Self::Unlit,
             StyleArg::Gouraud => Self::Gouraud,
             StyleArg::Clay => Self::Clay,
             StyleArg::Matcap => Self::Matcap,

@@ -130,6 +130,7 @@ const fn style_name(style: Style) -> &'static str {
     match style {
         Style::Shaded => "shaded",
         Style::Flat => "flat",
+        Style::Unlit => "unlit",
         Style::Gouraud => "gouraud",
         Style::Clay => "clay",
         Style::Matcap => "matcap",

@@ -16,9 +16,10 @@ const VERSION: &str = "1";
 const VOLUME_ORBIT: [f64; 2] = [35.0, 25.0];
 
 /// The styles available for lessons, as named in scene files.
-pub(crate) const STYLES: [&str; 13] = [
+pub(crate) const STYLES: [&str; 14] = [
     "Shaded",
     "Flat",
+    "Unlit",
     "Gouraud",
     "Clay",
     "Matcap",

@@ -48,7 +48,7 @@ pub use mesh::{
     VariantMaterial,
 };
 pub use model::Model;
-pub use model_instance::{ModelInstance, model_names, world_points};
+pub use model_instance::{FirstIds, ModelInstance, model_names, world_points};
 pub use scene_graph::{MeshInstance, Node, SceneRoots, Skin, Trs};
 pub use skinning::SkinnedPrimitive;
 pub use texture::{

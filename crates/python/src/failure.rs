@@ -69,12 +69,6 @@ impl Failure {
     pub(crate) fn with_help(self, help: impl Into<String>) -> Self {
         Self { help: Some(help.into()), ..self }
     }
-
-    /// Sets the location to an argument, unless this failure already has a location.
-    pub(crate) fn at(self, argument: &str) -> Self {
-        let pointer = if self.pointer.is_empty() { argument.to_owned() } else { self.pointer };
-        Self { pointer, ..self }
-    }
 }
 
 impl From<Failure> for PyErr {

@@ -64,9 +64,9 @@ impl<'py> Keywords<'_, 'py> {
     /// Reads the width and height in pixels.
     pub(crate) fn size(&self, name: &str) -> PyResult<Option<(u32, u32)>> {
         let Some(value) = self.value(name)? else { return Ok(None) };
-        let sides = value.extract::<(i64, i64)>();
+        let sides = value.extract::<[i64; 2]>();
         let wanted = "(width, height) in pixels";
-        let (width, height) = sides.map_err(|_| PyErr::from(not_a(name, &value, wanted)))?;
+        let [width, height] = sides.map_err(|_| PyErr::from(not_a(name, &value, wanted)))?;
         let most = i64::from(scene::MAX_IMAGE_SIDE);
         let fits = |side: i64| (1..=most).contains(&side);
         if fits(width) && fits(height) {

@@ -6,6 +6,7 @@
 //! | --- | --- |
 //! | models and scenes, from files and from memory | `loading.rs`, `subject.rs` |
 //! | cameras, points and pixels | `camera_options.rs`, `native_camera.rs`, `pixel_rays.rs` |
+//! | contents and poses of models | `model_contents.rs` |
 //! | meshes as arrays | `mesh_arrays.rs`, `mesh_colors.rs`, `mesh_material.rs` |
 //! | pictures and passes | `scene_options.rs`, `rendering.rs` |
 //! | line drawings; explanations | `drawing_result.rs`; `explanation.rs` |
@@ -23,6 +24,7 @@ mod loading;
 mod mesh_arrays;
 mod mesh_colors;
 mod mesh_material;
+mod model_contents;
 mod native_camera;
 mod pixel_rays;
 mod rendering;
@@ -45,6 +47,14 @@ fn run_program(
 /// Registers the functions and classes for the Python sources.
 #[pymodule]
 mod _native {
+    use pyo3::prelude::*;
+
+    /// Adds the version of the package.
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+
     #[pymodule_export]
     use super::drawing_result::{NativeDrawing, draw};
     #[pymodule_export]
@@ -54,7 +64,9 @@ mod _native {
     #[pymodule_export]
     use super::mesh_arrays::build_model;
     #[pymodule_export]
-    use super::native_camera::{NativeCamera, make_camera};
+    use super::model_contents::{animations, mesh_arrays, pose, variants};
+    #[pymodule_export]
+    use super::native_camera::{NativeCamera, camera_from_ron, make_camera};
     #[pymodule_export]
     use super::rendering::{encode_png, over_white, render, render_many};
     #[pymodule_export]

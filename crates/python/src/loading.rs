@@ -53,7 +53,7 @@ pub(crate) fn load_model(
         };
         let mut model = loaded?;
         if request.animation.is_some() || request.time.is_some() {
-            pose_model(&mut model, &request)?;
+            pose_model(&mut model, request.animation.as_ref(), request.time)?;
         }
         Ok(Subject::new(origin, file, vec![place_model(model)]))
     })
@@ -122,12 +122,16 @@ pub(crate) fn place_model(model: Model) -> ModelInstance {
     ModelInstance { model: Arc::new(model), model_to_world }
 }
 
-/// Poses a model with an animation.
-fn pose_model(model: &mut Model, request: &LoadRequest) -> Fallible<()> {
-    let chosen = select_animation(model, request.animation.as_ref());
+/// Poses a model with an animation at a time in seconds; 0 by default.
+pub(crate) fn pose_model(
+    model: &mut Model,
+    animation: Option<&Choice>,
+    time: Option<f64>,
+) -> Fallible<()> {
+    let chosen = select_animation(model, animation);
     let animation = chosen
         .map_err(|(message, help)| Failure { help, ..Failure::argument("animation", message) })?;
-    model.apply_animation(animation, request.time.unwrap_or(0.0));
+    model.apply_animation(animation, time.unwrap_or(0.0));
     Ok(())
 }
 
@@ -164,7 +168,7 @@ pub(crate) fn crease_angle(options: &Keywords<'_, '_>) -> PyResult<Option<f64>> 
 }
 
 /// Reads a selection by name or index.
-fn choice(options: &Keywords<'_, '_>, name: &str) -> PyResult<Option<Choice>> {
+pub(crate) fn choice(options: &Keywords<'_, '_>, name: &str) -> PyResult<Option<Choice>> {
     let Some(value) = options.value(name)? else { return Ok(None) };
     if let Ok(index) = value.extract::<usize>() {
         return Ok(Some(Choice::Index(index)));

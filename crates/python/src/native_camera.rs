@@ -37,6 +37,15 @@ pub(crate) fn make_camera(options: &Bound<'_, PyDict>) -> PyResult<NativeCamera>
     Ok(NativeCamera { file, size, placed: None })
 }
 
+/// Creates a camera from a scene file with only a camera and an image size.
+#[pyfunction]
+pub(crate) fn camera_from_ron(text: &str, has_size: bool) -> PyResult<NativeCamera> {
+    let file = SceneFile::from_ron(text);
+    let file = file.map_err(|errors| Failure::argument("text", errors.to_message(false)))?;
+    let size = has_size.then_some(file.image.size);
+    Ok(NativeCamera { file: file.camera, size, placed: None })
+}
+
 impl NativeCamera {
     /// Returns the camera of a scene, with its position, so that it can be used for more pictures.
     pub(crate) fn of_scene(file: &CameraFile, scene: &Scene) -> Self {
@@ -122,6 +131,19 @@ impl NativeCamera {
     #[getter]
     fn size(&self) -> Option<(u32, u32)> {
         self.size
+    }
+
+    /// Returns a scene file with only this camera and its size, for pickling.
+    fn to_ron(&self) -> PyResult<String> {
+        let mut file = SceneFile { camera: self.file.clone(), ..SceneFile::default() };
+        file.image.size = self.size.unwrap_or(file.image.size);
+        file.to_ron().map_err(|error| Failure::argument("camera", error.to_string()).into())
+    }
+
+    /// Returns whether two cameras have the same description and size.
+    fn equals(&self, other: &Bound<'_, Self>) -> bool {
+        let other = other.get();
+        self.file == other.file && self.size == other.size
     }
 
     /// Returns the matrix K, with pixel centers at integers.

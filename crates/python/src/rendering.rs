@@ -17,6 +17,8 @@ use pipeline::{CancelToken, Monitor, Picture, RenderContext, Renderer, Scene, Sc
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scene_file::Pass;
+use scene_file::file::{CameraFile, ViewFile};
+use shade::color::{SrgbEncoder, srgb_to_linear_table};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -66,33 +68,62 @@ pub(crate) fn render<'py>(
 
 /// Renders many pictures, each on one thread, and returns them in the order of the jobs.
 ///
-/// The first job that fails stops the others.
+/// The first job that fails stops the others. Errors name jobs by their index, which starts at
+/// `first_job`.
 #[pyfunction]
+#[pyo3(signature = (jobs, threads, first_job = 0))]
 pub(crate) fn render_many<'py>(
     py: Python<'py>,
     jobs: Vec<(Bound<'py, Subject>, Bound<'py, PyDict>)>,
     threads: Option<usize>,
+    first_job: usize,
 ) -> PyResult<Vec<FrameParts<'py>>> {
     let mut read = Vec::with_capacity(jobs.len());
     for (subject, options) in &jobs {
-        let job = RenderJob::new(subject.get(), &Keywords(options))?;
+        let job = RenderJob::new(subject.get(), &Keywords(options));
+        let job = job.map_err(|error| in_job(py, error, first_job + read.len()))?;
         read.push(RenderJob { threads: 1, ..job });
     }
     let workers = thread_count(threads).min(read.len());
-    let rendered = run_detached(py, |cancel| render_jobs(&read, workers, cancel))?;
+    let rendered = run_detached(py, |cancel| render_jobs(&read, workers, first_job, cancel))?;
     rendered.into_iter().map(|job| job.into_parts(py)).collect()
 }
 
-/// Blends colors over white and drops alpha: (…, 4) becomes (…, 3).
+/// Adds the index of a job to the location of an error.
+fn in_job(py: Python<'_>, error: PyErr, number: usize) -> PyErr {
+    let value = error.value(py);
+    if let Ok(pointer) = value.getattr("pointer").and_then(|pointer| pointer.extract::<String>()) {
+        // An exception without a settable location keeps the one it has.
+        let _ = value.setattr("pointer", job_pointer(number, &pointer));
+    }
+    error
+}
+
+/// Returns the location of an argument of a job, or of a position in its scene file.
+fn job_pointer(number: usize, place: &str) -> String {
+    match place {
+        "" => format!("jobs[{number}]"),
+        place if place.contains([' ', '/']) => format!("jobs[{number}], {place}"),
+        argument => format!("jobs[{number}].{argument}"),
+    }
+}
+
+/// Blends colors over white in linear light, as with a white background, and drops alpha: (…, 4)
+/// becomes (…, 3).
 #[pyfunction]
 pub(crate) fn over_white<'py>(
     py: Python<'py>,
     rgba: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let picture = read_picture(rgba)?;
-    let over = |channel: u8, alpha: u8| {
-        let sum = u32::from(channel) * u32::from(alpha) + 255 * u32::from(255 - alpha);
-        ((sum + 127) / 255) as u8
+    let (light_of, encoder) = (srgb_to_linear_table(), SrgbEncoder::shared());
+    let over = |channel: u8, alpha: u8| match alpha {
+        0 => 255,
+        255 => channel,
+        _ => {
+            let alpha = f32::from(alpha) / 255.0;
+            encoder.encode(light_of[usize::from(channel)] * alpha + (1.0 - alpha))
+        }
     };
     let mut colors = Vec::with_capacity(3 * picture.pixels.len());
     for [r, g, b, alpha] in &picture.pixels {
@@ -165,7 +196,7 @@ fn read_passes(options: &Keywords<'_, '_>) -> PyResult<(bool, Vec<Pass>)> {
         }
         let known = Pass::ALL.into_iter().find(|pass| means_pass(&wanted, *pass));
         let Some(pass) = known else {
-            let names = Pass::ALL.map(Pass::name).join(", ");
+            let names = Pass::ALL.map(python_name).join(", ");
             let message = format!("has {name:?}, expected rgb, rgba, {names}");
             return Err(Failure::argument("passes", message).into());
         };
@@ -176,24 +207,30 @@ fn read_passes(options: &Keywords<'_, '_>) -> PyResult<(bool, Vec<Pass>)> {
     Ok((has_color, passes))
 }
 
-/// Returns whether a normalized name refers to this pass: the library's name for it, or `ids`,
-/// `model_ids` and so on.
-fn means_pass(wanted: &str, pass: Pass) -> bool {
-    let own = plain_name(pass.name());
-    wanted == own
-        || match pass {
-            Pass::Id => wanted == "ids",
-            Pass::Model | Pass::Node | Pass::Mesh | Pass::Material => {
-                wanted.strip_suffix("ids") == Some(&own)
-            }
-            _ => false,
+/// Returns the name of a pass in Python: `ids`, `view_normal` and so on.
+fn python_name(pass: Pass) -> String {
+    match pass {
+        Pass::Id => "ids".to_owned(),
+        Pass::Model | Pass::Object | Pass::Node | Pass::Mesh | Pass::Material => {
+            format!("{}_ids", pass.name())
         }
+        _ => pass.name().replace('-', "_"),
+    }
+}
+
+/// Returns whether a normalized name refers to this pass: its name in Python or in flags.
+fn means_pass(wanted: &str, pass: Pass) -> bool {
+    wanted == plain_name(pass.name()) || wanted == plain_name(&python_name(pass))
 }
 
 impl<'a> RenderJob<'a> {
     /// Reads the options of a call.
     fn new(subject: &'a Subject, options: &Keywords<'_, '_>) -> PyResult<Self> {
-        let file = apply_options(subject, options)?;
+        let mut file = apply_options(subject, options)?;
+        // Without anything to frame, every camera shows only the background.
+        if subject.is_empty() && matches!(file.camera.view, ViewFile::Frame { .. }) {
+            file.camera = CameraFile::look_at([2.0, 1.0, 2.0], [0.0; 3]);
+        }
         let (width, height) = file.image.size;
         check_pixel_count(width.into(), height.into())?;
         let (has_color, passes) = read_passes(options)?;
@@ -253,7 +290,7 @@ impl RenderedJob {
                 PassValues::Floats(values) => new_array(py, values, shape)?,
                 PassValues::Integers(values) => new_array(py, values, shape)?,
             };
-            arrays.set_item(pass.name(), array)?;
+            arrays.set_item(python_name(pass), array)?;
         }
         Ok((arrays, self.camera, self.warnings))
     }
@@ -286,6 +323,7 @@ impl Drop for IdleRenderer {
 fn render_jobs(
     jobs: &[RenderJob<'_>],
     workers: usize,
+    first_job: usize,
     cancel: &CancelToken,
 ) -> Fallible<Vec<RenderedJob>> {
     let next = AtomicUsize::new(0);
@@ -300,7 +338,8 @@ fn render_jobs(
                 Ok(rendered) => done.push((number, rendered)),
                 Err(failure) => {
                     cancel.cancel();
-                    return Err((number, failure.at(&format!("jobs[{number}]"))));
+                    let pointer = job_pointer(first_job + number, &failure.pointer);
+                    return Err((number, Failure { pointer, ..failure }));
                 }
             }
         }

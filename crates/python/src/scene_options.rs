@@ -1,12 +1,14 @@
 //! Picture and drawing options: the parts of a scene description that a call overrides.
 
 use crate::failure::{Failure, Fallible};
-use crate::keywords::{Keywords, plain_name};
+use crate::keywords::{Keywords, not_a, plain_name};
 use crate::native_camera::NativeCamera;
 use crate::subject::Subject;
 use pipeline::SceneFile;
 use pyo3::prelude::*;
-use scene_file::file::{BackgroundFile, Color, StyleFile};
+use scene::fixed_key_light;
+use scene_file::file::{BackgroundFile, Color, EnvironmentFile, Finite, StyleFile};
+use serde::de::DeserializeOwned;
 
 /// Applies the options of a call to the description of a subject's scene.
 ///
@@ -25,9 +27,10 @@ pub(crate) fn apply_options(subject: &Subject, options: &Keywords<'_, '_>) -> Py
     if let Some(name) = options.text("style")? {
         file.style = style_by_name(&name)?;
     }
-    if let Some(text) = options.text("background")? {
-        file.image.background = Some(background_by_name(&text)?);
+    if let Some(value) = options.value("background")? {
+        file.image.background = Some(read_background(&value)?);
     }
+    apply_light_options(subject, options, &mut file)?;
     if let Some(samples) = options.count("samples")? {
         if ![1, 4, 8, 16].contains(&samples) {
             let message = format!("is {samples}, expected 1, 4, 8 or 16");
@@ -48,14 +51,84 @@ fn style_by_name(name: &str) -> Fallible<StyleFile> {
     })
 }
 
-/// Reads a background: transparent, or a color.
-fn background_by_name(text: &str) -> Fallible<BackgroundFile> {
+/// Applies the options for lights, environment, shadows, ground and exposure. Python passes
+/// structured values as JSON in the form of scene files.
+fn apply_light_options(
+    subject: &Subject,
+    options: &Keywords<'_, '_>,
+    file: &mut SceneFile,
+) -> PyResult<()> {
+    if let Some(lights) = options.value("lights")? {
+        if let Ok(name) = lights.extract::<String>() {
+            apply_named_light(subject, &name, file)?;
+        } else {
+            let texts: Vec<String> = lights.extract()?;
+            let read =
+                |(index, text): (usize, &String)| read_json(&format!("lights[{index}]"), text);
+            file.lights = Some(texts.iter().enumerate().map(read).collect::<Fallible<_>>()?);
+        }
+    }
+    if let Some(text) = options.text("environment")? {
+        file.environment = Some(read_json("environment", &text)?);
+    }
+    if let Some(text) = options.text("shadows")? {
+        file.shadows = Some(read_json("shadows", &text)?);
+    }
+    if let Some(text) = options.text("ground")? {
+        file.ground = Some(read_json("ground", &text)?);
+    }
+    if let Some(stops) = options.number("exposure")? {
+        file.image.exposure_ev = Finite::new(stops);
+    }
+    if let Some(curve) = options.named("tone_mapping")? {
+        file.image.tone_mapping = Some(curve);
+    }
+    Ok(())
+}
+
+/// Applies the name of a lighting: `camera` is the default, and `world` keeps the default key light
+/// in place when the camera moves.
+fn apply_named_light(subject: &Subject, name: &str, file: &mut SceneFile) -> Fallible<()> {
+    match name {
+        "camera" => Ok(()),
+        "world" => {
+            let has_lights =
+                subject.models.iter().any(|placed| placed.model.scene_lights().next().is_some());
+            // Lights of the file or of the models do not move with the camera.
+            if file.lights.is_none() && !has_lights {
+                file.lights = Some(vec![fixed_key_light()]);
+                file.environment.get_or_insert(EnvironmentFile::STUDIO);
+            }
+            Ok(())
+        }
+        _ => {
+            let message =
+                format!("is {name:?}, expected \"camera\", \"world\" or a list of lights");
+            Err(Failure::argument("lights", message))
+        }
+    }
+}
+
+/// Reads a part of a scene file from JSON.
+fn read_json<T: DeserializeOwned>(argument: &str, text: &str) -> Fallible<T> {
+    serde_json::from_str(text).map_err(|error| {
+        let message = error.to_string();
+        let end = message.rfind(" at line ").unwrap_or(message.len());
+        Failure::argument(argument, &message[..end])
+    })
+}
+
+/// Reads a background: transparent, the name of a color, or three channels as bytes.
+fn read_background(value: &Bound<'_, PyAny>) -> PyResult<BackgroundFile> {
+    let wanted = "transparent, #rrggbb, the name of a color, or (r, g, b) from 0 to 255";
+    let Ok(text) = value.extract::<String>() else {
+        let channels = value.extract::<[u8; 3]>();
+        let channels = channels.map_err(|_| PyErr::from(not_a("background", value, wanted)))?;
+        return Ok(BackgroundFile::Color(Color(channels)));
+    };
     if text.eq_ignore_ascii_case("transparent") {
         return Ok(BackgroundFile::Transparent);
     }
-    let color = Color::parse(text).map(BackgroundFile::Color);
-    color.ok_or_else(|| {
-        let message = format!("is {text:?}, expected transparent, #rrggbb or the name of a color");
-        Failure::argument("background", message)
-    })
+    let color = Color::parse(&text).map(BackgroundFile::Color);
+    color.ok_or_else(|| not_a("background", value, wanted).into())
 }

@@ -55,6 +55,12 @@ impl Subject {
         Ok(Self { options, ..Self::new(origin, file, models) })
     }
 
+    /// Returns a subject with other models and the same scene description.
+    pub(crate) fn with_models(&self, models: Vec<ModelInstance>) -> Self {
+        let (origin, file) = (self.origin.clone(), self.file.clone());
+        Self { options: self.options.clone(), ..Self::new(origin, file, models) }
+    }
+
     /// Resolves a description that uses the models to a scene.
     ///
     /// # Errors
@@ -72,8 +78,13 @@ impl Subject {
         self.textured.get_or_init(make).borrow_dependent()
     }
 
+    /// Whether the models have no points, lines or triangles.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.item_counts() == [0; 3]
+    }
+
     /// Returns the models without duplicates, in scene order.
-    fn distinct_models(&self) -> Vec<&Arc<model::Model>> {
+    pub(crate) fn distinct_models(&self) -> Vec<&Arc<model::Model>> {
         let mut distinct: Vec<&Arc<model::Model>> = Vec::new();
         for placed in &self.models {
             if !distinct.iter().any(|known| Arc::ptr_eq(known, &placed.model)) {
@@ -124,14 +135,86 @@ impl Subject {
         warnings.collect()
     }
 
-    /// Returns the node, mesh or material names in each distinct model; None for unnamed parts.
-    fn part_names(&self, what: &str) -> PyResult<Vec<Vec<Option<String>>>> {
-        let names = |model: &Arc<model::Model>| match what {
-            "nodes" => Ok(model.nodes.iter().map(|part| part.name.clone()).collect()),
-            "meshes" => Ok(model.meshes.iter().map(|part| part.name.clone()).collect()),
-            "materials" => Ok(model.materials.iter().map(|part| part.name.clone()).collect()),
-            _ => Err(PyErr::from(Failure::argument("what", "expected nodes, meshes or materials"))),
+    /// Returns the node, mesh or material names by id, from 1; None for unnamed parts.
+    fn part_names(&self, what: &str) -> PyResult<Vec<Option<String>>> {
+        let names = |model: &Arc<model::Model>| -> PyResult<Vec<Option<String>>> {
+            Ok(match what {
+                "nodes" => model.nodes.iter().map(|part| part.name.clone()).collect(),
+                "meshes" => model.meshes.iter().map(|part| part.name.clone()).collect(),
+                "materials" => model.materials.iter().map(|part| part.name.clone()).collect(),
+                _ => return Err(Failure::argument("what", "expected nodes, meshes or …").into()),
+            })
         };
-        self.distinct_models().into_iter().map(names).collect()
+        // Each model instance has separate nodes, but instances share meshes and materials.
+        let models: Vec<_> = if what == "nodes" {
+            self.models.iter().map(|placed| &placed.model).collect()
+        } else {
+            self.distinct_models()
+        };
+        Ok(models.into_iter().map(names).collect::<PyResult<Vec<_>>>()?.concat())
     }
+
+    /// Returns the objects by id, from 1: the model's id and name, the node's id and the names
+    /// from the root to the node, the mesh's id and name, and the ids of the materials.
+    fn objects(&self) -> Vec<ObjectRow> {
+        let mut rows = Vec::new();
+        let first_ids = model::FirstIds::of_models(&self.models);
+        for ((model_id, placed), first) in (1..).zip(&self.models).zip(first_ids) {
+            let model = &placed.model;
+            let parents = parent_indices(model);
+            for instance in model.mesh_instances() {
+                let Some(mesh) = model.nodes[instance.node].mesh else { continue };
+                let mut path = Vec::new();
+                let mut next = Some(instance.node);
+                while let Some(node) = next {
+                    path.push(model.nodes[node].name.clone());
+                    next = parents[node];
+                }
+                path.reverse();
+                let materials = model.meshes[mesh].primitives.iter();
+                let materials =
+                    materials.map(|part| part.material.map_or(0, |index| first.material + index));
+                rows.push((
+                    (model_id, model.name.clone()),
+                    (first.node + instance.node, path),
+                    (first.mesh + mesh, model.meshes[mesh].name.clone()),
+                    materials.collect(),
+                ));
+            }
+        }
+        rows
+    }
+
+    /// Returns the parts of a scene description that are lost when only its models are used.
+    fn scene_settings(&self) -> Vec<&'static str> {
+        let (file, default) = (&self.file, SceneFile::default());
+        let settings = [
+            ("camera", file.camera != default.camera),
+            ("lights", file.lights.is_some()),
+            ("environment", file.environment.is_some()),
+            ("shadows", file.shadows.is_some()),
+            ("ground", file.ground.is_some()),
+            ("style", file.style != default.style),
+            ("overlays", !file.overlays.is_empty()),
+            ("sections", !file.sections.is_empty()),
+            ("viewports", !file.viewports.is_empty()),
+        ];
+        settings.into_iter().filter(|(_, is_set)| *is_set).map(|(name, _)| name).collect()
+    }
+}
+
+/// An object: the id and name of the model, the id and path of the node, the id and name of the
+/// mesh, and the ids of the materials.
+type ObjectRow =
+    ((usize, String), (usize, Vec<Option<String>>), (usize, Option<String>), Vec<usize>);
+
+/// Returns the parent of each node.
+fn parent_indices(model: &model::Model) -> Vec<Option<usize>> {
+    let mut parents = vec![None; model.nodes.len()];
+    for (index, node) in model.nodes.iter().enumerate() {
+        for &child in &node.children {
+            parents[child] = Some(index);
+        }
+    }
+    parents
 }

@@ -90,12 +90,14 @@ def test_shapes_and_dtypes(teapot):
     assert frame.size == (31, 17) and frame.mask.dtype == bool
 
 
-def test_rgb_is_blended_over_white(teapot):
-    frame = alberti.render(teapot, size=(64, 48))
-    color, alpha = frame.rgba[..., :3].astype(int), frame.rgba[..., 3:].astype(int)
-    expected = (color * alpha + 255 * (255 - alpha) + 127) // 255
-    assert (frame.rgb == expected).all()
-    assert (frame.rgb[0, 0] == 255).all()
+def test_rgb_matches_a_white_background(teapot):
+    """Both blend in linear light; codes of transparent pixels are rounded twice."""
+    dark = alberti.Model.from_arrays([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], color="black")
+    for model, samples in ((teapot, 4), (dark, 16)):
+        frame = alberti.render(model, size=(64, 48), samples=samples)
+        white = alberti.render(model, size=(64, 48), samples=samples, background="white")
+        assert np.abs(frame.rgb.astype(int) - white.rgb.astype(int)).max() <= 1
+        assert (frame.rgb[0, 0] == 255).all()
 
 
 def test_depth_of_a_plane_matches_its_formula():

@@ -104,8 +104,7 @@ def test_pictures_of_a_file_match(path):
         scene = trimesh.load_scene(path, process=False)
     except BaseException as error:
         pytest.skip(f"trimesh rejects it: {error}")
-    up = "z" if path.suffix.lower() in (".stl", ".3mf") else "y"
-    theirs = alberti.Model.from_trimesh(scene, up=up)
+    theirs = alberti.Model.from_trimesh(scene)
     if ours.bounds is None or theirs.bounds is None:
         assert ours.bounds is None or not len(scene.geometry)
         return

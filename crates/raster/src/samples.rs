@@ -5,7 +5,8 @@ use crate::screen_vertex::SUBPIXELS;
 /// The number of coverage samples per pixel (multisample antialiasing).
 ///
 /// Coverage and depth are determined at every sample; each visible surface is still shaded once per
-/// pixel. The patterns are the standard patterns of Direct3D 11.
+/// pixel. The patterns are the standard patterns of Direct3D 11; the one with sixteen samples is
+/// moved by 1/32 pixel, so that its samples, like the others, are balanced around the center.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Samples {
     /// One sample at the center of the pixel: no antialiasing.
@@ -19,29 +20,30 @@ pub enum Samples {
     Sixteen,
 }
 
-// Offsets from the center of the pixel in 1/16 pixel. No two samples of a pattern share a row or a
-// column, so nearly horizontal and vertical edges get as many steps as there are samples.
+// Offsets from the center of the pixel in 1/32 pixel. Their sum is 0, so that a picture does not
+// move with the number of samples. No two samples of a pattern share a row or a column, so nearly
+// horizontal and vertical edges get as many steps as there are samples.
 const ONE: [(i32, i32); 1] = [(0, 0)];
-const FOUR: [(i32, i32); 4] = [(-2, -6), (6, -2), (-6, 2), (2, 6)];
+const FOUR: [(i32, i32); 4] = [(-4, -12), (12, -4), (-12, 4), (4, 12)];
 const EIGHT: [(i32, i32); 8] =
-    [(1, -3), (-1, 3), (5, 1), (-3, -5), (-5, 5), (-7, -1), (3, 7), (7, -7)];
+    [(2, -6), (-2, 6), (10, 2), (-6, -10), (-10, 10), (-14, -2), (6, 14), (14, -14)];
 const SIXTEEN: [(i32, i32); 16] = [
-    (1, 1),
-    (-1, -3),
-    (-3, 2),
-    (4, -1),
-    (-5, -2),
-    (2, 5),
-    (5, 3),
-    (3, -5),
-    (-2, 6),
-    (0, -7),
-    (-4, -6),
-    (-6, 4),
-    (-8, 0),
-    (7, -4),
-    (6, 7),
-    (-7, -8),
+    (3, 3),
+    (-1, -5),
+    (-5, 5),
+    (9, -1),
+    (-9, -3),
+    (5, 11),
+    (11, 7),
+    (7, -9),
+    (-3, 13),
+    (1, -13),
+    (-7, -11),
+    (-11, 9),
+    (-15, 1),
+    (15, -7),
+    (13, 15),
+    (-13, -15),
 ];
 
 impl Samples {
@@ -60,11 +62,11 @@ impl Samples {
     /// Returns the number of samples per pixel.
     #[must_use]
     pub const fn count(self) -> usize {
-        self.sixteenths().len()
+        self.thirty_seconds().len()
     }
 
-    /// Returns the offsets of the samples from the center of the pixel, in 1/16 pixel.
-    const fn sixteenths(self) -> &'static [(i32, i32)] {
+    /// Returns the offsets of the samples from the center of the pixel, in 1/32 pixel.
+    const fn thirty_seconds(self) -> &'static [(i32, i32)] {
         match self {
             Self::One => &ONE,
             Self::Four => &FOUR,
@@ -76,10 +78,10 @@ impl Samples {
     /// Returns the minimum and maximum offsets of a sample from the left or upper border of its
     /// pixel, in grid steps.
     pub(crate) fn offset_range(self) -> (i32, i32) {
-        let all = self.sixteenths().iter().flat_map(|&(x, y)| [x, y]);
+        let all = self.thirty_seconds().iter().flat_map(|&(x, y)| [x, y]);
         let (least, greatest) =
             all.fold((0, 0), |(least, greatest), c| (c.min(least), c.max(greatest)));
-        (SUBPIXELS / 2 + least * (SUBPIXELS / 16), SUBPIXELS / 2 + greatest * (SUBPIXELS / 16))
+        (SUBPIXELS / 2 + least * (SUBPIXELS / 32), SUBPIXELS / 2 + greatest * (SUBPIXELS / 32))
     }
 
     /// Returns the offsets of all samples: see [`sample_offset`](Self::sample_offset).
@@ -98,14 +100,14 @@ impl Samples {
     /// Returns the offset of a sample from the upper left corner of its pixel, in grid steps.
     #[inline(always)]
     pub(crate) fn sample_offset(self, sample: usize) -> (i64, i64) {
-        let (x, y) = grid_offset(self.sixteenths()[sample]);
+        let (x, y) = grid_offset(self.thirty_seconds()[sample]);
         (i64::from(x), i64::from(y))
     }
 
     /// Returns the offsets of all samples from the upper left corner of their pixel, in grid steps.
     #[inline(always)]
     pub(crate) fn grid_offsets(self) -> impl Iterator<Item = (i32, i32)> {
-        self.sixteenths().iter().map(|sample| grid_offset(*sample))
+        self.thirty_seconds().iter().map(|sample| grid_offset(*sample))
     }
 }
 
@@ -114,7 +116,7 @@ impl Samples {
 #[inline(always)]
 const fn grid_offset(from_center: (i32, i32)) -> (i32, i32) {
     let (x, y) = from_center;
-    (SUBPIXELS / 2 + x * (SUBPIXELS / 16), SUBPIXELS / 2 + y * (SUBPIXELS / 16))
+    (SUBPIXELS / 2 + x * (SUBPIXELS / 32), SUBPIXELS / 2 + y * (SUBPIXELS / 32))
 }
 
 #[cfg(test)]
@@ -131,6 +133,15 @@ mod tests {
                     assert!(a.0 != b.0 && a.1 != b.1, "{samples:?}: {a:?} and {b:?}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn the_mean_sample_is_the_center_of_the_pixel() {
+        for samples in [Samples::One, Samples::Four, Samples::Eight, Samples::Sixteen] {
+            let sum = samples.sample_offsets().fold((0, 0), |sum, at| (sum.0 + at.0, sum.1 + at.1));
+            let center = samples.count() as i64 * i64::from(SUBPIXELS / 2);
+            assert_eq!(sum, (center, center), "{samples:?}");
         }
     }
 }

@@ -145,6 +145,9 @@ impl NonNegative {
     /// 1.
     pub const ONE: Self = Self(1.0);
 
+    /// 1.45, the illuminance in lux of the key light of a model without a scene file.
+    pub const KEY_LIGHT: Self = Self(1.45);
+
     /// 0.45, the strength of the studio around a model without a scene file.
     pub const BARE_STUDIO: Self = Self(0.45);
 

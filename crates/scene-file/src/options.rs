@@ -211,9 +211,10 @@ named_values! {
         Barycentric = "The barycentric coordinates in the triangle, from 0 to 1; they add up to 1.",
         Id = "The index of the point, line or triangle in the scene, from 1; 0 for the background.",
         Model = "The index of the model in the scene, from 1.",
-        Node = "The index of the node in its model, from 1.",
-        Mesh = "The index of the mesh in its model, from 1.",
-        Material = "The index of the material in its model, from 1; 0 for the default material.",
+        Object = "The object, an instance of a mesh: counted from 1 through all models.",
+        Node = "The node, counted from 1 through all models.",
+        Mesh = "The mesh, counted from 1 through all different models.",
+        Material = "The material, counted like meshes; 0 for the default material.",
         Overdraw = "The number of fragments that cover the pixel center, including hidden ones.",
         Coverage = "The fraction of the pixel's samples that are covered, from 0 to 1.",
     }

@@ -6,7 +6,7 @@
 //! | normal, view-normal, position, barycentric | f32 | 3 | 0 |
 //! | uv | f32 | 2 | 0 |
 //! | coverage | f32 | 1 | 0 |
-//! | id, model, node, mesh, material, overdraw | u32 | 1 | 0 |
+//! | id, model, object, node, mesh, material, overdraw | u32 | 1 | 0 |
 
 /// A render pass: one quantity per pixel, from the nearest surface at its center.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -33,11 +33,17 @@ pub enum Pass {
     Id,
     /// The model, counted from 1 in scene order; 0 for background pixels.
     Model,
-    /// The node: its glTF index plus 1; 0 for background pixels.
+    /// The object: an instance of a mesh, counted from 1 through all models. Copies of a model and
+    /// of an instanced mesh (EXT_mesh_gpu_instancing) are different objects. 0 for background
+    /// pixels.
+    Object,
+    /// The node, counted from 1 through all models; in the first model, its glTF index plus 1. 0
+    /// for background pixels.
     Node,
-    /// The mesh: its glTF index plus 1; 0 for background pixels.
+    /// The mesh, counted from 1 through all different models; in the first, its glTF index plus 1.
+    /// 0 for background pixels.
     Mesh,
-    /// The material: its glTF index plus 1; 0 also for the default material.
+    /// The material, counted like meshes; 0 also for the default material.
     Material,
     /// Number of fragments at the pixel's center, including hidden ones.
     Overdraw,
@@ -71,7 +77,7 @@ impl PassEncoding {
 
 impl Pass {
     /// All passes.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Depth,
         Self::Distance,
         Self::Normal,
@@ -81,6 +87,7 @@ impl Pass {
         Self::Barycentric,
         Self::Id,
         Self::Model,
+        Self::Object,
         Self::Node,
         Self::Mesh,
         Self::Material,
@@ -101,6 +108,7 @@ impl Pass {
             Self::Barycentric => "barycentric",
             Self::Id => "id",
             Self::Model => "model",
+            Self::Object => "object",
             Self::Node => "node",
             Self::Mesh => "mesh",
             Self::Material => "material",
@@ -124,7 +132,13 @@ impl Pass {
     pub const fn is_integer(self) -> bool {
         matches!(
             self,
-            Self::Id | Self::Model | Self::Node | Self::Mesh | Self::Material | Self::Overdraw
+            Self::Id
+                | Self::Model
+                | Self::Object
+                | Self::Node
+                | Self::Mesh
+                | Self::Material
+                | Self::Overdraw
         )
     }
 

@@ -84,6 +84,7 @@ pub use depth_span::DepthSpan;
 pub use file_access::FileAccess;
 pub use ground::{Ground, OcclusionArea};
 pub use insets::Inset;
+pub use lights::fixed_key_light;
 pub use lints::{Lint, lint_description, lint_scene};
 pub use model_files::{name_or_index, select_animation};
 pub use origin::Origin;

@@ -5,7 +5,7 @@ use super::Origin;
 use super::diagnostics::Diagnostics;
 use super::shadows::resolve_shadow;
 use super::surrounding_light::effective_environment;
-use camera::ViewProjection;
+use camera::{NamedView, ViewProjection};
 use files::counted;
 use homog::{Point, Vector, World};
 use model::LightKind;
@@ -198,11 +198,32 @@ fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<
     };
     // Toward the viewer along the ground; from straight above, toward the bottom of the picture.
     let front = level(camera.w()).or_else(|| level(-camera.v())).unwrap_or(Vector::Z);
+    let to_light = direction_to_key_light(front).raw().as_vec3().to_array();
+    Light::Sun { to_light, lux: [lux; 3], shadow }
+}
+
+/// Returns the direction to the key light for a viewer in the direction `front`, which is level.
+fn direction_to_key_light(front: Vector<World>) -> Vector<World> {
     let left = front.cross(Vector::Y);
     let [azimuth, elevation] = [KEY_AZIMUTH, KEY_ELEVATION].map(f64::to_radians);
     let along_ground = front * libm::cos(azimuth) + left * libm::sin(azimuth);
-    let to_light = along_ground * libm::cos(elevation) + Vector::Y * libm::sin(elevation);
-    Light::Sun { to_light: to_light.raw().as_vec3().to_array(), lux: [lux; 3], shadow }
+    along_ground * libm::cos(elevation) + Vector::Y * libm::sin(elevation)
+}
+
+/// Returns the key light of a bare model in the three-quarter view as a light of the scene file,
+/// which does not move with the camera.
+///
+/// Use it with [`EnvironmentFile::STUDIO`] to light views from different directions alike.
+#[must_use]
+pub fn fixed_key_light() -> LightFile {
+    let front = NamedView::ThreeQuarter.from_direction();
+    let front = (front - Vector::Y * front.dot(Vector::Y)).normalized().unwrap_or(Vector::Z);
+    LightFile::Directional {
+        direction: Triple((-direction_to_key_light(front)).raw().to_array()),
+        intensity: NonNegative::KEY_LIGHT,
+        color: LightColor::WHITE,
+        shadows: None,
+    }
 }
 
 /// Resolves a light from the file, with the scene's shadows unless it sets its own; returns

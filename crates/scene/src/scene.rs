@@ -128,6 +128,8 @@ pub enum Style {
     Shaded,
     /// Lit, with one normal per triangle.
     Flat,
+    /// The base colors of the materials, without light.
+    Unlit,
     /// Gouraud shading: lit at the vertices and interpolated.
     Gouraud,
     /// Matte clay.

@@ -12,6 +12,7 @@ pub(super) fn resolve_style(origin: &Origin, file: &SceneFile) -> Result<Style, 
     Ok(match &file.style {
         StyleFile::Shaded => Style::Shaded,
         StyleFile::Flat => Style::Flat,
+        StyleFile::Unlit => Style::Unlit,
         StyleFile::Gouraud => Style::Gouraud,
         StyleFile::Clay => Style::Clay,
         StyleFile::Matcap => Style::Matcap,

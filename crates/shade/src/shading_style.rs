@@ -24,6 +24,8 @@ use std::f32::consts::FRAC_1_PI;
 /// The look of surfaces that are not shaded with their material.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum ShadingStyle {
+    /// The base color of the material (the albedo), without light, exposure or tone mapping.
+    Unlit,
     /// Gouraud shading: diffuse light computed at the vertices of each triangle and interpolated,
     /// times the base color (Gouraud 1971).
     Gouraud,
@@ -184,6 +186,21 @@ impl Kernel for StyleEight<'_> {
     }
 }
 
+/// Returns the base color of a material, premultiplied by alpha if the material blends.
+#[inline(always)]
+fn unlit_color<const N: usize>(
+    draw: &Draw<'_>,
+    primitives: &PrimitiveIndices<N>,
+    fragments: &impl FragmentLanes<N>,
+) -> [Lanes<N>; 4] {
+    let vertices = draw.vertex_indices(primitives);
+    let inputs = MaterialInputs::evaluate(draw, &vertices, fragments);
+    let is_blended = draw.material.alpha_mode == AlphaMode::Blend;
+    let alpha = if is_blended { inputs.alpha } else { Lanes::ONE };
+    let Rgb { r, g, b } = inputs.base_color * alpha;
+    [r, g, b, alpha]
+}
+
 impl StyledShading<'_> {
     /// Returns whether the style applies to a draw. It does not apply to the background or, except
     /// for false colors, to lines and points.
@@ -218,6 +235,9 @@ impl StyledShading<'_> {
         primitives: &PrimitiveIndices<N>,
         fragments: &impl FragmentLanes<N>,
     ) -> [Lanes<N>; 4] {
+        if self.style == ShadingStyle::Unlit {
+            return unlit_color(draw, primitives, fragments);
+        }
         let geometry = self.shading.surface_geometry(draw, primitives, fragments);
         opaque_color(match self.style {
             ShadingStyle::Clay => {

@@ -90,7 +90,7 @@ impl ColormapArgs {
 
 /// Whether surfaces of a style show their vertex colors.
 const fn shows_vertex_colors(style: Style) -> bool {
-    matches!(style, Style::Shaded | Style::Flat | Style::Gouraud | Style::Toon)
+    matches!(style, Style::Shaded | Style::Flat | Style::Unlit | Style::Gouraud | Style::Toon)
 }
 
 /// Parses `MIN,MAX`.

@@ -44,6 +44,7 @@ pub(super) fn style_shading<'a>(
 ) -> Option<StyledShading<'a>> {
     let camera = scene.view_projection.camera;
     let style = match scene.style {
+        Style::Unlit => ShadingStyle::Unlit,
         Style::Gouraud => ShadingStyle::Gouraud,
         Style::Clay => ShadingStyle::Clay,
         Style::Matcap => ShadingStyle::Matcap,

@@ -43,7 +43,7 @@ impl VertexInputs {
     pub(super) fn for_style(style: Style, opacity: Option<Opacity>) -> Self {
         let default_rule = match style {
             Style::XRay => OpacityRule::Force(Opacity::Translucent),
-            Style::Gouraud | Style::Toon => OpacityRule::AlphaMode,
+            Style::Unlit | Style::Gouraud | Style::Toon => OpacityRule::AlphaMode,
             style if style.overrides_materials() => OpacityRule::CutOut,
             _ => OpacityRule::FromMaterial,
         };

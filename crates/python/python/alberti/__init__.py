@@ -15,23 +15,45 @@ machine.
 
 from ._camera import Camera
 from ._drawing import Drawing, draw
-from ._errors import AlbertiError, AlbertiWarning
-from ._frame import Frame
-from ._model import Model, Scene, load, load_scene
-from ._render import explain, render, render_many
+from ._errors import AlbertiError, AlbertiWarning, MissingFileError
+from ._frame import Frame, Object
+from ._lights import (
+    AmbientLight,
+    DirectionalLight,
+    Environment,
+    Light,
+    ModelLights,
+    PointLight,
+    SpotLight,
+)
+from ._model import Animation, Model, Scene, load, load_scene
+from ._native import __version__
+from ._render import explain, render, render_each, render_many
 
 __all__ = [
     "AlbertiError",
     "AlbertiWarning",
+    "AmbientLight",
+    "Animation",
     "Camera",
+    "DirectionalLight",
     "Drawing",
+    "Environment",
     "Frame",
+    "Light",
+    "MissingFileError",
     "Model",
+    "ModelLights",
+    "Object",
+    "PointLight",
     "Scene",
+    "SpotLight",
+    "__version__",
     "draw",
     "explain",
     "load",
     "load_scene",
     "render",
+    "render_each",
     "render_many",
 ]

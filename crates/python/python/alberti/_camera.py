@@ -299,6 +299,19 @@ class Camera:
         """Return origins and unit directions (height, width, 3) of the rays through all pixels."""
         return self._native.rays()
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Camera) and self._native.equals(other._native)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Camera._restore, (self._native.to_ron(), self.size is not None)
+
+    @staticmethod
+    def _restore(text: str, has_size: bool) -> Camera:
+        """Return a camera from the scene file that was pickled."""
+        return Camera(_native.camera_from_ron(text, has_size))
+
     def __repr__(self) -> str:
         try:
             eye = ", ".join(f"{x:.4g}" for x in self.eye)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Union
 
 from . import _native
 from ._camera import Camera
@@ -16,16 +17,16 @@ if TYPE_CHECKING:
 
     from ._model import Model
 
-    Size = tuple[int, int]
+    Size = Union[tuple[int, int], Sequence[int]]
 
 
 def draw(
-    model: Model,
+    model: Model | Any,
     *,
     camera: Camera | str | None = None,
     size: Size | None = None,
     style: str | None = None,
-    background: str | None = None,
+    background: str | Sequence[int] | None = None,
     threads: int | None = None,
 ) -> Drawing:
     """Draw the edges of a model or a scene, with hidden lines removed.
@@ -53,8 +54,9 @@ def draw(
         "background": background,
         "threads": threads,
     }
-    subject, options = _job(model, options)
-    drawing = Drawing(_native.draw(subject, options))
+    call = dict(options)
+    model, options = _job(model, options)
+    drawing = Drawing(_native.draw(model._native, options), (model, call))
     warn_all(drawing.warnings)
     return drawing
 
@@ -62,10 +64,12 @@ def draw(
 class Drawing:
     """A line drawing: a page as SVG, PDF or DXF, and its segments as arrays."""
 
-    __slots__ = ("_native", "_segments")
+    __slots__ = ("_call", "_native", "_segments")
 
-    def __init__(self, native: _native.Drawing) -> None:
+    def __init__(self, native: _native.Drawing, call: tuple[Model, dict[str, Any]]) -> None:
         self._native = native
+        #: The arguments of :func:`draw`, which draws the same lines after unpickling.
+        self._call = call
         self._segments: dict[str, Any] | None = None
 
     @property
@@ -134,6 +138,13 @@ class Drawing:
         with open(path, "wb") as file:
             file.write(content)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _draw_again, self._call
+
+    def __repr__(self) -> str:
+        width, height = self.camera.size or (0, 0)
+        return f"Drawing({width} x {height}: {len(self.lines)} lines)"
+
     def _repr_svg_(self) -> str:
         """Return the drawing for Jupyter."""
         return self.svg
@@ -143,3 +154,8 @@ class Drawing:
         if self._segments is None:
             self._segments = self._native.lines()
         return self._segments
+
+
+def _draw_again(model: Model, options: dict[str, Any]) -> Drawing:
+    """Draw a pickled drawing again; the lines are the same on every machine."""
+    return draw(model, **options)

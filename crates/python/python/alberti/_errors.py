@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import warnings as _warnings
 from collections.abc import Iterable
 
@@ -41,6 +42,18 @@ class AlbertiError(Exception):
         if self.help and self.help not in self.message:
             text = f"{text}; {self.help}"
         return text
+
+
+class MissingFileError(AlbertiError, FileNotFoundError):
+    """A file does not exist; also a ``FileNotFoundError``."""
+
+    def __init__(self, path: str) -> None:
+        super().__init__(f"there is no file {path}", "FILE_NOT_FOUND", "source")
+        self.errno = errno.ENOENT
+        self.filename = path
+
+    def __reduce__(self) -> tuple[type[MissingFileError], tuple[str]]:
+        return MissingFileError, (self.filename,)
 
 
 class AlbertiWarning(UserWarning):

@@ -16,6 +16,8 @@ scene_enum! {
         Shaded,
         /// Physically based shading, with one normal per triangle.
         Flat,
+        /// The base colors of the materials (albedo), without light, exposure or tone mapping.
+        Unlit,
         /// Gouraud shading: matte material colors, lit at the vertices and interpolated.
         Gouraud,
         /// Matte clay in the scene's light.
@@ -48,9 +50,10 @@ type NamedStyle = (&'static str, fn() -> StyleFile);
 
 impl StyleFile {
     /// The styles by their names in flags, with default fields.
-    pub const NAMED: [NamedStyle; 21] = [
+    pub const NAMED: [NamedStyle; 22] = [
         ("shaded", || Self::Shaded),
         ("flat", || Self::Flat),
+        ("unlit", || Self::Unlit),
         ("gouraud", || Self::Gouraud),
         ("clay", || Self::Clay),
         ("matcap", || Self::Matcap),

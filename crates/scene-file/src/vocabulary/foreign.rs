@@ -202,6 +202,7 @@ pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
     // Styles: materials and viewport shading in other programs, f3d's --edges and --axis.
     ("solid smooth phong pbr rendered lit material", "Style", "Shaded"),
     ("flatshading flatshaded facetted", "Style", "Flat"),
+    ("albedo basecolor meshbasicmaterial emission nolighting", "Style", "Unlit"),
     ("flatshading", "Scene", "style"),
     ("wireframe wire", "Style", "Wireframe"),
     ("normal meshnormalmaterial normalmaterial", "Style", "Normals"),

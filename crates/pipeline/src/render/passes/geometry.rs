@@ -11,7 +11,7 @@ use crate::render::screen_transform::{ScreenTransform, model_point};
 use crate::render::vertex_processing::{normal_matrix, transform_normal};
 use glam::{DMat3, DVec3};
 use homog::{Affine, Clip, HPoint, Model, Normal, Point, Projective, Screen, View, World};
-use model::{Primitive, SkinnedPrimitive, Topology};
+use model::{FirstIds, Primitive, SkinnedPrimitive, Topology};
 use scene::{Scene, Style};
 use scene_file::Pass;
 use std::borrow::Cow;
@@ -44,12 +44,23 @@ pub(super) struct SceneGeometry<'a> {
     is_flat: bool,
 }
 
+/// The ids of the parts of a scene that contain a primitive, each counted from 1 through all models.
+#[derive(Clone, Copy)]
+struct OwnerIds {
+    model: u32,
+    object: u32,
+    node: u32,
+    mesh: u32,
+    /// 0 for the default material.
+    material: u32,
+}
+
 /// The draw call of one primitive of one mesh instance.
 struct DrawGeometry<'a> {
     /// The id of the first point, line or triangle.
     first_id: u32,
-    /// One-based indices of the model, node, mesh and material; 0 means none.
-    owner_ids: [u32; 4],
+    /// The ids of the parts of the scene that contain the primitive.
+    owner_ids: OwnerIds,
     /// The primitive, with its indices and topology.
     primitive: &'a Primitive,
     /// The posed positions and normals.
@@ -70,28 +81,40 @@ impl<'a> SceneGeometry<'a> {
         let transform = ScreenTransform::for_tile(scene, tile)?;
         let mut draws = Vec::new();
         let mut first_id = 0;
-        for (model_id, model_instance) in (1..).zip(&scene.models) {
+        let mut object = 0;
+        // 0 means that there is none.
+        let narrow = |id: usize| u32::try_from(id).map_err(|_| RenderError::TooManyPrimitives);
+        let first_ids = FirstIds::of_models(&scene.models);
+        for ((model_id, model_instance), first) in (1..).zip(&scene.models).zip(first_ids) {
             let model = &model_instance.model;
-            for (instance, primitive) in model.scene_primitives() {
-                let skinned = model.skin_primitive(instance, primitive);
-                let model_to_world = skinned.to_model.then(model_instance.model_to_world);
-                // 0 means that there is none.
-                let id = |index: Option<usize>| index.map_or(0, |index| index as u32 + 1);
-                let (node, mesh) = (Some(instance.node), model.nodes[instance.node].mesh);
-                let owner_ids = [model_id, id(node), id(mesh), id(primitive.material)];
-                draws.push(DrawGeometry {
-                    first_id,
-                    owner_ids,
-                    primitive,
-                    uvs: model.morph_uvs(instance, primitive, 0),
-                    model_to_world,
-                    model_to_clip: transform.model_to_clip(model_to_world),
-                    normal_to_world: normal_matrix(model_to_world),
-                    skinned,
-                });
-                let count = u32::try_from(primitive.item_count()).ok();
-                let next = count.and_then(|count| first_id.checked_add(count));
-                first_id = next.ok_or(RenderError::TooManyPrimitives)?;
+            for instance in model.mesh_instances() {
+                object += 1;
+                let Some(mesh) = model.nodes[instance.node].mesh else { continue };
+                for primitive in &model.meshes[mesh].primitives {
+                    let skinned = model.skin_primitive(instance, primitive);
+                    let model_to_world = skinned.to_model.then(model_instance.model_to_world);
+                    draws.push(DrawGeometry {
+                        first_id,
+                        owner_ids: OwnerIds {
+                            model: model_id,
+                            object: narrow(object)?,
+                            node: narrow(first.node + instance.node)?,
+                            mesh: narrow(first.mesh + mesh)?,
+                            material: narrow(
+                                primitive.material.map_or(0, |index| first.material + index),
+                            )?,
+                        },
+                        primitive,
+                        uvs: model.morph_uvs(instance, primitive, 0),
+                        model_to_world,
+                        model_to_clip: transform.model_to_clip(model_to_world),
+                        normal_to_world: normal_matrix(model_to_world),
+                        skinned,
+                    });
+                    let count = u32::try_from(primitive.item_count()).ok();
+                    let next = count.and_then(|count| first_id.checked_add(count));
+                    first_id = next.ok_or(RenderError::TooManyPrimitives)?;
+                }
             }
         }
         Ok(Self {
@@ -115,12 +138,13 @@ impl<'a> SceneGeometry<'a> {
     /// Returns the value of an integer pass at a pixel; 0 for background pixels.
     pub(super) fn id_value(&self, pass: Pass, hit: &Hit) -> u32 {
         let Some(draw) = self.draw_of_hit(hit) else { return 0 };
-        let [model, node, mesh, material] = draw.owner_ids;
+        let ids = draw.owner_ids;
         match pass {
-            Pass::Model => model,
-            Pass::Node => node,
-            Pass::Mesh => mesh,
-            Pass::Material => material,
+            Pass::Model => ids.model,
+            Pass::Object => ids.object,
+            Pass::Node => ids.node,
+            Pass::Mesh => ids.mesh,
+            Pass::Material => ids.material,
             _ => hit.id + 1,
         }
     }
@@ -137,6 +161,9 @@ impl<'a> SceneGeometry<'a> {
         last: &mut Option<HitItem<'s, 'a>>,
         values: &mut [f32],
     ) {
+        if hit.id == u32::MAX {
+            return;
+        }
         if last.as_ref().is_none_or(|item| item.id != hit.id) {
             *last = self.item_of_hit(hit);
         }

@@ -137,9 +137,10 @@ const fn unit_description(pass: Pass) -> &'static str {
         Pass::Barycentric => "barycentric weights of the three corners; 65535 is 1",
         Pass::Id => "point, line or triangle of the scene, from 1; 0 is background",
         Pass::Model => "model of the scene, from 1; 0 is background",
-        Pass::Node => "node of the model, from 1; 0 is background",
-        Pass::Mesh => "mesh of the model, from 1; 0 is background",
-        Pass::Material => "material of the model, from 1; 0 is background or the default",
+        Pass::Object => "object of the scene, from 1; 0 is background",
+        Pass::Node => "node of the scene, from 1; 0 is background",
+        Pass::Mesh => "mesh of the scene, from 1; 0 is background",
+        Pass::Material => "material of the scene, from 1; 0 is background or the default",
         Pass::Overdraw => "fragments that cover the pixel's center",
         Pass::Coverage => "fraction of the pixel's samples covered; 65535 is 1",
     }

@@ -3,9 +3,11 @@
 use super::load_scene;
 use homog::PixelRect;
 use homog::{ClipRange, Point, World};
+use model::ModelInstance;
 use pipeline::render::passes::PassValues;
 use pipeline::render::{Pass, inspect_pixel, render_passes};
 use pipeline::{Picture, Scene, Timings, render};
+use std::sync::Arc;
 use viewport::Viewport;
 
 const SCENES: [&str; 5] = ["teapot", "crates", "mexican_hat", "primitives", "isometric"];
@@ -79,9 +81,22 @@ fn ids_match_pixel_inspection() {
             let model = &scene.models[owner.model].model;
             let mesh = model.nodes[owner.node].mesh.expect("a mesh");
             let primitive = &model.meshes[mesh].primitives[owner.primitive];
-            let material = primitive.material.map_or(0, |material| material + 1);
-            let expected = [owner.model + 1, owner.node + 1, mesh + 1, material].map(|n| n as u32);
-            assert_eq!(found[1..], expected, "{name} ({x}, {y})");
+            // Ids count through all models; copies of a model share its meshes and materials.
+            let before = &scene.models[..owner.model];
+            let nodes: usize = before.iter().map(|placed| placed.model.nodes.len()).sum();
+            let same = |placed: &&ModelInstance| Arc::ptr_eq(&placed.model, model);
+            let first_copy = before.iter().find(same).unwrap_or(&scene.models[owner.model]);
+            let mut shared = Vec::new();
+            for placed in before.iter().take_while(|placed| !std::ptr::eq(*placed, first_copy)) {
+                if !shared.iter().any(|known| Arc::ptr_eq(known, &placed.model)) {
+                    shared.push(Arc::clone(&placed.model));
+                }
+            }
+            let meshes: usize = shared.iter().map(|model| model.meshes.len()).sum();
+            let materials: usize = shared.iter().map(|model| model.materials.len()).sum();
+            let material = primitive.material.map_or(0, |material| materials + material + 1);
+            let expected = [owner.model + 1, nodes + owner.node + 1, meshes + mesh + 1, material];
+            assert_eq!(found[1..], expected.map(|n| n as u32), "{name} ({x}, {y})");
             let shown = scene.models.iter().enumerate().flat_map(|(number, placed)| {
                 placed.model.scene_primitives().map(move |(instance, p)| (number, instance, p))
             });

@@ -224,6 +224,26 @@ fn checkers_change_at_every_eighth_of_the_texture_coordinates() {
 }
 
 #[test]
+fn unlit_style_shows_base_colors() {
+    let mut scene = styled_scene("spheres", Style::Unlit);
+    scene.tone_mapper.exposure = 4.0;
+    let picture = render_scene(&scene);
+    let passes = render_wanted_passes(&scene, &[Pass::Id, Pass::Material]);
+    let seen = for_each_covered_pixel(&passes[0], |x, y| {
+        let id = passes[1].integer_value(x, y).expect("a pixel") as usize;
+        let materials: Vec<_> =
+            scene.models.iter().flat_map(|placed| &placed.model.materials).collect();
+        let base = id.checked_sub(1).map_or([1.0; 4], |index| materials[index].base_color);
+        let color = picture.pixel(x, y).expect("a pixel");
+        for (code, light) in color.into_iter().zip(base).take(3) {
+            let expected = encode_srgb(light.into());
+            assert!((f64::from(code) - expected).abs() < 0.6, "({x}, {y}): {code} {expected}");
+        }
+    });
+    assert!(seen > 1000, "{seen}");
+}
+
+#[test]
 fn toon_style_has_few_tones_and_dark_outlines() {
     let scene = styled_scene("spheres", Style::Toon);
     let picture = render_scene(&scene);
