@@ -69,7 +69,7 @@ impl Job {
     }
 }
 
-/// Runs commands.
+/// A command runner that caches outputs.
 pub struct Runner {
     program: PathBuf,
     program_hash: String,
