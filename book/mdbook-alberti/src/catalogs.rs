@@ -111,7 +111,7 @@ fn structure_fault(edition: &Edition, name: &str, catalog: &Catalog) -> Result<O
     };
     let (before, after) = (count(&text), count(&translated));
     Ok((before != after).then(|| {
-        format!("{name}.po: the translation has {after:?} fenced blocks, captions and headings, the source {before:?}")
+        format!("{name}.po: the translation has {after:?} fenced blocks, captions and headings, but the source has {before:?}")
     }))
 }
 
