@@ -32,7 +32,7 @@ fn main() {
     fs::write(out.join("pages.rs"), modules).expect("OUT_DIR is writable");
 }
 
-/// Blanks all lines of a page except the Rust blocks and the title, where rustdoc starts to count.
+/// Blanks all lines except the Rust blocks and the title, the line from which rustdoc counts.
 fn rust_lines(page: &str) -> String {
     let mut is_rust = false;
     let mut out = String::new();

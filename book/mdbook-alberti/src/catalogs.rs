@@ -30,7 +30,7 @@ struct Extracted {
 
 /// Writes a template, `FOLDER/PAGE.pot`, for each page.
 pub fn write_templates(arguments: &Arguments) -> Result<()> {
-    let [folder] = &arguments.names[..] else { bail!("pot FOLDER") };
+    let [folder] = &arguments.names[..] else { bail!("usage: pot FOLDER") };
     let folder = Path::new(folder);
     let empty = Catalog::new(CatalogMetadata::new());
     for Extracted { name, messages } in extract(&arguments.edition()?)? {
@@ -39,7 +39,7 @@ pub fn write_templates(arguments: &Arguments) -> Result<()> {
     Ok(())
 }
 
-/// Updates the catalogs to the current pages, then prints the coverage.
+/// Updates the catalogs to match the current pages, then prints the coverage.
 pub fn update(arguments: &Arguments) -> Result<()> {
     let edition = arguments.edition()?;
     for language in translations() {
@@ -111,7 +111,7 @@ fn structure_fault(edition: &Edition, name: &str, catalog: &Catalog) -> Result<O
     };
     let (before, after) = (count(&text), count(&translated));
     Ok((before != after).then(|| {
-        format!("{name}.po: the translation has {after:?} fenced blocks, captions and headings, the source {before:?}")
+        format!("{name}.po: the translation has {after:?} fenced blocks, captions and headings, but the source has {before:?}")
     }))
 }
 

@@ -227,7 +227,7 @@ fn link_fault(
     if !target.is_file() {
         return Some(NO_FILE);
     }
-    // A fragment of the explorer's page is its state, not an anchor.
+    // The fragment of a link to the explorer's page is a state, not an anchor.
     let anchor = anchor.filter(|_| !target.ends_with("explorer/index.html"))?;
     let html = pages.get(&target).or_else(|| {
         let read = cache.entry(target.clone()).or_insert_with(|| fs::read_to_string(&target).ok());

@@ -69,7 +69,7 @@ impl Job {
     }
 }
 
-/// Runs commands.
+/// A command runner that caches outputs.
 pub struct Runner {
     program: PathBuf,
     program_hash: String,
@@ -116,8 +116,7 @@ impl Runner {
         if path.is_file() {
             return Ok(path);
         }
-        // The output is renamed when it is complete, so an interrupted build leaves no partial
-        // file.
+        // Output is renamed when complete, so an interrupted build never caches partial output.
         let partial = self.cache.join(format!("partial-{name}"));
         let mut command = Command::new(&self.program);
         let locale = if job.kind == Kind::ChineseText { "zh_CN.UTF-8" } else { "C" };
@@ -155,7 +154,7 @@ fn take_next(next: &Mutex<usize>, count: usize) -> Option<usize> {
     (at < count).then_some(at)
 }
 
-/// Collects a file and, if it is a text format, the files that it names in quotation marks.
+/// Collects a file and, if its format is text, the files that it names in quotation marks.
 fn collect_inputs(path: &Path, depth: usize, found: &mut BTreeSet<PathBuf>) {
     if !path.is_file() || !found.insert(path.to_owned()) || depth == 0 {
         return;

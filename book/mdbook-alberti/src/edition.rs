@@ -1,4 +1,4 @@
-//! Editions: builds the book in one language into a folder.
+//! Editions of the book: one per language, each built into a folder.
 
 use crate::figure::copy_figures;
 use crate::language::Language;
@@ -13,7 +13,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
-/// The sources, program and output folder from which editions are built.
+/// The sources, the program and the output folder of the editions.
 pub struct Edition {
     /// The folder that contains `book.toml`.
     pub book: PathBuf,
@@ -32,7 +32,7 @@ pub struct Edition {
 }
 
 impl Edition {
-    /// Reads the table of contents, without the missing pages if the edition is partial.
+    /// Reads the table of contents, without missing pages if the edition is partial.
     pub fn summary(&self) -> Result<Summary> {
         let own = self.source.join("SUMMARY.md");
         let path = if own.is_file() { own } else { self.book.join("src/SUMMARY.md") };

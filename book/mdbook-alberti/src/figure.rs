@@ -1,4 +1,4 @@
-//! Figures: parses the marked blocks and writes the HTML elements.
+//! Figures: parses their blocks and writes their HTML elements.
 
 use crate::command::{Job, Kind, hash};
 use crate::language::Language;

@@ -2,7 +2,7 @@
 
 use math_core::{LatexToMathML, MathCoreConfig, MathDisplay};
 
-/// A converter for formulas.
+/// A converter from LaTeX to MathML.
 pub struct Formulas(LatexToMathML);
 
 impl Formulas {

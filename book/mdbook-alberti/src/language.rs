@@ -13,7 +13,7 @@ pub enum Language {
 pub struct Texts {
     /// The text of the link below a figure.
     pub explore: &'static str,
-    /// The text of the link to this edition in the other editions.
+    /// The text of the links from other editions to this one.
     pub name: &'static str,
     /// The heading above the table of contents of the printed book.
     pub contents: &'static str,
@@ -21,7 +21,7 @@ pub struct Texts {
     pub topics: [&'static str; 3],
     /// The separator between a page title and a section title, also used in tooltips.
     pub colon: &'static str,
-    /// The word for a topic, used in the tooltip of its mark.
+    /// The word "topic" in this language, used in the tooltips of topic marks.
     pub topic: &'static str,
     /// The label of the links to other editions.
     pub languages: &'static str,

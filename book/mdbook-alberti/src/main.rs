@@ -5,7 +5,7 @@
 //! mdbook-alberti supports RENDERER       exit successfully: every renderer is supported
 //! mdbook-alberti build --program FILE    build both editions, or only --language CODE; --partial allows missing pages
 //! mdbook-alberti pot FOLDER              write catalog templates, one for each page
-//! mdbook-alberti update [PAGE…]          update the catalogs to the current pages
+//! mdbook-alberti update [PAGE…]          update the catalogs to match the current pages
 //! mdbook-alberti check-po [PAGE…]        list errors in the catalogs
 //! mdbook-alberti coverage [--assert N]   print the translated percentage of each page
 //! mdbook-alberti check                   check links, sizes, ids and topics of the built editions

@@ -32,7 +32,7 @@ pub struct Page {
 pub struct Renderer<'a> {
     /// The edition's language.
     pub language: Language,
-    /// The converter of formulas.
+    /// The formula converter.
     pub formulas: &'a Formulas,
     /// The outputs of the commands.
     pub answers: &'a Answers,
@@ -253,7 +253,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn edits_apply_in_any_order() {
+    fn the_order_of_edits_does_not_matter() {
         assert_eq!(apply("abcd", vec![(3..3, "X".into()), (0..1, "Y".into())]), "YbcXd");
     }
 

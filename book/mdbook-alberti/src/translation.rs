@@ -154,7 +154,7 @@ pub fn update_catalog(page: &str, language: &str, messages: &[String], old: &Cat
     catalog
 }
 
-/// Returns the translation of the obsolete message most similar to a new one, if similar enough.
+/// Returns the translation of the obsolete message most similar to `msgid`, if similar enough.
 fn most_similar<'a>(msgid: &str, messages: &[String], old: &'a Catalog) -> Option<&'a str> {
     let gone = old.messages().filter(|message| !messages.iter().any(|id| id == message.msgid()));
     let scored = gone
