@@ -21,7 +21,7 @@ impl<T: Args> Args for Deferred<T> {
 
 /// Adds the arguments to a command. Values are case-insensitive, as in `--view Front`.
 ///
-/// The command keeps its own description, which the type's description would otherwise replace.
+/// The command keeps its description, which the type's description would otherwise replace.
 /// Existing global flags are moved to the end.
 fn declare_arguments<T: Args>(command: Command) -> Command {
     let about = command.get_about().cloned().unwrap_or_default();

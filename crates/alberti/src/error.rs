@@ -1,6 +1,6 @@
 //! Program errors: errors from the libraries, and wrong combinations of flags.
 //!
-//! Usage errors that clap detects while parsing do not get here: they exit with code 2. A
+//! Usage errors that clap detects while parsing do not get here: they exit with code 2. An invalid
 //! combination that depends on the input or on several flags is a [`CliError::Usage`] and exits
 //! with code 1 like any failure.
 //!

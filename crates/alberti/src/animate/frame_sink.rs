@@ -24,7 +24,7 @@ use std::rc::Rc;
 /// The frames of [`Self::Files`] are written atomically and remain if the run is stopped. The raw
 /// stream has no header: the reader must know the size and frame rate.
 pub(super) enum FrameSink {
-    /// One PNG per frame, with the value of `{stem}`.
+    /// One PNG per frame: the template of the names, and the value of `{stem}`.
     Files(NameTemplate, String),
     /// One animated PNG.
     Png { writer: Box<png::Writer<SharedFile>>, file: SharedFile, opaque: bool, path: PathBuf },
@@ -53,8 +53,7 @@ impl FrameSink {
     /// A name with the field `{frame}` means one file per frame, even if there is only one frame.
     ///
     /// # Errors
-    ///
-    /// If the name has no supported extension, or the file cannot be created.
+    /// Returns an error if the name has no supported extension, or the file cannot be created.
     pub(super) fn open(
         input: &Path,
         output: &Path,
@@ -129,7 +128,7 @@ impl FrameSink {
     /// The global palette is empty, because every frame has its own.
     ///
     /// # Errors
-    /// If a side exceeds 65,535 pixels, the limit of the format's 16-bit fields.
+    /// Returns an error if a side exceeds 65,535 pixels, the limit of the format's 16-bit fields.
     fn open_gif(output: &Path, film: &Sequence, fps: f64) -> Result<Self, CliError> {
         let (width, height) = film.image_size();
         let (Ok(width), Ok(height)) = (u16::try_from(width), u16::try_from(height)) else {
@@ -175,7 +174,7 @@ impl FrameSink {
 
     /// Finishes a file of several frames and renames it into place.
     ///
-    /// Callers must not skip it: a sink that is dropped without it removes its temporary file, as a
+    /// Callers must call this: a sink that is dropped unfinished removes its temporary file, as a
     /// failed run should.
     pub(super) fn finish(self) -> Result<(), CliError> {
         match self {

@@ -39,7 +39,7 @@ impl Site {
     /// Reads the model from the command line and checks that it can be shown.
     ///
     /// # Errors
-    /// If it cannot be read or shown.
+    /// Returns an error if the model cannot be read or shown.
     pub(super) fn prepare(model: Option<&Path>, token: String) -> Result<Self, CliError> {
         let mut files = embedded_files();
         let mut explorer = Explorer::new();
