@@ -271,7 +271,7 @@ impl Document {
     }
 
     /// Adds a root node with a camera at `eye`, rotated by the unit quaternion `rotation` (x, y, z,
-    /// w); it looks along its own −z. `lens` is the glTF camera object.
+    /// w); it looks along its −z axis. `lens` is the glTF camera object.
     pub fn add_camera(
         &mut self,
         name: &str,

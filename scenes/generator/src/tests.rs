@@ -66,7 +66,7 @@ fn as_array(value: &Value) -> &[Value] {
 }
 
 #[test]
-fn attributes_are_finite_and_of_one_length_and_indices_are_in_range() {
+fn attributes_are_finite_and_equally_long_and_indices_are_in_range() {
     for (name, glb) in parsed_models() {
         for primitive in glb.primitives() {
             let attributes = primitive["attributes"].as_object().unwrap();
