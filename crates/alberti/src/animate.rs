@@ -3,9 +3,9 @@
 //! ```text
 //!  scene ─► motion, times, frame count ─► frames in order ─► PNG files, APNG, GIF, raw bytes
 //! ```
-//! The scene is loaded and resolved once. Each frame then poses its models and renders them. Frames
-//! are rendered in parallel, one per thread, and written in order; only a few frames per thread are
-//! in memory at a time.
+//! The scene is loaded and resolved once. The models are then posed and rendered for each frame.
+//! Frames are rendered in parallel, one per thread, and written in order; only a few frames per
+//! thread are in memory at a time.
 
 mod frame_sink;
 

@@ -1,7 +1,7 @@
 //! Deferred arguments: a command's flags are declared only when that command is used.
 //!
-//! Otherwise every start of the program would build the flags of all commands, which is most of the
-//! cost of a short command.
+//! Building the flags of all commands at every start would take most of the time of a short
+//! command.
 
 use clap::{ArgMatches, Args, Command, Error, FromArgMatches, Id};
 

@@ -125,8 +125,8 @@ fn node_names(model: &Model) -> String {
     named_items(model.nodes.iter().map(|node| node.name.as_deref()), LISTED_NODES)
 }
 
-/// Lists the named items with their indices, and the number of unnamed items: exporters leave
-/// hundreds unnamed.
+/// Lists the named items with their indices, and the number of unnamed items, of which some
+/// exporters leave hundreds.
 fn named_items<'a>(names: impl Iterator<Item = Option<&'a str>>, most: usize) -> String {
     let (mut listed, mut unlisted, mut unnamed) = (Vec::new(), 0, 0);
     for (index, name) in names.enumerate() {
@@ -180,7 +180,7 @@ fn bounds_line(model: &Model) -> String {
     format!("{} to {}", triple(min), triple(max))
 }
 
-/// Counts the materials and those that need special treatment.
+/// Counts all materials, and the masked, blended and double-sided ones.
 ///
 /// Masked and blended materials cost more to draw, because their texels decide visibility;
 /// double-sided surfaces are not culled.

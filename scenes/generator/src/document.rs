@@ -1,8 +1,8 @@
 //! A glTF 2.0 document under construction, and its binary container.
 //!
-//! Each kind of index has its own type, so that a mesh index cannot be used for a node. The bytes
-//! depend only on the model: JSON keys are sorted, and floats are written as their shortest
-//! decimal.
+//! Each kind of index has a separate type, so that a mesh index cannot be used for a node. The
+//! bytes depend only on the model: JSON keys are sorted, and floats are written as their shortest
+//! decimals.
 
 use crate::glb::encode_glb;
 use crate::mesh::Mesh;

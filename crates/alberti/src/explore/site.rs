@@ -90,9 +90,9 @@ impl Site {
 
     /// Returns the explorer's answer to a query.
     ///
-    /// An explorer error is an answer like any other, with its own content type. It does not change
-    /// the status, because browsers log every response with a status other than 200, and a value
-    /// that cannot be drawn is not an error in the page.
+    /// An explorer error is an answer like any other, with a separate content type. It does not
+    /// change the status, because browsers log every response with a status other than 200, and a
+    /// value that cannot be drawn is not an error in the page.
     fn compute(&self, query: &str, visitor: &mut impl Visitor) -> Option<Response<'_>> {
         let lane = if draws(query) { &self.large } else { &self.small };
         Some(match lane.ask(query, || visitor.is_there()) {
