@@ -168,7 +168,7 @@ impl AnimateArgs {
         let is_timeless = matches!(motion, Motion::Turntable { .. }) && !has_path;
         if self.overrides.model_state.time.is_some() {
             let message =
-                "--time does nothing here: each frame has its own time; use --from and --to";
+                "--time does nothing here, because every frame has a time; use --from and --to";
             print_message("warning", message);
         }
         if is_timeless && (self.from.is_some() || self.to.is_some()) {

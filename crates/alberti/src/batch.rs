@@ -1,7 +1,7 @@
 //! `alberti batch` and its worker: arguments, messages, exit codes, and rendering.
 //!
 //! The [`batch`](../batch/index.html) crate manages the jobs, their progress and their results. A
-//! worker is a separate process of this program, which renders what the coordinator requests.
+//! worker is a separate process of this program that renders pictures for the coordinator.
 
 mod render_flags;
 mod worker;
@@ -101,8 +101,8 @@ const STOPPED: u8 = 3;
 /// Runs the jobs of this shard; returns the exit code.
 ///
 /// A failed job does not fail the run: it becomes a record in the report and changes only the exit
-/// code. Problems with the inputs or the output folder are printed here, since each has its own
-/// exit code.
+/// code. Problems with the inputs or the output folder are printed here, since their exit codes
+/// differ.
 ///
 /// # Errors
 /// Returns an error if the standard output cannot be written.

@@ -79,7 +79,7 @@ impl CalibratedCameraArgs {
         self.camera_axes.is_some() && !self.places_camera()
     }
 
-    /// Replaces the scene's view and projection with those from the flags.
+    /// Replaces the scene's view and projection as the flags specify.
     pub(crate) fn apply_to(&self, file: &mut CameraFile) {
         if let Some(frame) = self.extrinsics {
             let (rotation, translation) = (frame.to_rotation_file(), Triple(frame.column));

@@ -1,7 +1,7 @@
 //! Output formats and their file extensions.
 //!
-//! Commands with a plot or panels accept further extensions, such as `.html` or `.csv`, which they
-//! check before they look up an [`OutputFormat`].
+//! Commands with a plot or panels accept further extensions, such as `.html` or `.csv`, and check
+//! these before they look up an [`OutputFormat`].
 
 mod dxf;
 mod raster;

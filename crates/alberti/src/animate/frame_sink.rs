@@ -125,7 +125,7 @@ impl FrameSink {
 
     /// Opens an animated GIF that repeats forever.
     ///
-    /// The global palette is empty, because every frame has its own.
+    /// The global palette is empty, because every frame has a palette.
     ///
     /// # Errors
     /// Returns an error if a side exceeds 65,535 pixels, the limit of the format's 16-bit fields.
@@ -236,11 +236,11 @@ fn frame_delay(frame: usize, fps: f64) -> u16 {
     (until(frame + 1) - until(frame)).min(65_535.0) as u16
 }
 
-/// Quantizes a picture to its own palette of 256 colors.
+/// Quantizes a picture to 256 colors, chosen for this picture.
 ///
 /// GIF has no partial transparency: alpha below one half becomes transparent, the rest opaque.
 ///
-/// NeuQuant computes the palette with a sampling factor of 10, which reads a tenth of the pixels:
+/// NeuQuant computes the palette with a sampling factor of 10, that is, from a tenth of the pixels:
 /// the `gif` crate's compromise between speed (30) and quality (1). Each frame is erased before the
 /// next, because transparent pixels would otherwise show the previous frame.
 fn gif_frame(picture: &Picture, delay: u16) -> gif::Frame<'static> {

@@ -1,6 +1,6 @@
-//! `alberti batch-worker`: renders what a batch coordinator requests, until the coordinator exits.
+//! `alberti batch-worker`: renders pictures for a batch coordinator, until the coordinator exits.
 //!
-//! A model that hangs, crashes or uses up the memory brings down only its own worker.
+//! A model that hangs, crashes or uses up the memory brings down only its worker.
 
 use super::render_flags::RenderFlags;
 use super::worker_scene::SceneLoader;

@@ -50,7 +50,7 @@ struct Connections {
 struct Closable {
     number: u64,
     stream: TcpStream,
-    /// Bytes of memory freed by closing it.
+    /// Bytes of memory freed by closing the connection.
     bytes: usize,
 }
 
