@@ -250,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn unknown_or_ambiguous_names_are_errors() {
+    fn unknown_names_and_invalid_syntax_are_errors() {
         for wrong in
             ["\\foo a", "a/b a", "c", "(a, b", "\\frac{a}", "a b)", "|a", "a \\text{ b}", ""]
         {
