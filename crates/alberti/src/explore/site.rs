@@ -36,7 +36,7 @@ pub(super) trait Visitor {
 }
 
 impl Site {
-    /// Reads the model from the command line and checks that it can be shown.
+    /// Reads the model named on the command line and checks that it can be shown.
     ///
     /// # Errors
     /// Returns an error if the model cannot be read or shown.
