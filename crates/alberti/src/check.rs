@@ -54,7 +54,7 @@ struct CheckResult {
 /// Validates a scene or a model; the exit code is 1 if there are errors.
 ///
 /// # Errors
-/// Returns an error if a scene file cannot be read. If a model cannot be read, the error goes into
+/// Returns an error if a scene file cannot be read. If a model cannot be read, the error is part of
 /// its report instead, so that a scene with a missing model is still checked to the end.
 pub(crate) fn run(args: &CheckArgs) -> Result<ExitCode, CliError> {
     let options = args.load_options.import_options();

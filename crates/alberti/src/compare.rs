@@ -193,7 +193,7 @@ fn read_reference(path: &Path, region: PixelRect) -> Result<Picture, String> {
 
 /// Returns the expected picture, the difference and the actual picture side by side.
 ///
-/// The difference image is white where the pictures are equal, and goes from pink to dark red as
+/// The difference image is white where the pictures are equal, and turns from pink to dark red as
 /// the difference grows.
 ///
 /// The output is three times as wide as the pictures. The difference image is opaque even where the
