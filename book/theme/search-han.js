@@ -17,7 +17,7 @@
     return terms;
   }
 
-  /** Builds an index of the same documents from the terms that `tokenize` returns. */
+  /** Builds an index of the documents in a dump, with the terms that `tokenize` returns. */
   function rebuild(elasticlunr, dump) {
     elasticlunr.tokenizer = tokenize;
     const index = new elasticlunr.Index();
@@ -27,7 +27,7 @@
     return index;
   }
 
-  /** Returns the part of a text around the first occurrence of a term. */
+  /** Returns the part of a text around the first occurrence of any of the terms. */
   function teaser(text, terms) {
     const plain = text.toLowerCase();
     const places = terms.map((term) => plain.indexOf(term)).filter((at) => at >= 0);
@@ -79,7 +79,7 @@
   }
 
   if (!document.documentElement.lang.startsWith('zh')) return;
-  // The page loads this script twice: in its head, because the search starts to load its index immediately, and at its end.
+  // The page loads this script twice: in its head, before the search loads its index, and at its end, to translate the labels.
   if (document.body) {
     translateInterface();
     return;

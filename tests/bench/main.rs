@@ -1,10 +1,10 @@
 //! The speed of bulk operations, compared with plain loops over glam's matrices.
 //!
-//! `cargo xtask bench [NAME…]` runs it optimized; arguments select benchmarks whose names contain
-//! them. Every benchmark does one job in several variants, which take turns. The output is the time
-//! of each variant as a multiple of the first variant's time in the same turn. It is the median of
-//! all turns, with the range that contains 80% of them. A busy or slow machine slows all variants
-//! equally. No result counts as a failure.
+//! `cargo xtask bench [NAME…]` runs the optimized benchmarks; arguments select benchmarks whose
+//! names contain them. Every benchmark does one job in several variants, which take turns. The
+//! output is the time of each variant as a multiple of the first variant's time in the same turn.
+//! This ratio is the median over all turns, with the range that contains 80% of them. A busy or
+//! slow machine slows all variants equally. No result counts as a failure.
 
 #![allow(clippy::print_stdout, reason = "a program writes to standard output")]
 #![allow(unreachable_pub, reason = "modules of a program cannot be used elsewhere")]

@@ -8,8 +8,8 @@ pub const POINT_COUNT: usize = 100_000;
 
 /// The points of a turn, as blocks to process.
 ///
-/// One small block is processed repeatedly and stays in the L1 cache. A large block differs in each
-/// turn and has been evicted from every cache.
+/// One small block is processed repeatedly and stays in the L1 cache. Each turn uses a different
+/// large block, which has been evicted from every cache.
 #[derive(Clone, Copy)]
 pub enum Blocks {
     Cached,
@@ -48,8 +48,8 @@ pub fn coordinate(i: usize) -> f64 {
     golden * 2.0 - 1.0
 }
 
-/// Returns the i-th point of a cube in front of the camera. One or two of its corners are out of
-/// view.
+/// Returns the i-th point of a cube in front of the camera. One or two corners of the cube are out
+/// of view.
 pub fn position(i: usize) -> [f64; 3] {
     [coordinate(3 * i), coordinate(5 * i + 1), coordinate(7 * i + 2)]
 }
@@ -62,7 +62,7 @@ pub fn model_to_world() -> Affine<Model, World> {
         .then(Affine::translation(Vector::new(0.1, -0.2, -4.0)))
 }
 
-/// Returns the cube as a camera at the origin sees it, in the chapter's canonical volume.
+/// Returns the map to clip space for a camera at the origin, in the chapter's conventions.
 pub fn model_to_clip() -> Projective<Model, Clip> {
     let (near, far) = (0.5, 20.0);
     let depth = DVec4::new(0.0, 0.0, (far + near) / (far - near), -1.0);

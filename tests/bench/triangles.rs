@@ -19,8 +19,8 @@ impl Mesh {
     }
 }
 
-/// Returns a square of 2 × 224 × 224 triangles. A tenth of them cross the edge of the picture or
-/// are outside it.
+/// Returns 100,000 of the 2 × 224 × 224 triangles of a square. A tenth of them cross the edge of
+/// the picture or are outside it.
 fn floor_mesh() -> Mesh {
     const SIDE: usize = 224;
     let at = |i: usize| (i as f64 / SIDE as f64 * 2.0 - 1.0) * 1.05;
@@ -41,7 +41,7 @@ fn floor_mesh() -> Mesh {
     Mesh { points, triangles }
 }
 
-/// Returns triangles around the border of the picture.
+/// Returns triangles across the right or top border of the picture.
 fn border_mesh() -> Mesh {
     let point = |i: usize| {
         let out = if i.is_multiple_of(3) { 1.5 } else { 0.8 };

@@ -63,7 +63,7 @@ impl Reference {
 /// Parses the text after `% check`.
 pub fn parse_check(text: &str) -> Result<Check, String> {
     let (givens, target) =
-        text.rsplit_once(':').ok_or("a check line must be `VAR=VALUE … : NAME`")?;
+        text.rsplit_once(':').ok_or("a check line must have the form `VAR=VALUE … : NAME`")?;
     let mut words = split_words(givens).into_iter().peekable();
     let mut row = None;
     if words.next_if(|word| word == "row").is_some() {

@@ -13,8 +13,8 @@ use std::fmt;
 
 /// Results may differ by at most this fraction of the largest entry.
 const TOLERANCE: f64 = 1e-12;
-/// A damaged formula must differ by more than this, so that a rounding error does not count as a
-/// detected change.
+/// The result of a damaged formula must differ by more than this, so that a rounding error does not
+/// count as a detected change.
 const NOTICED: f64 = 1e-9;
 
 /// An error and its line on the page.
@@ -111,7 +111,7 @@ fn test_row(
     damage_row(&row, checks, counts)
 }
 
-/// Returns whether the part before the suffix belongs to a name in the registry.
+/// Returns whether a name in the registry has the same part before the first dot as an id.
 fn is_known_id(id: &str) -> bool {
     let family = |name| str::split(name, '.').next().unwrap_or_default().to_owned();
     all_entries().any(|entry| family(entry.name) == family(id))
@@ -151,8 +151,8 @@ fn compare(row: &Statement, check: &PreparedCheck) -> Result<(), String> {
     Ok(())
 }
 
-/// Changes each number, sign, letter and angle function of a row, one at a time. Some check must
-/// detect each change.
+/// Changes each number, sign, letter and angle function of a row, one at a time. Each change must
+/// be detected by some check.
 fn damage_row(row: &Statement, checks: &[PreparedCheck], counts: &mut Counts) -> Vec<String> {
     let mut letters: Vec<TokenKind> = Vec::new();
     for token in row.members().iter().flatten().filter(|token| is_letter(&token.kind)) {

@@ -41,7 +41,7 @@ fn evaluate_tokens(tokens: &[Token], scope: &dyn Scope) -> Result<Value, String>
 /// Evaluates an expression.
 ///
 /// # Errors
-/// If a name has no value, shapes do not match, or a result is not finite.
+/// Returns an error if a name has no value, shapes do not match, or a result is not finite.
 pub fn evaluate(expression: &Expression, scope: &dyn Scope) -> Result<Value, String> {
     use Expression as E;
     let at = |inner: &Expression| evaluate(inner, scope);
@@ -71,7 +71,7 @@ pub fn evaluate(expression: &Expression, scope: &dyn Scope) -> Result<Value, Str
     if value.is_finite() { Ok(value) } else { Err("a value is not finite".to_owned()) }
 }
 
-/// In the body of a sum, an index in a subscript is replaced by its value.
+/// The scope of the body of a sum, in which an index in a subscript is replaced by its value.
 struct IndexedScope<'a> {
     outer: &'a dyn Scope,
     index: &'a str,
@@ -175,7 +175,7 @@ mod tests {
     use crate::book_formulas::token::tokenize;
     use crate::book_formulas::value::Value;
 
-    /// a = 2, b = 3 …, the vectors p = (1, 2, 3) and q = (4, 5, 7), λ0 = 10 and λ1 = 20.
+    /// A scope with a = 2, b = 3 …, the vectors p = (1, 2, 3) and q = (4, 5, 7), λ0 = 10 and λ1 = 20.
     struct Letters;
 
     impl Scope for Letters {
@@ -250,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn unknown_or_ambiguous_names_are_errors() {
+    fn unknown_names_and_invalid_syntax_are_errors() {
         for wrong in
             ["\\foo a", "a/b a", "c", "(a, b", "\\frac{a}", "a b)", "|a", "a \\text{ b}", ""]
         {

@@ -28,8 +28,7 @@ use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
 
-/// Returns `$BOOK`, a folder of pages, or else the book in this repository, or `None` if there is
-/// no book.
+/// Returns the folder in `$BOOK`, or else the book in this repository; `None` if there is no book.
 fn book_folder() -> Option<PathBuf> {
     if let Some(folder) = std::env::var_os("BOOK") {
         return Some(folder.into());
@@ -64,9 +63,9 @@ fn formulas_of_the_book_agree_with_the_crates() {
     }
     let Counts { numbered, checks, damages, names } = counts;
     print_uncaptured(&format!(
-        "{numbered} numbered formulas, {checks} checks, {damages} changes to them"
+        "{numbered} numbered formulas, {checks} checks, {damages} changed formulas"
     ));
-    // A name that no page uses tests nothing, but other books need not use all names.
+    // A name that no page uses is not tested, but other books need not use all names.
     if std::env::var_os("BOOK").is_none() {
         let unused = registry::all_entries().filter(|entry| !names.contains(entry.name));
         faults.extend(unused.map(|entry| format!("registry: no check uses {}", entry.name)));

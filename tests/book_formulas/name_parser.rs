@@ -37,7 +37,7 @@ const GREEK: [&str; 27] = [
 /// Commands that make a letter bold, as in a vector or a matrix.
 const BOLD: [&str; 5] = ["mathbf", "boldsymbol", "bm", "vec", "bold"];
 
-/// Commands that form a word.
+/// Commands whose argument is a word.
 const WORDS: [&str; 3] = ["mathrm", "mathit", "mathsf"];
 
 /// Returns whether a command is a Greek letter.

@@ -5,7 +5,7 @@
 pub struct Formula {
     /// The line of the fence, counted from 1.
     pub line: usize,
-    /// The id, such as `PE-1`, if it is numbered.
+    /// The id, such as `PE-1`, if the formula is numbered.
     pub id: Option<String>,
     /// The block without comments, but with its line breaks, so that lines can be counted.
     pub latex: String,

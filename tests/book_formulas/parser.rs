@@ -23,7 +23,7 @@ pub fn parse_expression(tokens: &[Token]) -> Parsed {
 pub struct Parser<'a> {
     pub tokens: &'a [Token],
     pub at: usize,
-    /// The number of open bars: the second bar in `|a b|` closes the first.
+    /// The tokens that close the open bars: the second bar in `|a b|` closes the first.
     closing_bars: Vec<TokenKind>,
 }
 
@@ -117,7 +117,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Parses a factor after a multiplication sign, which may be negative.
+    /// Parses a factor after `/` or a multiplication sign; the factor may be negative.
     fn signed_factor(&mut self) -> Parsed {
         if self.take('-') {
             return Ok(Expression::Negative(self.factor()?.into()));
@@ -322,7 +322,7 @@ impl Parser<'_> {
             }
         }
         if name_parser::read_word(self)? != kind {
-            return Err(format!("\\begin{{{kind}}} ends with another \\end"));
+            return Err(format!("\\begin{{{kind}}} has a different \\end"));
         }
         self.closing_bars = bars;
         Ok(Expression::Matrix(rows))

@@ -8,7 +8,7 @@ use crate::book_formulas::value::Value;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A check that can be compared.
+/// A check line whose values and expected result are known.
 #[derive(Debug)]
 pub struct PreparedCheck {
     pub expected: Value,

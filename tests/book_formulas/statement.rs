@@ -5,8 +5,9 @@ use crate::book_formulas::token::Token;
 /// One row of a formula.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Statement {
-    /// The members of an equation, or the whole row if it has no relation. Each has the checked
-    /// value, except that the first may be the left side, which in most equations is only a name.
+    /// The members of an equation, or the whole row if it has no relation. Every member must
+    /// evaluate to the value being checked, except that the first may be the left side, which in
+    /// most equations is only a name.
     Values { members: Vec<Vec<Token>>, has_left_side: bool },
     /// The members, and the relations between them: `true` for ≤ and `false` for ≥. The value is
     /// the margin of each relation: the larger side minus the smaller side.
@@ -124,7 +125,7 @@ fn is_equality(token: &Token) -> bool {
     token.is_symbol('=') || commands.iter().any(|name| token.is_command(name))
 }
 
-/// Returns whether a token is an arrow, whose left side is the mapped expression.
+/// Returns whether a token is an arrow or `\coloneqq`, whose left side is not evaluated.
 fn is_assignment(token: &Token) -> bool {
     let is_equation = ["approx", "equiv"].iter().any(|name| token.is_command(name));
     is_equality(token) && !token.is_symbol('=') && !is_equation

@@ -11,7 +11,7 @@ pub struct Token {
 pub enum TokenKind {
     Number(f64),
     Letter(char),
-    /// `\frac` without its backslash; `\\` is the command `\`.
+    /// A command name without its backslash: `frac` for `\frac`, and `\` for `\\`.
     Command(String),
     /// An operator, bracket or accent.
     Symbol(char),
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn other_characters_are_errors_with_their_line() {
+    fn unknown_characters_are_reported_with_their_line() {
         assert_eq!(tokenize("a\n\u{2212}b").unwrap_err().0, 1);
         assert!(tokenize("\\").is_ok());
     }

@@ -124,7 +124,7 @@ impl Value {
         }
     }
 
-    /// Evaluates `\cdot`, which is the dot product of two columns.
+    /// Evaluates `\cdot`: the dot product of two columns, or the plain product of other values.
     pub fn dot(&self, other: &Self) -> Result<Self, String> {
         if self.is_column() && other.is_column() {
             return self.transpose().times(other);
@@ -132,7 +132,7 @@ impl Value {
         self.times(other)
     }
 
-    /// Evaluates `\times`, which is the cross product of two columns.
+    /// Evaluates `\times`: the cross product of two columns, or the plain product of other values.
     pub fn cross(&self, other: &Self) -> Result<Self, String> {
         if !self.is_column() || !other.is_column() {
             return self.times(other);
@@ -179,7 +179,7 @@ impl Value {
     }
 
     /// Computes the determinant and, if that is not 0, the inverse by Gauss–Jordan elimination with
-    /// row pivots.
+    /// partial pivoting.
     fn eliminate(mut self) -> Result<(f64, Option<Self>), String> {
         if self.rows != self.columns {
             return Err(format!("{} is not square", self.describe()));
@@ -253,7 +253,7 @@ impl Value {
     }
 
     /// Returns whether the shapes are the same and no entry differs by more than `relative` times
-    /// the largest.
+    /// the largest expected entry.
     pub fn is_close(&self, expected: &Self, relative: f64) -> bool {
         let largest = expected.entries.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
         let limit = relative * if largest > 0.0 { largest } else { 1.0 };

@@ -9,7 +9,7 @@ import { assert, launchBrowser, serveFolder } from './harness.mjs';
 const LANGUAGES = ['en', 'zh'];
 /** HTML files of an edition that are not book pages. */
 const OTHERS = ['print.html', 'toc.html', '404.html', 'index.html'];
-/** The search query, and the page that must be among the first five results. */
+/** For each language: a search query, and the page that must be among the first five results. */
 const SOUGHT = { en: ['perspective divide', 'points.html'], zh: ['透视除法', 'points.html'] };
 const VIEWS = [
   { viewport: { width: 380, height: 800 }, colorScheme: 'dark' },
@@ -27,7 +27,7 @@ async function test(name, run) {
   }
 }
 
-/** Finds elements that overflow the window without scrolling, and figures and formulas that are broken. */
+/** Finds elements that overflow the window and do not scroll, and broken figures and formulas. */
 function measurePage() {
   const content = document.querySelector('#mdbook-content');
   const scrolls = (element) => ['auto', 'scroll'].includes(getComputedStyle(element).overflowX) && element !== content;

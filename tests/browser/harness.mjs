@@ -12,12 +12,12 @@ import { chromium } from 'playwright-core';
 export const ROOT = fileURLToPath(new URL('../..', import.meta.url));
 const AXE = createRequire(import.meta.url).resolve('axe-core/axe.min.js');
 
-/** Fails with a message. */
+/** Fails with a message unless a condition is true. */
 export function assert(condition, message) {
   if (!condition) throw new Error(message);
 }
 
-/** Fails unless two numbers are equal to within the digits that the page shows. */
+/** Fails unless two numbers are equal to the precision that the page shows. */
 export function assertNear(actual, expected, message) {
   const tolerance = 2e-4 * Math.max(1, Math.abs(expected));
   assert(Math.abs(actual - expected) <= tolerance, `${message}: ${actual}, expected ${expected}`);
@@ -35,7 +35,7 @@ export async function startProgram(program, args) {
 
 const TYPES = { html: 'text/html', css: 'text/css', js: 'text/javascript', svg: 'image/svg+xml', wasm: 'application/wasm' };
 
-/** Serves a folder as any static host does. */
+/** Serves a folder as a static web host would. */
 export async function serveFolder(folder) {
   const server = createServer(async ({ url }, response) => {
     const name = new URL(url, 'http://a').pathname.replace(/\/$/, '/index.html');

@@ -1,4 +1,4 @@
-// The statements of each lesson, checked against the page.
+// Checks that the page confirms the statements of each lesson.
 
 import { assert, assertNear } from './harness.mjs';
 
@@ -25,7 +25,7 @@ async function frustumValues(page) {
   return Object.fromEntries(await Promise.all(keys.map(async (key) => [key, Number(await page.value(key))])));
 }
 
-/** The lessons and their statements, by source item. */
+/** The statements, with their source topics and their lessons. */
 export const STATEMENTS = [
   {
     name: 'C62: a small field of view enlarges the picture',

@@ -3,9 +3,9 @@
 //! ```text
 //!  scene ─► motion, times, frame count ─► frames in order ─► PNG files, APNG, GIF, raw bytes
 //! ```
-//! The scene is loaded and resolved once. Each frame then poses its models and renders them. Frames
-//! are rendered in parallel, one per thread, and written in order; only a few frames per thread are
-//! in memory at a time.
+//! The scene is loaded and resolved once. The models are then posed and rendered for each frame.
+//! Frames are rendered in parallel, one per thread, and written in order; only a few frames per
+//! thread are in memory at a time.
 
 mod frame_sink;
 
@@ -71,8 +71,8 @@ pub(crate) struct AnimateArgs {
 /// missing texture before hundreds of frames are rendered without it.
 ///
 /// # Errors
-/// If the input is invalid, a frame cannot be rendered, or the output cannot be written. No
-/// animation file is left behind in that case; PNG files for finished frames remain.
+/// Returns an error if the input is invalid, a frame cannot be rendered, or the output cannot be
+/// written. No animation file is left behind in that case; PNG files for finished frames remain.
 pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
     let (origin, file, scene) = args.overrides.open_scene(&args.input, &args.load_options)?;
     let unused = find_unused_overrides(&args.overrides, &scene, false);
@@ -121,8 +121,8 @@ impl AnimateArgs {
     /// times, and thus the default number of frames.
     ///
     /// # Errors
-    /// If the scene selects an animation that the model does not have, or the camera keyframes are
-    /// invalid.
+    /// Returns an error if the scene selects an animation that the model does not have, or the
+    /// camera keyframes are invalid.
     fn build_sequence(
         &self,
         origin: &Origin,
@@ -163,12 +163,12 @@ impl AnimateArgs {
 }
 
 impl AnimateArgs {
-    /// Warns if `--from` and `--to` have no effect, or extend past the end.
+    /// Warns if `--time`, `--from` or `--to` has no effect, or if `--to` is after the end.
     fn warn_of_times(&self, motion: &Motion, has_path: bool, end: f64) {
         let is_timeless = matches!(motion, Motion::Turntable { .. }) && !has_path;
         if self.overrides.model_state.time.is_some() {
             let message =
-                "--time does nothing here: each frame has its own time; use --from and --to";
+                "--time does nothing here, because every frame has a time; use --from and --to";
             print_message("warning", message);
         }
         if is_timeless && (self.from.is_some() || self.to.is_some()) {
@@ -177,7 +177,7 @@ impl AnimateArgs {
             print_message("warning", message);
         } else if !is_timeless && self.to.is_some_and(|to| to.value() > end) {
             let message = format!(
-                "the animation ends at {end} s: the frames after it show its last pose (--from and \
+                "the animation ends at {end} s: later frames show its last pose (--from and \
                  --to are in seconds)"
             );
             print_message("warning", &message);
@@ -191,7 +191,7 @@ impl AnimateArgs {
 /// does not move.
 ///
 /// # Errors
-/// If a model does not have the selected animation; the message lists the model's animations.
+/// Returns an error if a model lacks the selected animation; the message lists its animations.
 fn choose_animations(
     models: &[ModelInstance],
     file: &SceneFile,

@@ -74,8 +74,8 @@ Examples:
 
   alberti explain model.glb --point 0,1,0         a point through every stage of the pipeline
   alberti explore model.glb                       the same, live in a browser on this machine
-  alberti matrix 1 0 0 0 …                        the transform or projection that it represents
-  alberti matrix --perspective 60,16/9,0.1,100    a matrix from parameters, or as code
+  alberti matrix 1 0 0 0 …                        the transform or projection of a matrix
+  alberti matrix --perspective 60,16/9,0.1,100    a matrix built from parameters
   alberti exercise 3 --answer 'A=1; B=0'          a check of your answer to an exercise
   alberti demo wrap-around                        why clipping comes before the perspective divide
 
@@ -171,10 +171,10 @@ pub(crate) struct RenderArgs {
         conflicts_with_all = ["view", "camera", "azimuth", "elevation", "eye", "extrinsics", "pose"]
     )]
     pub(crate) views: Vec<NamedView>,
-    /// Use one scale for all --views, so that lengths can be compared between the pictures for an
+    /// Use one scale for all --views, so that lengths can be compared between the pictures of an
     /// input
     ///
-    /// It is the largest scale at which every view fits. It needs a parallel projection, such as
+    /// The scale is the largest at which every view fits. The projection must be parallel, as with
     /// --projection orthographic.
     #[arg(help_heading = "Camera", long, requires = "views")]
     pub(crate) same_scale: bool,
@@ -249,7 +249,7 @@ pub(crate) enum StyleArg {
     Gouraud,
     /// Matte clay, lit by the scene's lights
     Clay,
-    /// Material capture: shading only by the view-space normal
+    /// Material capture: shading by the view-space normal only
     Matcap,
     /// World-space normals as colors: (n + 1) / 2
     Normals,

@@ -1,7 +1,7 @@
 //! `alberti batch` and its worker: arguments, messages, exit codes, and rendering.
 //!
-//! The crate [`batch`](../batch/index.html) manages the jobs, their progress and their results. A
-//! worker is a separate process of this program, which renders what the coordinator requests.
+//! The [`batch`](../batch/index.html) crate manages the jobs, their progress and their results. A
+//! worker is a separate process of this program that renders pictures for the coordinator.
 
 mod render_flags;
 mod worker;
@@ -46,11 +46,11 @@ pub(crate) struct BatchArgs {
     out_dir: PathBuf,
     /// Picture names, such as {prefix}/{stem}.png
     ///
-    /// The input's name is {stem} without and {name} with its extension. Its folder is {folder},
-    /// relative to the folder that was searched. Counted from 1, {line} is the number of its line
-    /// or input, and {picture} the picture's number within its line; {line:08} has eight digits. To
-    /// spread the pictures over 256 folders, {prefix} is two hexadecimal digits of a hash of the
-    /// name.
+    /// {stem} is the input's name without its extension, and {name} is the name with it. {folder}
+    /// is the input's folder, relative to the folder that was searched. {line} is the number of the
+    /// line or input, and {picture} the picture's number within the line, both counted from 1;
+    /// {line:08} has eight digits. {prefix}, two hexadecimal digits of a hash of the name, spreads
+    /// the pictures over 256 folders.
     #[arg(long, value_name = "TEMPLATE", value_parser = PictureName::parse)]
     name: Option<PictureName>,
     /// Process part I of N; `auto` takes both from the environment variables of an array job
@@ -101,11 +101,11 @@ const STOPPED: u8 = 3;
 /// Runs the jobs of this shard; returns the exit code.
 ///
 /// A failed job does not fail the run: it becomes a record in the report and changes only the exit
-/// code. Problems with the inputs or the output folder are printed here, since each has its own
-/// exit code.
+/// code. Problems with the inputs or the output folder are printed here, since their exit codes
+/// differ.
 ///
 /// # Errors
-/// If the standard output cannot be written.
+/// Returns an error if the standard output cannot be written.
 pub(crate) fn run(args: BatchArgs) -> Result<u8, CliError> {
     let (is_merge, is_verification) = (args.merge, args.verify);
     let options = args.into_options();

@@ -1,4 +1,4 @@
-//! Flags for calibrated cameras: intrinsics, and rotation and translation or a pose.
+//! Flags for calibrated cameras: intrinsics, and extrinsics or a pose.
 
 use super::number_list::parse_number_list;
 use super::options::option_parser;
@@ -13,8 +13,8 @@ use scene_file::file::{
 pub(crate) struct CalibratedCameraArgs {
     /// Camera intrinsics: focal lengths and principal point in pixels
     ///
-    /// Alternatively, all nine entries of the matrix K, row by row. They must be for pictures of
-    /// the same size as this one.
+    /// Alternatively, all nine entries of the matrix K, row by row. The values must apply to
+    /// pictures of the same size as this one.
     #[arg(
         help_heading = "Camera",
         long,
@@ -24,7 +24,7 @@ pub(crate) struct CalibratedCameraArgs {
         conflicts_with = "projection"
     )]
     intrinsics: Option<ProjectionFile>,
-    /// Origin of the principal point of --intrinsics [default: integer]
+    /// Coordinates of pixel centers, for the principal point of --intrinsics [default: integer]
     #[arg(help_heading = "Camera", long, value_parser = option_parser::<PixelCenters>(), requires = "intrinsics")]
     pixel_centers: Option<PixelCenters>,
     /// Rotation and translation from the world to the camera: the 12 entries of [R|t], row by row
@@ -79,7 +79,7 @@ impl CalibratedCameraArgs {
         self.camera_axes.is_some() && !self.places_camera()
     }
 
-    /// Replaces the scene's view and projection with those from the flags.
+    /// Replaces the scene's view and projection as the flags specify.
     pub(crate) fn apply_to(&self, file: &mut CameraFile) {
         if let Some(frame) = self.extrinsics {
             let (rotation, translation) = (frame.to_rotation_file(), Triple(frame.column));
@@ -112,7 +112,7 @@ fn parse_intrinsics(text: &str) -> Result<ProjectionFile, String> {
         _ => {
             let found = numbers.len();
             return Err(format!(
-                "expected fx,fy,cx,cy or K as fx,skew,cx,0,fy,cy,0,0,1, found {found} numbers"
+                "expected fx,fy,cx,cy or K as fx,skew,cx,0,fy,cy,0,0,1; found {found} numbers"
             ));
         }
     };
@@ -140,7 +140,7 @@ fn parse_frame(text: &str) -> Result<CameraFrame, String> {
         _ => {
             let found = numbers.len();
             return Err(format!(
-                "expected 12 numbers, or 16 whose last row is 0,0,0,1, found {found}"
+                "expected 12 numbers, or 16 whose last row is 0,0,0,1; found {found}"
             ));
         }
     };

@@ -4,9 +4,9 @@
 //! diagnostics of each model it refers to. A glTF file is validated against the glTF 2.0
 //! specification; for other formats, the diagnostics come from the importer.
 //!
-//! The report is printed to the standard output even if it is full of errors: they are the result, not a
-//! failure. Only a problem that keeps the check from running, such as a missing scene, is printed
-//! as `error:`. The exit code is 1 in both cases.
+//! The report is printed to the standard output even if it is full of errors, which are a result
+//! here, not a failure. Only a problem that keeps the check from running, such as a missing scene,
+//! is printed as `error:`. The exit code is 1 in both cases.
 
 mod json;
 
@@ -54,8 +54,8 @@ struct CheckResult {
 /// Validates a scene or a model; the exit code is 1 if there are errors.
 ///
 /// # Errors
-/// If a scene file cannot be read. If a model cannot be read, the error goes into its report
-/// instead, so that a scene with a missing model is still checked to the end.
+/// Returns an error if a scene file cannot be read. If a model cannot be read, the error is part of
+/// its report instead, so that a scene with a missing model is still checked to the end.
 pub(crate) fn run(args: &CheckArgs) -> Result<ExitCode, CliError> {
     let options = args.load_options.import_options();
     let findings = if is_scene_file(&args.input) {

@@ -29,8 +29,8 @@ pub(super) fn set_color_choice(arg: ColorChoice) {
 
 /// Whether messages on the standard error stream are colored.
 ///
-/// It is independent of the standard output: with `alberti check x.ron > report.txt` errors are
-/// colored and the report is not.
+/// The answer does not depend on the standard output: with `alberti check x.ron > report.txt`,
+/// errors are colored and the report is not.
 pub(super) fn stderr_has_color() -> bool {
     should_use_color(COLOR_CHOICE.get().copied(), std::io::stderr().is_terminal())
 }
@@ -60,8 +60,8 @@ fn should_use_color(chosen: Option<ColorChoice>, terminal: bool) -> bool {
 
 /// Formats the severity at the start of a message: bold red for errors, otherwise bold yellow.
 ///
-/// A code that follows the word, such as the lint's in `warning[CODE]`, is colored too. The result
-/// ends with a reset, so that the text after it has the terminal's color.
+/// A code after the word, as in `warning[CODE]`, is colored too. The result ends with a reset, so
+/// that the text after it has the terminal's color.
 pub(super) fn style_level(word: &str, colors: bool) -> String {
     match colors {
         false => word.to_owned(),

@@ -25,7 +25,7 @@ pub(crate) struct CompareArgs {
     /// NAME.compare.png with reference, difference and picture side by side.
     #[arg(long, value_name = "PNG")]
     compare: Option<PathBuf>,
-    /// Maximum channel difference that counts as equal, from 0 to 255
+    /// Maximum channel difference of pixels that count as equal, from 0 to 255
     #[arg(long, value_name = "N", default_value_t = 0, requires = "compare")]
     tolerance: u8,
 }
@@ -46,7 +46,7 @@ pub(super) struct PictureComparison {
 impl PictureComparison {
     /// Compares two equally large pictures, pixel by pixel.
     ///
-    /// The caller guarantees equal sizes: other references are rejected before rendering.
+    /// The caller guarantees equal sizes: references of other sizes are rejected before rendering.
     fn new(expected: &Picture, actual: &Picture, tolerance: u8) -> Self {
         let mut comparison = Self {
             max_difference: 0,
@@ -113,7 +113,7 @@ impl CompareArgs {
     /// Called before rendering, so that a wrong path wastes no time.
     ///
     /// # Errors
-    /// If it cannot be read, or its size differs from the rendered region's.
+    /// Returns an error if the picture cannot be read, or its size is not the rendered region's.
     pub(super) fn load_reference(&self, region: PixelRect) -> Result<Option<Picture>, CliError> {
         let Some(path) = &self.compare else { return Ok(None) };
         let fault = |why: String| {
@@ -131,7 +131,7 @@ impl CompareArgs {
     /// The file is returned with its final path.
     ///
     /// # Errors
-    /// If the temporary file cannot be created or written.
+    /// Returns an error if the temporary file cannot be created or written.
     pub(super) fn create_comparison(
         &self,
         expected: &Picture,
@@ -154,7 +154,7 @@ impl CompareArgs {
 /// 8-bit code.
 ///
 /// # Errors
-/// If the file cannot be read, is not a PNG, or has another size.
+/// Returns an error if the file cannot be read, is not a PNG, or has another size.
 fn read_reference(path: &Path, region: PixelRect) -> Result<Picture, String> {
     let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
     let mut decoder = png::Decoder::new(std::io::BufReader::new(file));
@@ -193,7 +193,7 @@ fn read_reference(path: &Path, region: PixelRect) -> Result<Picture, String> {
 
 /// Returns the expected picture, the difference and the actual picture side by side.
 ///
-/// The difference image is white where the pictures are equal, and goes from pink to dark red as
+/// The difference image is white where the pictures are equal, and turns from pink to dark red as
 /// the difference grows.
 ///
 /// The output is three times as wide as the pictures. The difference image is opaque even where the

@@ -35,7 +35,7 @@ struct DepthArgs {
     /// Format of the depth buffer: fixed point with 1 to 64 bits, or 32f for floating point
     #[arg(long, value_name = "N|32f", default_value = "24", value_parser = parse_depth_format)]
     bits: DepthFormat,
-    /// Depth of the near and the far plane; swapped for the reversed curve
+    /// Depths of the near and far planes; swapped for the reversed curve
     #[arg(long, value_name = "RANGE", default_value = "zero-one")]
     range: DepthRangeArg,
     /// Distances in the table, separated by commas [default: 16 from near to far, logarithmically
@@ -45,8 +45,8 @@ struct DepthArgs {
     /// Spacing of the plot's distance axis
     #[arg(long, value_name = "SPACING", default_value = "logarithmic")]
     axis: AxisArg,
-    /// Output file (.svg, .pdf, .dxf or .png for the plot, .txt, .md, .csv or .json for only the
-    /// table) [default: the table on the standard output]
+    /// Output file (.svg, .pdf, .dxf or .png for the plot; .txt, .md, .csv or .json for the table
+    /// only) [default: the table on the standard output]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -94,8 +94,8 @@ const TABLE_FORMATS: [(&str, TableFormatter); 4] = [
 /// Plots a function, or prints its table.
 ///
 /// # Errors
-/// If the planes do not define a projection, a distance is invalid, or the output cannot be
-/// written.
+/// Returns an error if the planes do not define a projection, a distance is invalid, or the output
+/// cannot be written.
 pub(crate) fn run(args: &CurveArgs) -> Result<(), CliError> {
     let CurveSubject::Depth(args) = &args.subject;
     let convention = match args.range {

@@ -1,7 +1,7 @@
 //! Deferred arguments: a command's flags are declared only when that command is used.
 //!
-//! Otherwise every start of the program would build the flags of all commands, which is most of the
-//! cost of a short command.
+//! Building the flags of all commands at every start would take most of the time of a short
+//! command.
 
 use clap::{ArgMatches, Args, Command, Error, FromArgMatches, Id};
 
@@ -21,7 +21,7 @@ impl<T: Args> Args for Deferred<T> {
 
 /// Adds the arguments to a command. Values are case-insensitive, as in `--view Front`.
 ///
-/// The command keeps its own description, which the type's description would otherwise replace.
+/// The command keeps its description, which the type's description would otherwise replace.
 /// Existing global flags are moved to the end.
 fn declare_arguments<T: Args>(command: Command) -> Command {
     let about = command.get_about().cloned().unwrap_or_default();

@@ -1,7 +1,7 @@
 //! `alberti demo`: the artifacts that appear when a pipeline stage is skipped.
 //!
-//! A demonstration draws a constant scene twice, with and without the stage, in panels with
-//! captions. It needs no input, so its output can be compared byte by byte.
+//! A demonstration draws a fixed scene twice, with and without the stage, in panels with captions.
+//! It needs no input, so its output can be compared byte by byte.
 
 use super::CliError;
 use super::page_output::{check_panel_output, write_panels};

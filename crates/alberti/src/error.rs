@@ -1,8 +1,8 @@
 //! Program errors: errors from the libraries, and wrong combinations of flags.
 //!
-//! Usage errors that clap detects while parsing do not get here: they exit with code 2. A
-//! combination that depends on the input or on several flags is a [`CliError::Usage`] and exits
-//! with code 1 like any failure.
+//! Usage errors that clap detects while parsing never become a [`CliError`]: they exit with code 2.
+//! An invalid combination that depends on the input or on several flags is a [`CliError::Usage`]
+//! and exits with code 1 like any failure.
 //!
 //! A message may have several lines. Later lines begin with ` = help:` and name a flag or a value
 //! that fixes the problem, as in rustc.

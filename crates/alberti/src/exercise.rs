@@ -13,7 +13,7 @@ use std::process::ExitCode;
 /// The version of the JSON document.
 const VERSION: u32 = 1;
 
-/// The examples of the help.
+/// The examples in the help.
 const EXAMPLES: &str = "\
 Examples:
   alberti exercise                                the list
@@ -31,7 +31,7 @@ pub(crate) struct ExerciseArgs {
     number: Option<u32>,
     /// Check an answer
     ///
-    /// Separate the rows of a matrix with `;`, numbers with spaces or commas. Fractions such as
+    /// Separate the rows of a matrix with `;`, and numbers with spaces or commas. Fractions such as
     /// 7/3, the symbols of the exercise, + - * / ^ ( ), sqrt, sin, cos, tan, cot, atan, abs, pi and
     /// degrees such as 30° are allowed. Name several values as in x=a+b; y=-a*b.
     #[arg(long, value_name = "ANSWER", allow_hyphen_values = true, requires = "number")]
@@ -69,7 +69,7 @@ impl From<TextLanguage> for Language {
 /// the answer is wrong.
 ///
 /// # Errors
-/// If there is no such exercise, or the answer cannot be parsed.
+/// Returns an error if there is no such exercise, or the answer cannot be parsed.
 pub(crate) fn run(args: &ExerciseArgs) -> Result<ExitCode, CliError> {
     let language = args.language.map_or_else(language_of_environment, Language::from);
     let chosen = args.number.map(|number| numbered_exercise(number, language)).transpose()?;

@@ -129,10 +129,10 @@ struct ExplainSubjectArgs {
 
 /// Prints or writes the explanation of a subject.
 ///
-/// The format is text, JSON or HTML. HTML renders the scene after the explanation has succeeded.
+/// The format is text, JSON or HTML. For HTML, the scene is rendered last.
 ///
 /// # Errors
-/// If the input is invalid or has no such subject, or the output cannot be written.
+/// Returns an error if the input is invalid or lacks the subject, or the output cannot be written.
 pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
     if let Some(map) = args.map.build_map()? {
         let explanation =
@@ -201,7 +201,7 @@ impl ExplainSubjectArgs {
     /// clap rejects combinations, so the first subject that is set is the only one.
     ///
     /// # Errors
-    /// If the scene has no such model, node, primitive, vertex, triangle or pixel.
+    /// Returns an error if the scene has no such model, node, primitive, vertex, triangle or pixel.
     fn explain_subject(
         &self,
         chain: &TransformChain,
@@ -229,8 +229,7 @@ impl ExplainSubjectArgs {
         self.explain_part(chain, placed, find_node(&placed.model, node)?)
     }
 
-    /// Returns the points from the flags for a map without a scene: one point, the two ends of a
-    /// segment, or none.
+    /// Returns the points for a map without a scene: one point, a segment's endpoints, or none.
     fn bare_points<S: homog::Space>(&self) -> Vec<HPoint<S>> {
         let point = self.point.map(SubjectPoint::numbers).into_iter();
         let ends = self
@@ -248,7 +247,8 @@ impl ExplainSubjectArgs {
     /// Explains a vertex, a triangle, or the visibility of a node.
     ///
     /// # Errors
-    /// If the node has no mesh, or the mesh has no such primitive, vertex or triangle.
+    /// Returns an error if the node has no mesh, or the mesh has no such primitive, vertex or
+    /// triangle.
     fn explain_part(
         &self,
         chain: &TransformChain,
@@ -269,7 +269,7 @@ impl ExplainSubjectArgs {
 /// A node whose name is a number is found by name only if no node has that index.
 ///
 /// # Errors
-/// If there is no such node; the message lists up to twelve names.
+/// Returns an error if there is no such node; the message lists up to twelve names.
 fn find_node(model: &Model, node: &str) -> Result<usize, String> {
     let named = || model.nodes.iter().position(|known| known.name.as_deref() == Some(node));
     let numbered = node.parse().ok().filter(|&number: &usize| number < model.nodes.len());
@@ -307,7 +307,7 @@ impl BareMapArgs {
     /// Returns the map that the flags define, or `None` without such flags.
     ///
     /// # Errors
-    /// If the planes do not define a matrix P.
+    /// Returns an error if the planes do not define a matrix P.
     fn build_map(&self) -> Result<Option<BareMap>, CliError> {
         if let Some(entries) = &self.matrix {
             let [a, b, c, d] = [0, 4, 8, 12].map(|at| std::array::from_fn(|j| entries[at + j]));
@@ -322,7 +322,7 @@ impl BareMapArgs {
 /// Parses sixteen numbers, boxed to keep the command's argument struct small.
 fn parse_matrix(text: &str) -> Result<Box<[f64; 16]>, String> {
     let one_word = |problem| {
-        format!("{problem}; write one word, with commas or in quotation marks: \"1 0 0 0  0 1 …\"")
+        format!("{problem}; write one argument, with commas or quoted: \"1 0 0 0  0 1 …\"")
     };
     parse_numbers(text).map(Box::new).map_err(one_word)
 }
@@ -330,7 +330,7 @@ fn parse_matrix(text: &str) -> Result<Box<[f64; 16]>, String> {
 /// Parses a point of three or four numbers.
 ///
 /// # Errors
-/// If the count is wrong, a number is not finite, or all four are 0.
+/// Returns an error if the count is wrong, a number is not finite, or all four are 0.
 pub(super) fn parse_point(text: &str) -> Result<SubjectPoint, String> {
     let numbers = parse_number_list(text)?;
     match numbers[..] {
@@ -353,7 +353,7 @@ fn parse_pixel(text: &str) -> Result<[u32; 2], String> {
     Ok([side(x)?, side(y)?])
 }
 
-/// Parses conventions by their name in the `pipeline` crate.
+/// Returns a parser for the names of conventions, with their summaries as help.
 pub(super) fn conventions_parser() -> impl clap::builder::TypedValueParser<Value = ApiConventions> {
     use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser as _};
     let value = |known: ApiConventions| PossibleValue::new(known.name()).help(known.summary());

@@ -51,7 +51,7 @@ pub(crate) struct ExploreArgs {
 /// Prints the explorer's address and serves the explorer until the program is interrupted.
 ///
 /// # Errors
-/// If the model cannot be read or shown, or the port is in use.
+/// Returns an error if the model cannot be read or shown, or the port is in use.
 pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
     let token = new_token()?;
     let query = if args.native { "?native" } else { "" };

@@ -1,7 +1,7 @@
 //! Output formats and their file extensions.
 //!
-//! Commands with a plot or panels accept further extensions, such as `.html` or `.csv`, which they
-//! check before they look up an [`OutputFormat`].
+//! Commands with a plot or panels accept further extensions, such as `.html` or `.csv`, and check
+//! these before they look up an [`OutputFormat`].
 
 mod dxf;
 mod raster;
@@ -40,7 +40,7 @@ impl OutputFormat {
     /// otherwise produce a file that no program opens.
     ///
     /// # Errors
-    /// If the extension is unknown.
+    /// Returns an error if the extension is unknown.
     pub(super) fn from_path(output: &Path) -> Result<Self, CliError> {
         if let Some(error) = prefix_error(&visible_path(output).to_string()) {
             return Err(error);
@@ -176,7 +176,7 @@ fn moving_picture_error(output: &Path, ending: &str) -> CliError {
 /// the file system everywhere else.
 ///
 /// # Errors
-/// If the path begins with two slashes.
+/// Returns an error if the path begins with two slashes.
 pub(crate) fn refuse_blender_path(output: &Path) -> Result<(), CliError> {
     let name = visible_path(output);
     match name.strip_prefix("//") {

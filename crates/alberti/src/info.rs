@@ -23,7 +23,7 @@ use std::fmt::Write as _;
 /// Prints the contents of a model as text or JSON.
 ///
 /// # Errors
-/// If the model cannot be loaded, or has no animation with the chosen name.
+/// Returns an error if the model cannot be loaded, or has no animation with the chosen name.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
     let model = load_model(args)?;
     if args.json {
@@ -36,7 +36,7 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
 /// Loads the model in the state that the flags select. Only the headers of its images are read.
 ///
 /// Either `--animation` or `--time` poses the model; the other then defaults to the first animation
-/// or to 0 seconds. Without both, the model has the pose of its nodes in the file.
+/// or to 0 seconds. Without either flag, the model has the pose of its nodes in the file.
 fn load_model(args: &InfoArgs) -> Result<Model, CliError> {
     let ModelStateArgs { scene, variant, animation, time } = &args.model_state;
     let options = ImportOptions {
@@ -64,8 +64,8 @@ const LISTED_NODES: usize = 20;
 
 /// Formats the report as text, one line per subject. Writing to a `String` cannot fail.
 ///
-/// Lines about scenes, lights and variants, which most models lack, are omitted if they would be
-/// empty. The others are always present, so that two models can be compared line by line:
+/// Most models have one scene and no lights, variants or scalars; lines about these are then
+/// omitted. The others are always present, so that two models can be compared line by line:
 ///
 /// ```text
 /// fox.glb
@@ -114,7 +114,7 @@ fn describe_model(model: &Model) -> String {
     text
 }
 
-/// Lists the materials by index and name, which overrides in scene files and `--material` use.
+/// Lists the materials by index and name; overrides in scene files accept either.
 fn material_names(model: &Model) -> String {
     let names = model.materials.iter().map(|material| material.name.as_deref());
     named_items(names, usize::MAX)
@@ -125,8 +125,8 @@ fn node_names(model: &Model) -> String {
     named_items(model.nodes.iter().map(|node| node.name.as_deref()), LISTED_NODES)
 }
 
-/// Lists the named items with their indices, and the number of unnamed items: exporters leave
-/// hundreds unnamed.
+/// Lists the named items with their indices, and the number of unnamed items, of which some
+/// exporters leave hundreds.
 fn named_items<'a>(names: impl Iterator<Item = Option<&'a str>>, most: usize) -> String {
     let (mut listed, mut unlisted, mut unnamed) = (Vec::new(), 0, 0);
     for (index, name) in names.enumerate() {
@@ -152,10 +152,10 @@ fn meshes_line(model: &Model) -> String {
     format!("{}, primitives {primitives}, vertices {vertices}", model.meshes.len())
 }
 
-/// Counts the primitives that the scene draws, in every instance.
+/// Counts the triangles, lines and points that the scene draws.
 ///
 /// Every instance of a mesh counts, from several nodes or from EXT_mesh_gpu_instancing: this line
-/// measures rendering work, and the line above measures file size.
+/// measures rendering work, and the `meshes` line measures file size.
 fn shown_line(model: &Model) -> String {
     let mut counts = [0_usize; 3];
     for (_, primitive) in model.scene_primitives() {
@@ -180,7 +180,7 @@ fn bounds_line(model: &Model) -> String {
     format!("{} to {}", triple(min), triple(max))
 }
 
-/// Counts the materials and those that need special treatment.
+/// Counts all materials, and the masked, blended and double-sided ones.
 ///
 /// Masked and blended materials cost more to draw, because their texels decide visibility;
 /// double-sided surfaces are not culled.
@@ -198,7 +198,7 @@ fn materials_line(model: &Model) -> String {
 /// Lists the cameras by index and name, with their projections.
 ///
 /// Angles are the vertical field of view in degrees, heights are window heights in scene units, and
-/// the last two numbers are the near and far distance.
+/// the last two numbers are the near and far distances.
 fn cameras_line(model: &Model) -> String {
     let describe = |(number, lens): (usize, &model::ModelCamera)| {
         let name = lens.name.as_deref().unwrap_or("unnamed");

@@ -1,9 +1,9 @@
-//! The program `alberti`: renders, draws, validates and explains 3D models.
+//! The `alberti` program, which renders, draws, validates and explains 3D models.
 //!
 //! [`run`] is the entry point of `main.rs` and of the Python package's `alberti` command.
 //!
 //! Each command is a module with an arguments struct and a `run` function. Only this crate prints:
-//! results go to the standard output, messages to the standard error stream. It uses these crates:
+//! results go to the standard output, messages to the standard error stream. It uses, among others:
 //!
 //! | crate | contents |
 //! | --- | --- |
@@ -13,9 +13,9 @@
 //! | [`clip`](../clip/index.html) | clipping in homogeneous space, before the perspective divide |
 //! | [`viewport`] | window to viewport, pixel conventions, paper, unprojection |
 //! | [`raster`] | coverage (`rasterize.rs`), depth test, multisampling, deterministic tiles |
-//! | [`model`] | import of files to a checked model, validation, skinning and morph targets |
-//! | [`shade`] | glTF materials, lights, environments, tone mapping, picture encoders |
-//! | [`drawing`] | hidden-line drawings, sections, sheets to scale, SVG, PDF and DXF |
+//! | [`model`] | models as plain arrays; poses, skinning and morph targets |
+//! | [`shade`] | glTF materials, lights, environments, tone mapping |
+//! | [`drawing`] | hidden-line drawings: line styles, fills, overlays, charts |
 //! | [`scene_file`] | the scene language: types, errors with carets, formatter, reference |
 //! | [`scene`](../scene/index.html) | resolution of scene files, lints |
 //! | [`pipeline`] | the renderer, passes, sequences |
@@ -108,7 +108,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 /// Runs the command that the arguments specify.
 ///
 /// # Errors
-/// If the input is invalid or the work fails; the error has not been printed yet.
+/// Returns an error if the input is invalid or the work fails; the error has not been printed yet.
 pub(crate) fn run_command(args: Args) -> Result<u8, CliError> {
     let verdict = |code: ExitCode| u8::from(code != ExitCode::SUCCESS);
     color::set_color_choice(args.color);

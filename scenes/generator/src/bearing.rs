@@ -9,7 +9,7 @@ use serde_json::json;
 /// Segments around the axis.
 const SEGMENTS: u32 = 48;
 
-/// A closed outline in radius and height, which gives the solid of revolution a bore.
+/// An outline in radius and height; a closed one gives the solid of revolution a bore.
 type Profile<'a> = &'a [(f64, f64)];
 
 const HOUSING: Profile<'_> = &[

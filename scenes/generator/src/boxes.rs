@@ -7,7 +7,7 @@ use crate::wood;
 use glam::{DVec3, dvec3};
 use serde_json::json;
 
-/// Builds a cube of one meter that rests on the ground, with one texture on all six faces.
+/// Builds a one-meter cube that rests on the ground, with one texture on all six faces.
 pub(crate) fn wooden_crate() -> Result<Document, String> {
     let mut document = Document::default();
     let planks = document.add_texture("planks", &wood::crate_side_png()?);

@@ -1,8 +1,8 @@
 //! A glTF 2.0 document under construction, and its binary container.
 //!
-//! Each kind of index has its own type, so that a mesh index cannot be used for a node. The bytes
-//! depend only on the model: JSON keys are sorted, and floats are written as their shortest
-//! decimal.
+//! Each kind of index has a separate type, so that a mesh index cannot be used for a node. The
+//! bytes depend only on the model: JSON keys are sorted, and floats are written as their shortest
+//! decimals.
 
 use crate::glb::encode_glb;
 use crate::mesh::Mesh;
@@ -271,7 +271,7 @@ impl Document {
     }
 
     /// Adds a root node with a camera at `eye`, rotated by the unit quaternion `rotation` (x, y, z,
-    /// w); it looks along its own −z. `lens` is the glTF camera object.
+    /// w); it looks along its −z axis. `lens` is the glTF camera object.
     pub fn add_camera(
         &mut self,
         name: &str,

@@ -33,8 +33,8 @@ pub(crate) fn finishes() -> Document {
     document
 }
 
-/// Returns the material extension of a column: clearcoat, sheen, iridescence, transmission, index
-/// of refraction.
+/// Returns the material of a column, with one extension: clearcoat, sheen, iridescence,
+/// transmission or index of refraction.
 fn layer_extension(which: u32) -> Value {
     let (color, metallic, roughness, name, extension) = match which {
         0 => (

@@ -11,7 +11,7 @@ use serde_json::json;
 
 /// Half the number of tiles across; a tile is one meter wide.
 const HALF_WIDTH: i32 = 4;
-/// The rows of tiles from behind the camera to the far end.
+/// The z-coordinate of the far end; [`TO_Z`] is the end behind the camera.
 const FROM_Z: i32 = -72;
 const TO_Z: i32 = 24;
 

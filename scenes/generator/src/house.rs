@@ -6,9 +6,9 @@ use crate::palette::{BRICK, CREAM, INK, PAPER, SKY, SLATE, TEAL};
 use glam::{DVec3, dvec3};
 use serde_json::json;
 
-/// Half the width (x) and half the depth (z) of the walls, and the heights of the eaves and of the
-/// ridge, which runs along z.
+/// Half the width of the walls, along x.
 const HALF_WIDTH: f64 = 2.0;
+/// Half the depth of the walls, along z, the direction of the ridge.
 const HALF_DEPTH: f64 = 2.8;
 const EAVES: f64 = 2.4;
 const RIDGE: f64 = 4.2;
@@ -67,7 +67,7 @@ fn wall_mesh() -> Mesh {
     mesh
 }
 
-/// Builds two slabs on the gables that overhang the walls.
+/// Builds the two slabs of the roof, which rest on the gables and overhang the walls.
 fn roof_mesh() -> Mesh {
     let slope = dvec3(HALF_WIDTH, EAVES - RIDGE, 0.0);
     let reach = slope * (1.0 + OVERHANG / slope.length());

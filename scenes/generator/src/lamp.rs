@@ -3,7 +3,7 @@
 //! ```text
 //!  base ─► lower arm ─► upper arm ─► head (a matrix) ─► bulb
 //! ```
-//! Each arm is drawn along its own y axis and ends where the next joint's node begins.
+//! Each arm is modeled along the y axis of its node and ends at the next joint's node.
 
 use crate::document::{Document, rotation_quaternion};
 use crate::mesh::{Mesh, sharp_outline};
@@ -67,7 +67,7 @@ fn head_matrix() -> Value {
     ] })
 }
 
-/// Builds an open bell about the y axis that opens upward.
+/// Builds a bell about the y axis, open at the top.
 fn shade_mesh() -> Mesh {
     Mesh::lathe(
         &sharp_outline(&[(0.0, 0.1), (0.16, 0.1), (0.18, 0.24), (0.5, 0.72), (0.5, 0.78)]),

@@ -2,7 +2,7 @@
 //!
 //! Grid indices map to `[-1, 1]²` by `x = 2i/(rows−1) − 1`, `z = 2j/(columns−1) − 1`. The height is
 //! `sin(R)/R` with `R = 2π√(x² + z²)`. It is 1 in the middle. The first trough is a circle with
-//! radius 0.715, and the second crest is just outside the midpoints of the edges. Angel's
+//! radius 0.715, and the second crest, with radius 1.229, crosses only the corners. Angel's
 //! *Interactive Computer Graphics* draws the same surface.
 
 use crate::document::{Document, PrimitiveMode};
@@ -85,7 +85,7 @@ impl HatPoint {
     }
 }
 
-/// Returns the color of a height; the ramp spans from the trough, at −0.2172, to the peak.
+/// Returns the color of a height; the ramp runs from the trough, at −0.2172, to the peak.
 fn height_color(height: f64) -> [f64; 3] {
     let stops = [TEAL, SKY, CREAM, SAND, OCHRE, CLAY, BRICK];
     color_ramp(&stops.map(Color::linear), (height + 0.2172) / 1.2172)

@@ -59,7 +59,7 @@ impl Color {
 /// clamped to that range.
 ///
 /// # Panics
-/// If there are no stops.
+/// Panics if there are no stops.
 pub fn color_ramp(stops: &[[f64; 3]], t: f64) -> [f64; 3] {
     let last = stops.len() - 1;
     let position = t.clamp(0.0, 1.0) * last as f64;

@@ -93,7 +93,7 @@ fn book_boxes() -> Vec<(DVec3, DVec3)> {
     heights.iter().enumerate().map(book).collect()
 }
 
-/// Adds the cameras. glTF cameras look along their own −z with y up; the camera at the door is
+/// Adds the cameras. glTF cameras look along their −z axis with y up; the camera at the door is
 /// turned about y and then tilted down.
 fn add_cameras(document: &mut Document) {
     let lens = json!({ "type": "perspective",

@@ -36,11 +36,11 @@ fn tessellate_part(part: &Part) -> Mesh {
     mesh
 }
 
-/// The radius of the table top, and the radius inside its darker rim.
+/// The outer radius of the table top's darker rim; [`TABLE_RIM`] is the inner radius.
 const TABLE_RADIUS: f64 = 4.2;
 const TABLE_RIM: f64 = 4.05;
 
-/// Builds a round table top, with the contact shadow of a pot of radius 1.5 in its vertex colors.
+/// Builds a round table top; its vertex colors contain the contact shadow of the teapot.
 pub(crate) fn table_document() -> Document {
     let mut document = Document::default();
     let cloth = document.add_material("table top", crate::palette::Color(255, 255, 255));
@@ -71,7 +71,7 @@ fn table_color(position: DVec3) -> [f64; 3] {
     if r > TABLE_RIM {
         return SAND.linear();
     }
-    // The shadow is darkest under the pot, and ends two thirds of a radius beyond its foot.
+    // The shadow is darkest under the pot and ends 1.2 beyond its foot.
     let shade = ((r - 1.3) / 1.4).clamp(0.0, 1.0);
     let shade = shade * shade * (3.0 - 2.0 * shade);
     mix_colors(CREAM.linear().map(|channel| channel * 0.38), CREAM.linear(), shade)

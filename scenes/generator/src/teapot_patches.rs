@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn neighboring_patches_share_their_border() {
+    fn neighboring_patches_share_a_border() {
         for part in teapot_parts() {
             let column = |patch: &Patch, i: usize| patch.map(|row| row[i]);
             let all = &part.patches;

@@ -66,7 +66,7 @@ fn as_array(value: &Value) -> &[Value] {
 }
 
 #[test]
-fn attributes_are_finite_and_of_one_length_and_indices_are_in_range() {
+fn attributes_are_finite_and_of_equal_length_and_indices_are_in_range() {
     for (name, glb) in parsed_models() {
         for primitive in glb.primitives() {
             let attributes = primitive["attributes"].as_object().unwrap();
@@ -124,7 +124,7 @@ fn normals_have_unit_length() {
 }
 
 #[test]
-fn triangles_face_the_way_their_normals_do() {
+fn triangles_face_in_the_direction_of_their_normals() {
     for (name, glb) in parsed_models() {
         for primitive in glb.primitives().filter(|primitive| primitive.get("mode").is_none()) {
             let [positions, normals] = ["POSITION", "NORMAL"]

@@ -43,8 +43,7 @@ pub(crate) fn vase() -> Document {
     document
 }
 
-/// Returns a Catmull-Rom curve through the outline (Catmull and Rom 1974), closed by the flat
-/// underside of the foot.
+/// Returns a Catmull-Rom curve through the outline (Catmull and Rom 1974), from foot to lip.
 fn outline_curve() -> Vec<OutlinePoint> {
     let mut turned = Vec::new();
     let point = |i: usize| OUTLINE[i.min(OUTLINE.len() - 1)];

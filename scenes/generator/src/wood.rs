@@ -6,7 +6,7 @@ use crate::palette::{BARK, Color, SAGE, WOOD, mix_colors};
 const TEXTURE_SIZE: u32 = 128;
 
 /// Returns the side of a crate as an RGB image: five planks in a frame with a diagonal brace, and
-/// nails at its corners.
+/// nails at the corners of the frame.
 pub(crate) fn crate_side_png() -> Result<Vec<u8>, String> {
     let mut texels = Vec::new();
     for y in 0..TEXTURE_SIZE {
@@ -68,7 +68,7 @@ pub(crate) fn lattice_png() -> Result<Vec<u8>, String> {
     let mut texels = Vec::new();
     for y in 0..TEXTURE_SIZE {
         for x in 0..TEXTURE_SIZE {
-            // Four holes across; distances from each hole's center, in units of a quarter hole.
+            // Four holes across; distances in texels from each hole's center.
             let [dx, dy] = [x, y].map(|t| f64::from(t % 32) - 15.5);
             let beyond = libm::sqrt(dx * dx + dy * dy) - 11.5;
             let alpha = (128.0 + beyond * 64.0).clamp(0.0, 255.0);

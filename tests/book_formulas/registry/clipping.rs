@@ -58,8 +58,8 @@ fn along_x<const N: usize>(v: &Inputs<'_>, planes: [PlaneIndex; N]) -> Answer {
     distances(&Volume::OPENGL, planes, HPoint::new(x, 0.0, 0.0, w))
 }
 
-/// Clips a segment in clip space whose ends have these values at the left plane, up to a common
-/// factor, and are inside the other planes.
+/// Clips a segment in clip space whose endpoints have these values at the left plane, up to a
+/// common factor, and are inside the other planes.
 fn segment_parameter([a, b]: [f64; 2]) -> Answer {
     let largest = a.abs().max(b.abs());
     let end = |value: f64| HPoint::new(value / largest - 1.0, 0.0, 0.0, 1.0);
@@ -67,7 +67,7 @@ fn segment_parameter([a, b]: [f64; 2]) -> Answer {
     match (a < 0.0, b < 0.0) {
         (true, false) => give(cut.t0),
         (false, true) => give(cut.t1),
-        _ => Err("one of a and b must be negative".into()),
+        _ => Err("exactly one of a and b must be negative".into()),
     }
 }
 

@@ -1,5 +1,5 @@
-//! Registry entries for matrices of the graphics interfaces and of the lesson (GL-1 to GL-3, D3D-1
-//! to D3D-6, RV-1, IF-1 to IF-3, LW-1 to LW-3, IV-1).
+//! Registry entries for matrices of graphics APIs and of the WebGL lessons (GL-1 to GL-3, D3D-1 to
+//! D3D-6, RV-1, IF-1 to IF-3, LW-1 to LW-3, IV-1).
 
 use super::inputs::{Answer, Inputs, give};
 use super::normalization::divided;

@@ -21,12 +21,12 @@ impl<'a> Inputs<'a> {
         Self { variables, values }
     }
 
-    /// Returns all variables of an entry whose values are numbers, in order.
+    /// Returns the values of all variables of the entry, in order; all must be numbers.
     pub fn numbers<const N: usize>(&self) -> Result<[f64; N], Box<dyn Error>> {
         self.these(self.variables)
     }
 
-    /// Returns some variables, named in a list separated by spaces.
+    /// Returns the values of some variables, whose names are separated by spaces.
     pub fn these<const N: usize>(&self, names: &str) -> Result<[f64; N], Box<dyn Error>> {
         let numbers: Vec<f64> =
             names.split_whitespace().map(|name| self.number(name)).collect::<Result<_, _>>()?;
@@ -34,8 +34,8 @@ impl<'a> Inputs<'a> {
         numbers.try_into().map_err(|_| format!("{count} variables, not {N}").into())
     }
 
-    /// Returns a number. The z-coordinate of a plane also follows from its distance, and vice
-    /// versa.
+    /// Returns the value of a variable, a number. The z-coordinate of a plane also follows from its
+    /// distance, and vice versa.
     pub fn number(&self, name: &str) -> Result<f64, String> {
         let key = Name::parse(name).key();
         if let Some(value) = self.values.get(&key) {
@@ -52,7 +52,7 @@ impl<'a> Inputs<'a> {
         value.ok_or_else(|| format!("`{key}` has no value"))
     }
 
-    /// Returns a bold name, or its components `p_x p_y p_z` or `x_p y_p z_p`.
+    /// Returns a vector, given by its bold name or by components `p_x p_y p_z` or `x_p y_p z_p`.
     pub fn vector(&self, letter: &str) -> Result<[f64; 3], String> {
         if let Some(value) = self.values.get(&Name::bold(letter)) {
             return value.to_column().map_err(|error| format!("`{letter}`: {error}"));
@@ -88,7 +88,7 @@ fn components_of(letter: &str) -> [[String; 3]; 2] {
     ]
 }
 
-/// Returns another name for a value, and the sign between the two.
+/// Returns the other name of a variable, and the factor between the two values.
 fn twin_of(name: &str) -> Option<(&'static str, f64)> {
     Some(match name {
         "n" => ("N", -1.0),

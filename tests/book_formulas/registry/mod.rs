@@ -21,7 +21,7 @@ use crate::book_formulas::value::Value;
 /// Names that a formula may use without a value in the check line.
 pub type Extras = Result<Vec<(&'static str, Value)>, Box<dyn std::error::Error>>;
 
-/// A name used in check lines.
+/// A name for check lines, and the function that computes its value.
 #[derive(Debug)]
 pub struct Entry {
     pub name: &'static str,

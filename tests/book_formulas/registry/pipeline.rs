@@ -1,5 +1,4 @@
-//! Registry entries for the chain and its inverse, and hidden lines (PL-1 to PL-3, UN-1, UN-2,
-//! HL-1).
+//! Registry entries for the chain, its inverse and hidden lines (PL-1 to PL-3, UN-1, UN-2, HL-1).
 
 use super::camera::camera;
 use super::inputs::{Answer, Inputs, give};
@@ -102,7 +101,7 @@ fn plane(v: &Inputs<'_>) -> Result<Plane<World>, Box<dyn Error>> {
     Ok(Plane::through(v.vector("p")?.into(), Normal::new(x, y, z)))
 }
 
-/// Clips the segment by the plane, in a volume that is wide enough.
+/// Clips the segment by the plane; the other planes of the volume are too far away to cut it.
 fn crossing(v: &Inputs<'_>) -> Answer {
     let end = |letter| v.vector(letter).map(|[x, y, z]| HPoint::<Clip>::new(x, y, z, 1.0));
     let shrink = |p: HPoint<Clip>| HPoint::new(p.x(), p.y(), p.z(), 1024.0 * p.w());

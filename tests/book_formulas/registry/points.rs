@@ -16,7 +16,7 @@ pub const ENTRIES: &[Entry] = &[
         let (one, other) =
             (hpoint([x, y, z, w]), HPoint::from_raw(hpoint([x, y, z, w]).raw() * alpha));
         if one.equivalent(other, 1e-12) != Some(true) {
-            return Err("the crates consider them different points".into());
+            return Err("the crates consider p and αp different points".into());
         }
         give(one.divide().ok_or("w = 0")?)
     }),

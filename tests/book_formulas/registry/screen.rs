@@ -120,7 +120,7 @@ fn vertex(x: f64, y: f64) -> Result<ScreenVertex, String> {
         .ok_or_else(|| format!("({x}, {y}) is not on the grid of 1/{SUBPIXELS} pixel"))
 }
 
-/// Returns twice the area in square pixels.
+/// Returns twice the signed area of a triangle, in square pixels.
 fn area(triangle: [ScreenVertex; 3]) -> f64 {
     let steps = f64::from(SUBPIXELS);
     signed_area(triangle) as f64 / (steps * steps)

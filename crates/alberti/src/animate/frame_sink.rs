@@ -24,7 +24,7 @@ use std::rc::Rc;
 /// The frames of [`Self::Files`] are written atomically and remain if the run is stopped. The raw
 /// stream has no header: the reader must know the size and frame rate.
 pub(super) enum FrameSink {
-    /// One PNG per frame, with the value of `{stem}`.
+    /// One PNG per frame: the template of the names, and the value of `{stem}`.
     Files(NameTemplate, String),
     /// One animated PNG.
     Png { writer: Box<png::Writer<SharedFile>>, file: SharedFile, opaque: bool, path: PathBuf },
@@ -53,8 +53,7 @@ impl FrameSink {
     /// A name with the field `{frame}` means one file per frame, even if there is only one frame.
     ///
     /// # Errors
-    ///
-    /// If the name has no supported extension, or the file cannot be created.
+    /// Returns an error if the name has no supported extension, or the file cannot be created.
     pub(super) fn open(
         input: &Path,
         output: &Path,
@@ -126,10 +125,10 @@ impl FrameSink {
 
     /// Opens an animated GIF that repeats forever.
     ///
-    /// The global palette is empty, because every frame has its own.
+    /// The global palette is empty, because every frame has a palette.
     ///
     /// # Errors
-    /// If a side exceeds 65,535 pixels, the limit of the format's 16-bit fields.
+    /// Returns an error if a side exceeds 65,535 pixels, the limit of the format's 16-bit fields.
     fn open_gif(output: &Path, film: &Sequence, fps: f64) -> Result<Self, CliError> {
         let (width, height) = film.image_size();
         let (Ok(width), Ok(height)) = (u16::try_from(width), u16::try_from(height)) else {
@@ -175,7 +174,7 @@ impl FrameSink {
 
     /// Finishes a file of several frames and renames it into place.
     ///
-    /// Callers must not skip it: a sink that is dropped without it removes its temporary file, as a
+    /// Callers must call this: a sink that is dropped unfinished removes its temporary file, as a
     /// failed run should.
     pub(super) fn finish(self) -> Result<(), CliError> {
         match self {
@@ -237,11 +236,11 @@ fn frame_delay(frame: usize, fps: f64) -> u16 {
     (until(frame + 1) - until(frame)).min(65_535.0) as u16
 }
 
-/// Quantizes a picture to its own palette of 256 colors.
+/// Quantizes a picture to 256 colors, chosen for this picture.
 ///
 /// GIF has no partial transparency: alpha below one half becomes transparent, the rest opaque.
 ///
-/// NeuQuant computes the palette with a sampling factor of 10, which reads a tenth of the pixels:
+/// NeuQuant computes the palette with a sampling factor of 10, that is, from a tenth of the pixels:
 /// the `gif` crate's compromise between speed (30) and quality (1). Each frame is erased before the
 /// next, because transparent pixels would otherwise show the previous frame.
 fn gif_frame(picture: &Picture, delay: u16) -> gif::Frame<'static> {

@@ -1,4 +1,4 @@
-//! The flags of a picture, from the command and from the job list line, which overrides them.
+//! The flags of a picture: flags in its line of the job list override the flags of the command.
 //!
 //! ```text
 //!  command: --size 64x64 --view front      line: {"input": "a.glb", "camera": "left"}
@@ -26,7 +26,7 @@ impl RenderFlags {
     /// Parses arguments such as `--size=64x64`.
     ///
     /// # Errors
-    /// If a flag does not accept its value, or two flags conflict; the message comes from clap.
+    /// Returns an error if a value is invalid or two flags conflict; the message comes from clap.
     pub(super) fn parse(words: &[String]) -> Result<Self, String> {
         let command = declaration().no_binary_name(true).color(clap::ColorChoice::Never);
         let parsed = command.try_get_matches_from(words);
@@ -95,7 +95,7 @@ impl FromArgMatches for GivenFlags {
 
 impl GivenFlags {
     /// Removes a scene file, as in `--scene lineup.ron`, from the flags and returns it; any other
-    /// value is the name of a scene in the models.
+    /// `--scene` value names a scene in the models.
     pub(super) fn take_scene_file(&mut self) -> Option<PathBuf> {
         let is_file = |(name, value): &(String, Option<String>)| {
             name == "scene" && value.as_deref().is_some_and(is_scene_name)

@@ -1,6 +1,6 @@
-//! `alberti batch-worker`: renders what a batch coordinator requests, until the coordinator exits.
+//! `alberti batch-worker`: renders pictures for a batch coordinator, until the coordinator exits.
 //!
-//! A model that hangs, crashes or uses up the memory brings down only its own worker.
+//! A model that hangs, crashes or uses up the memory brings down only its worker.
 
 use super::render_flags::RenderFlags;
 use super::worker_scene::SceneLoader;
@@ -28,7 +28,7 @@ pub(crate) struct WorkerArgs {
 /// Answers requests until the input ends.
 ///
 /// # Errors
-/// If a request is malformed, or the answers cannot be written.
+/// Returns an error if a request is malformed, or the answers cannot be written.
 pub(crate) fn run(args: &WorkerArgs) -> Result<(), CliError> {
     end_with_coordinator();
     if let Some(memory) = args.memory {
@@ -61,7 +61,7 @@ pub(crate) fn run(args: &WorkerArgs) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Ends this process when the coordinator is killed, even while it renders.
+/// Ends this process when the coordinator is killed, even in the middle of a picture.
 #[cfg(target_os = "linux")]
 fn end_with_coordinator() {
     use rustix::process::{Signal, set_parent_process_death_signal};
@@ -69,7 +69,7 @@ fn end_with_coordinator() {
     let _ = set_parent_process_death_signal(Some(Signal::KILL));
 }
 
-/// Other systems have no such signal: the worker exits at its next answer.
+/// Does nothing: other systems have no such signal, so the worker exits at its next answer.
 #[cfg(not(target_os = "linux"))]
 fn end_with_coordinator() {}
 

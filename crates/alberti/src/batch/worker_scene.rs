@@ -14,7 +14,7 @@ use scene_file::is_scene_file;
 use std::path::Path;
 use std::time::SystemTime;
 
-/// The model path in a scene file that is replaced by the input.
+/// The model path that the input replaces in a scene file.
 const INPUT_PATH: &str = "{input}";
 
 /// Loads scenes and keeps the last scene's models.
@@ -57,7 +57,7 @@ impl SceneLoader {
     /// Returns the scene of an input, or the scene file `around` with the input as its model.
     ///
     /// # Errors
-    /// If a file cannot be read or is invalid, or the scene has no placeholder for the input.
+    /// Returns an error if a file is unreadable or invalid, or the scene lacks the placeholder.
     pub(super) fn load_scene(
         &mut self,
         input: &Path,
@@ -105,7 +105,7 @@ fn open_scene_around(
         )));
     }
     let (origin, mut file) = Origin::read_scene_allowing(scene, &import.allow_outside)?;
-    // Paths in a scene are relative to its folder, the input to the working directory.
+    // Paths in a scene are relative to its folder; the input is relative to the working directory.
     let input = std::path::absolute(input)?;
     let path = input.to_str().ok_or_else(|| {
         CliError::Usage(format!("the name {} is not UTF-8: rename the file", visible_path(&input)))

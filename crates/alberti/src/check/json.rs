@@ -34,8 +34,8 @@ pub(super) fn file_report(findings: &CheckResult) -> String {
 
 /// Returns the report on scenes.
 ///
-/// The totals at the top let a script decide without looking at the files. `files` has one entry
-/// per argument, in the same order.
+/// The totals let a script judge the result without reading `files`, which has one entry per
+/// argument, in the same order.
 pub(super) fn scenes_report(all: &[CheckResult]) -> String {
     let document = json!({
         "schema": {"name": "alberti-scene-check", "version": VERSION},
@@ -77,7 +77,7 @@ fn scene_error_json(mistake: &SceneError) -> Value {
 
 /// Returns a lint: a scene error with a code.
 ///
-/// The code names the kind of lint and is stable, so that a script can ignore it.
+/// The code names the kind of lint and is stable, so that a script can ignore that kind.
 fn lint_json(advice: &Lint) -> Value {
     let mut value = scene_error_json(&advice.error);
     value["code"] = json!(advice.code);
@@ -88,7 +88,7 @@ fn lint_json(advice: &Lint) -> Value {
 ///
 /// `refusal` is the error that kept the model from being loaded, and `null` if it was loaded.
 /// `problems` is limited in length; `problems_left_out` is the number of problems beyond the limit.
-/// The counts include them.
+/// The counts cover all problems.
 fn report_json(report: &CheckReport) -> Value {
     let refusal = report.load_error.as_ref().map(
         |fault| json!({"pointer": fault.location, "message": fault.message, "remedy": fault.help}),

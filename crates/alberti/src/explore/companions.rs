@@ -1,6 +1,6 @@
 //! Collects the files that a model or a scene refers to, so that they can all be sent to a browser.
 //!
-//! The importer checks whether they are used correctly. A name that points outside the model's
+//! The importer checks whether the files are used correctly. A name that points outside the model's
 //! folder, even through a symbolic link, is skipped.
 
 use crate::CliError;
@@ -26,7 +26,7 @@ impl ModelFiles {
     /// Reads a model or a scene and the existing files it refers to.
     ///
     /// # Errors
-    /// If the model cannot be read, or the files together exceed the size limit for models.
+    /// Returns an error if the model cannot be read, or the files exceed their total size limit.
     pub(super) fn read(path: &Path) -> Result<Self, CliError> {
         let cannot_read =
             |error: Error| CliError::Usage(format!("cannot read {}: {error}", visible_path(path)));
@@ -83,11 +83,11 @@ fn read_file(path: &Path) -> Result<Vec<u8>, Error> {
     }
     let mut bytes = Vec::new();
     File::open(path)?.take(limit + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > limit { Err(too_large("it has", metadata.len())) } else { Ok(bytes) }
+    if bytes.len() as u64 > limit { Err(too_large("it is", metadata.len())) } else { Ok(bytes) }
 }
 
 fn too_large(what: &str, bytes: u64) -> Error {
-    Error::new(ErrorKind::InvalidData, format!("{what} {} MiB, too much to serve", bytes >> 20))
+    Error::new(ErrorKind::InvalidData, format!("{what} {} MiB, more than allowed", bytes >> 20))
 }
 
 #[cfg(test)]

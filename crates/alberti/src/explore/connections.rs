@@ -2,9 +2,9 @@
 //!
 //! A browser, or any other program on the machine, may open connections and send nothing, or send a
 //! request and not read the answer. When there are too many connections, the one whose request has
-//! been outstanding longest is closed. If all requests have arrived, it is the one that has been
-//! reading its answer longest. A new connection that sends its request at once is thus answered no
-//! matter how many others are silent or slow.
+//! been outstanding longest is closed. If all requests have arrived, the connection that has been
+//! reading its answer longest is closed. A new connection that sends its request at once is thus
+//! answered no matter how many others are silent or slow.
 
 use super::CliError;
 use super::request::{parse_request, read_head};
@@ -22,7 +22,7 @@ const MAX_CONNECTIONS: usize = 64;
 /// Maximum total size in bytes of answers not yet read by clients: twice the largest picture.
 const MAX_UNTAKEN_BYTES: usize = 512 << 20;
 
-/// Time in which a response must be read, and the extra time for each MiB.
+/// Time in which a response must be read, plus [`TIME_PER_MIB`] for each MiB.
 const WRITE_TIME: Duration = Duration::from_secs(20);
 const TIME_PER_MIB: Duration = Duration::from_secs(1);
 
@@ -50,7 +50,7 @@ struct Connections {
 struct Closable {
     number: u64,
     stream: TcpStream,
-    /// Bytes of memory freed by closing it.
+    /// Bytes of memory freed by closing the connection.
     bytes: usize,
 }
 
@@ -107,7 +107,7 @@ impl Connections {
         }
     }
 
-    /// Removes a connection from the lists of those that may be closed.
+    /// Removes a connection from the lists of connections that may be closed.
     fn keep_open(&mut self, number: u64) {
         self.silent.retain(|closable| closable.number != number);
         self.taking.retain(|closable| closable.number != number);
@@ -149,7 +149,7 @@ impl Connection {
         };
     }
 
-    /// Writes a response for as long as its client keeps reading.
+    /// Writes a response, within a time limit that depends on its size.
     fn write(&mut self, response: &Response<'_>, is_head: bool) -> std::io::Result<()> {
         let body = if is_head { &[] } else { response.bytes() };
         let mebibytes = u32::try_from(body.len() >> 20).unwrap_or(u32::MAX);
@@ -188,7 +188,7 @@ impl Connection {
 }
 
 impl Visitor for Connection {
-    /// Whether the client is still waiting: it has not closed the connection or its sending side.
+    /// Whether the client is still waiting: neither the connection nor its sending side is closed.
     fn is_there(&mut self) -> bool {
         if self.stream.set_nonblocking(true).is_err() {
             return false;

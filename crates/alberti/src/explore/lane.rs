@@ -49,7 +49,7 @@ pub(super) struct Lane {
 /// The reason a query was not answered.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Unanswered {
-    /// Too many others are waiting.
+    /// Too many other queries are waiting.
     Busy,
     /// The client has disconnected.
     Abandoned,
@@ -61,7 +61,7 @@ impl Lane {
     /// Starts a lane.
     ///
     /// # Errors
-    /// If the system cannot create a thread.
+    /// Returns an error if the system cannot create a thread.
     pub(super) fn start(explorer: Explorer) -> std::io::Result<Self> {
         let queue = Arc::new(Queue::default());
         let own = Arc::clone(&queue);
@@ -72,7 +72,7 @@ impl Lane {
     /// Answers a query; polls `is_wanted` to check that the client is still waiting.
     ///
     /// # Errors
-    /// If the query cannot be answered.
+    /// Returns an error if the query cannot be answered.
     pub(super) fn ask(
         &self,
         query: &str,

@@ -51,7 +51,7 @@ pub(super) fn read_head(stream: &mut TcpStream) -> Result<Vec<u8>, Option<Respon
     }
 }
 
-/// Parses a head and checks that it comes from this server's own page or from the user.
+/// Parses a head and checks that it comes from this server's page or from the user.
 ///
 /// # Errors
 /// Fails with the response that refuses the request.
@@ -107,7 +107,7 @@ fn check_origin(headers: &[(String, &str)], port: u16) -> Result<(), Response<'s
         _ => {
             return Err(Response::text(
                 421,
-                "This server only answers requests sent to its own address.",
+                "This server answers only requests to its own address.",
             ));
         }
     }
@@ -117,7 +117,7 @@ fn check_origin(headers: &[(String, &str)], port: u16) -> Result<(), Response<'s
     if origins && values("sec-fetch-site").iter().all(is_own_site) {
         Ok(())
     } else {
-        Err(Response::text(403, "This server answers only its own page."))
+        Err(Response::text(403, "This server answers only requests from its own page."))
     }
 }
 

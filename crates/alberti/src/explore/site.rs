@@ -36,10 +36,10 @@ pub(super) trait Visitor {
 }
 
 impl Site {
-    /// Reads the model from the command line and checks that it can be shown.
+    /// Reads the model named on the command line and checks that it can be shown.
     ///
     /// # Errors
-    /// If it cannot be read or shown.
+    /// Returns an error if the model cannot be read or shown.
     pub(super) fn prepare(model: Option<&Path>, token: String) -> Result<Self, CliError> {
         let mut files = embedded_files();
         let mut explorer = Explorer::new();
@@ -90,9 +90,9 @@ impl Site {
 
     /// Returns the explorer's answer to a query.
     ///
-    /// An explorer error is an answer like any other, with its own content type. It does not change
-    /// the status, because browsers log every response with a status other than 200, and a value
-    /// that cannot be drawn is not an error in the page.
+    /// An explorer error is an answer like any other, with a separate content type. It does not
+    /// change the status, because browsers log every response with a status other than 200, and a
+    /// value that cannot be drawn is not an error in the page.
     fn compute(&self, query: &str, visitor: &mut impl Visitor) -> Option<Response<'_>> {
         let lane = if draws(query) { &self.large } else { &self.small };
         Some(match lane.ask(query, || visitor.is_there()) {

@@ -11,7 +11,7 @@ const TOKEN_BYTES: usize = 16;
 /// Returns a new token of hexadecimal digits.
 ///
 /// # Errors
-/// If the system cannot provide random bytes.
+/// Returns an error if the system cannot provide random bytes.
 pub(super) fn new_token() -> Result<String, CliError> {
     let bytes = random_bytes().map_err(|error| {
         CliError::Usage(format!(

@@ -28,7 +28,7 @@ impl DxfArgs {
     }
 }
 
-/// Returns the warning that a format omits the images of a page.
+/// Returns a warning if a format omits the images of a page.
 pub(crate) fn image_warning<W>(format: OutputFormat, page: &Page<W>) -> Option<Warning> {
     let leaves_out = format == OutputFormat::Dxf && !page.images.is_empty();
     leaves_out.then_some(Warning::ImagesNotInDxf)

@@ -9,7 +9,7 @@ use pipeline::Picture;
 
 /// The default quality of a JPEG.
 pub(crate) const DEFAULT_QUALITY: u8 = 90;
-/// The maximum side lengths of JPEG and WebP in pixels.
+/// The maximum side length of a JPEG in pixels; [`MAX_WEBP_SIDE`] is the same for WebP.
 const MAX_JPEG_SIDE: u32 = 65_535;
 const MAX_WEBP_SIDE: u32 = 16_384;
 
@@ -24,7 +24,7 @@ impl OutputFormat {
     /// A JPEG has no alpha: transparent pixels become white.
     ///
     /// # Errors
-    /// If a side of the picture exceeds the limit of the format.
+    /// Returns an error if a side of the picture exceeds the limit of the format.
     pub(crate) fn encode_picture(
         self,
         picture: &Picture,
@@ -58,7 +58,7 @@ impl OutputFormat {
     /// Refuses a size that exceeds the limit of the format.
     ///
     /// # Errors
-    /// The same as for [`encode_picture`](Self::encode_picture).
+    /// Returns the size error of [`encode_picture`](Self::encode_picture).
     pub(crate) fn check_size(self, [width, height]: [u32; 2]) -> Result<(), CliError> {
         let (name, most) = match self {
             Self::Jpeg => ("JPEG", MAX_JPEG_SIDE),

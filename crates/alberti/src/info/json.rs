@@ -14,7 +14,7 @@
 //!   "scenes": [], "nodes": [], "meshes": [], "materials": [], "textures": [], "images": []
 //! }
 //! ```
-//! (Shortened: `shown` also contains bounds and counts, and lists of cameras, lights, skins,
+//! (Shortened: `shown` also contains bounds and counts; lists of cameras, lights, skins,
 //! animations, variants, extensions and warnings follow.)
 
 use super::materials::{images_json, materials_json, textures_json};
@@ -149,7 +149,7 @@ fn animation_json(model: &Model, animation: &Animation) -> Value {
     })
 }
 
-/// Returns a channel: its target, interpolation, number of keyframes, start and end time.
+/// Returns a channel: its target, interpolation, number of keyframes, and start and end times.
 ///
 /// Spherical interpolation of rotations is `LINEAR` in glTF, so both have that name. `start` and
 /// `end` are `null` for a channel without keyframes.

@@ -120,9 +120,9 @@ fn edges_json(edges: &PrimitiveEdges) -> Value {
 
 /// Returns all cameras in the file, with the nodes that refer to them.
 ///
-/// `fov_y` is in radians; `width` and `height` are the full extent, twice glTF's `xmag` and `ymag`.
-/// `aspect` is `null` if the camera adapts to the picture, and `far` is `null` if the far plane is
-/// at infinity.
+/// `fov_y` is in radians; `width` and `height` are the full extents, twice glTF's `xmag` and
+/// `ymag`. `aspect` is `null` if the camera adapts to the picture, and `far` is `null` if the far
+/// plane is at infinity.
 pub(super) fn cameras_json(model: &Model) -> Vec<Value> {
     let describe = |(number, lens): (usize, &model::ModelCamera)| {
         let mut value = match lens.projection {
