@@ -25,7 +25,7 @@ pub struct Drawing {
 }
 
 impl Drawing {
-    /// Whether the drawing is empty.
+    /// Whether the drawing has no segments, no regions and no visible fill.
     pub fn is_empty(&self) -> bool {
         let is_clear = |fill: &Picture| fill.pixels.iter().all(|pixel| pixel[3] == 0);
         let has_fill = self.face_fill.as_ref().is_some_and(|fill| !is_clear(fill));
@@ -34,7 +34,7 @@ impl Drawing {
 }
 
 impl From<LineDrawing> for Drawing {
-    /// Converts lines to a drawing without a fill, and adds a warning if its outlines would not be
+    /// Converts lines to a drawing without a fill, and adds a warning if the outlines would not be
     /// exact on a page.
     fn from(lines: LineDrawing) -> Self {
         let LineDrawing { size, objects, segments, regions, warnings } = lines;

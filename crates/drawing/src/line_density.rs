@@ -18,7 +18,8 @@ use hidden_line::EdgeSegment;
 const CELL_SIDE: f64 = 16.0;
 /// The coverage up to which lines are drawn unchanged.
 const MAX_COVERAGE: f64 = 0.6;
-/// The minimum fraction of its width that a line keeps; if that is not enough, it becomes paler.
+/// The minimum fraction of its width that a line keeps; if lines are still too dense, they become
+/// paler.
 const MIN_WIDTH_FACTOR: f64 = 0.4;
 /// The minimum fraction of its contrast that a line keeps.
 const MIN_CONTRAST: f64 = 0.4;
@@ -103,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn coverage_is_the_fraction_of_ink_on_the_page() {
+    fn coverage_is_the_inked_fraction_of_the_page() {
         for (count, width, coverage) in [(10, 1.0, 10.0 / 160.0), (100, 0.5, 50.0 / 160.0)] {
             let mean = mean_coverage(&drawing_of_lines(count), width, |_| true);
             assert!((mean - coverage).abs() < 0.1 * coverage, "{count}: {mean}");

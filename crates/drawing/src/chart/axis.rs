@@ -118,7 +118,7 @@ impl Axis {
     }
 }
 
-/// Returns the float nearest to a digit times a power of ten, which is the value of that literal.
+/// Returns the float nearest to a digit times a power of ten, as a decimal literal would give it.
 fn nearest_decimal(digit: f64, power: i32) -> f64 {
     format!("{digit}e{power}").parse().unwrap_or(1.0)
 }
