@@ -1,5 +1,5 @@
-//! Explanation of points and segments under a single matrix, without a scene: the examples and
-//! exercises of the textbook (HO-3, PE-1, IN-1).
+//! Explanation of points and segments under a single matrix, without a scene, for the textbook's
+//! examples and exercises (HO-3, PE-1, IN-1).
 //!
 //! ```text
 //!  p = (x, y, z, w) ──M──► M p ──÷ its w──► the image       a segment adds f(t)
@@ -39,7 +39,8 @@ impl BareMap {
     /// exercise 8. The product of P and nf P⁻¹ is nf times the identity (exercise 6).
     ///
     /// # Errors
-    /// If a number is 0 or not finite, both are equal, or they are on different sides of the eye.
+    /// Returns an error if a number is 0 or not finite, or if the planes are equal or on different
+    /// sides of the eye.
     pub fn from_planes(near: f64, far: f64) -> Result<Self, ProjectionError> {
         let p = chapter::p(near, far)?;
         let inverse = chapter::p_inverse_scaled(near, far)?;
@@ -53,10 +54,10 @@ impl BareMap {
         Ok(Self { map: Projective::from_raw(p.raw()), steps: vec![step] })
     }
 
-    /// Explains the image of one or more homogeneous points: a segment has two.
+    /// Explains the images of homogeneous points; two points are the endpoints of a segment.
     ///
     /// # Errors
-    /// If all four coordinates of a point are 0.
+    /// Returns an error if all four coordinates of a point are 0.
     pub fn explain_points(&self, points: &[HPoint<View>]) -> Result<Explanation, String> {
         let mut steps = self.steps.clone();
         let labels: &[&str] = if let [_] = points { &[""] } else { &["a", "b"] };
@@ -114,8 +115,8 @@ fn describe_segment(start: f64, end: f64) -> &'static str {
         "An end with w = 0 maps to infinity, so the image has no end there: clip the segment first."
     } else {
         "Each end has an image, but w changes sign between them: the segment crosses the plane \
-         of the eye, where w is 0, and the line between the two images is not its image. Clip it \
-         first."
+         of the eye, where w is 0. The line between the two images is not the image of the segment, \
+         so clip the segment first."
     }
 }
 

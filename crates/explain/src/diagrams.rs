@@ -106,7 +106,7 @@ pub(super) fn draw_diagrams(
     figures
 }
 
-/// Finds the points of the steps in a space by item ids: one, two ends or three vertices.
+/// Finds the points in a space by the ids of step items: one point, two ends or three vertices.
 ///
 /// Accepts the id `space` itself and `space_label`. Skips items of other types, homogeneous points
 /// (four numbers) and coordinates that are not finite, such as a clip-space point near w = 0.
@@ -226,7 +226,7 @@ fn picture_diagram(chain: &TransformChain, picture: &Picture, marks: &[LabeledPo
     Diagram { caption, svg }
 }
 
-/// Draws the points with their labels, joined to a polygon if there are several; `unit` scales
+/// Draws the points with their labels, joined into a polygon if there are several; `unit` scales
 /// lines and text.
 ///
 /// `positions` are in SVG user units, one for each mark. A segment is a polygon of two points,
@@ -268,7 +268,7 @@ fn open_svg([width, height]: [f64; 2]) -> String {
     format!("<svg viewBox=\"0 0 {width} {height}\" role=\"img\">")
 }
 
-/// The window-to-viewport map of a diagram: y up to y down, equal scales on both axes.
+/// The window-to-viewport map of a diagram: from y up to y down, with equal scales on both axes.
 ///
 /// ```text
 ///  x_svg = SIZE_x / 2 + (x − center_x) · scale

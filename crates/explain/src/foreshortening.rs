@@ -17,7 +17,7 @@ const SAMPLES: [(&str, f64); 5] =
 /// A segment whose ends have w with different signs crosses the plane of the eye. Its image is not
 /// connected, so the step states that f(t) is not defined.
 pub(super) fn foreshortening_step<S: Space>(start: HPoint<S>, end: HPoint<S>) -> Step {
-    let title = "f(t): where its points land between the images of the ends";
+    let title = "f(t): where points of the segment land between the images of its ends";
     let mut step = Step::new("foreshortening", title, Some("IN-1"))
         .with_item("w_r", "w_r, of a", start.w())
         .with_item("w_R", "w_R, of b", end.w());

@@ -4,7 +4,7 @@
 //! ```text
 //!  subject ─► steps, each with its formula ─► items: matrices, coordinates ─► text, JSON, HTML
 //! ```
-//! Every number comes from the same stage that renders a picture; nothing is computed differently
+//! Every number comes from the code that also renders pictures; nothing is computed differently
 //! here.
 //!
 //! | subject | file |

@@ -1,4 +1,5 @@
-//! Explains a triangle: clipping planes, the clipped polygon, its area and winding (CL-3, RA-1).
+//! Explains a triangle: clipping planes, the clipped polygon, and its area and winding (CL-3,
+//! RA-1).
 //!
 //! Clipping cuts the triangle at each plane in turn (Sutherland and Hodgman, 1974), in homogeneous
 //! coordinates before the divide. A vertex of the result is a blend of a, b and c; attributes are
@@ -21,11 +22,12 @@ use model::Topology;
 
 /// Follows a triangle of a model through every stage.
 ///
-/// # Errors
-/// If the model does not show such a triangle; the message lists what exists.
-///
 /// Vertices keep the labels a, b, c through the transforms; vertices of the clipped polygon are
-/// numbered from 1. The area is measured for the visible part in square pixels, before sampling.
+/// numbered from 1. The area of the visible part is measured in square pixels, before sampling.
+///
+/// # Errors
+/// Returns an error if the model does not show such a triangle. The message lists the shown nodes
+/// or counts the primitives or triangles.
 pub fn explain_triangle(
     chain: &TransformChain,
     model_instance: &ModelInstance,
@@ -91,7 +93,8 @@ pub fn explain_triangle(
 /// weights.
 ///
 /// The weights of a vertex sum to 1 and are affine in the world, since clipping comes before the
-/// divide. The weights 1, 0, 0 mean the vertex a itself; two nonzero weights mean a cut edge.
+/// divide. The weights 1, 0, 0 mean the vertex a itself; two nonzero weights mean a point on a cut
+/// edge.
 fn clip_step(left: &ClippedPolygon) -> Step {
     let mut step = Step::new("clip", "Clipping, in homogeneous space", Some("CL-3"))
         .with_item("cut", "cut by", plane_list(left.outcomes.clipped, "no plane"))
@@ -138,7 +141,7 @@ fn screen_area(chain: &TransformChain, left: &ClippedPolygon) -> f64 {
 
 /// Returns the step with the area and winding on the screen.
 ///
-/// The direction is described by axes instead of as clockwise, because y points up in some
+/// The direction is described by axes rather than as clockwise, because y points up in some
 /// conventions and down in others.
 fn area_step(area: f64) -> Step {
     let orientation = match area {
