@@ -7,8 +7,8 @@
 /// very large numbers get an exponent.
 ///
 /// Decimal notation is used from 1e-4 up to but not including 1e6, and scientific notation
-/// otherwise. Positive infinity, which a far plane may have, is `infinite`. −∞ and NaN print as in
-/// Rust.
+/// otherwise. Positive infinity, as of some far planes, prints as `infinite`. −∞ and NaN print as
+/// in Rust.
 pub(super) fn format_short(x: f64, digits: usize) -> String {
     if !x.is_finite() {
         return if x > 0.0 { "infinite".to_owned() } else { format!("{x}") };

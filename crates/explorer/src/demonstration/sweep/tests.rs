@@ -1,4 +1,4 @@
-//! Each parameter has the effect stated in the lessons and no other.
+//! Tests that each parameter has the effect stated in the lessons and no other.
 
 use super::*;
 use crate::demonstration::test_scene::house_scene;
