@@ -178,8 +178,7 @@ impl Volume {
         present.then(|| Plane::from_raw(self.planes[index.index()]))
     }
 
-    /// Returns the planes that a point is outside of (CL-1). A point that is not finite is outside
-    /// all planes.
+    /// Returns the planes that a point is outside of (CL-1): all, if the point is not finite.
     #[inline]
     #[must_use]
     pub fn outcode(&self, point: HPoint<Clip>) -> Outcode {
@@ -246,8 +245,7 @@ impl Volume {
         point.w() > 0.0 && self.outcode(point).is_inside()
     }
 
-    /// Returns the signed distance of a point from a plane, in the plane's units: positive inside,
-    /// negative outside.
+    /// Returns the signed distance of a point from a plane, in the plane's units; positive inside.
     pub(crate) fn plane_distance(&self, index: PlaneIndex, point: DVec4) -> f64 {
         self.planes[index.index()].dot(point)
     }
@@ -262,8 +260,7 @@ impl Volume {
         point
     }
 
-    /// Moves a point that rounding left slightly outside the box back onto it, to make clipping
-    /// idempotent.
+    /// Moves a point that rounding left just outside the box onto it, so clipping is idempotent.
     pub(crate) fn clamp_to_box(&self, point: DVec4) -> DVec4 {
         let outside = self.full_outcode(point).planes();
         outside.fold(point, |point, index| self.snap_to_plane(index, point))

@@ -22,8 +22,8 @@ const TINTS: [f64; 2] = [0.06, 0.55];
 
 /// Encodes the gray of a material as a pixel of the fill image, transparent if it has no color.
 ///
-/// The luminance of the base color (Rec. 709) is sRGB-encoded, so that steps between levels look
-/// nearly equal.
+/// The luminance of the base color (Rec. 709) is sRGB-encoded, so that level steps look nearly
+/// equal.
 pub(super) fn gray_pixel(color: Option<[f32; 3]>) -> [u8; 4] {
     let Some([r, g, b]) = color else { return [0; 4] };
     let luminance = r * 0.2126 + g * 0.7152 + b * 0.0722;

@@ -9,8 +9,7 @@
 //!
 //! Only strokes on the page change, by less than twice the amplitude and, at open ends, the
 //! overshoot. Edges, visibility and the model stay the same. The random numbers depend only on the
-//! line itself. A line therefore has the same shape in every run, even when other lines are added
-//! or removed.
+//! line itself, so its shape does not depend on the run or on other lines.
 
 use glam::DVec2;
 use page::{PagePoint, Polyline, to_micrometers, to_millimeters};
@@ -84,8 +83,7 @@ fn resample(points: &[DVec2], step: f64) -> Vec<(DVec2, f64)> {
     samples
 }
 
-/// Returns value noise from −1 to 1 with a continuous slope: random values at integers, joined by
-/// cubics.
+/// Returns smooth value noise from −1 to 1: random values at integers, joined by cubics.
 fn smooth_noise(seed: u64, x: f64) -> f64 {
     let cell = x.floor();
     let t = x - cell;

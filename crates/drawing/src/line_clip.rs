@@ -78,8 +78,7 @@ impl ClipArea {
         }
     }
 
-    /// Returns the sorted fractions at which a line crosses the border, preceded by 0 and followed
-    /// by 1.
+    /// Returns the sorted fractions at which a line crosses the border, together with 0 and 1.
     fn crossings(&self, [a, b]: [DVec2; 2]) -> Vec<f64> {
         let mut cuts = vec![0.0, 1.0];
         let step = b - a;

@@ -18,8 +18,7 @@ use hidden_line::EdgeSegment;
 const CELL_SIDE: f64 = 16.0;
 /// The coverage up to which lines are drawn unchanged.
 const MAX_COVERAGE: f64 = 0.6;
-/// The minimum fraction of its width that a line keeps; if lines are still too dense, they become
-/// paler.
+/// The minimum fraction of its width that a line keeps; beyond that, lines become paler.
 const MIN_WIDTH_FACTOR: f64 = 0.4;
 /// The minimum fraction of its contrast that a line keeps.
 const MIN_CONTRAST: f64 = 0.4;

@@ -205,8 +205,7 @@ impl LineStyle {
 impl LineStyle {
     /// Returns the options for making a drawing in this style.
     ///
-    /// Hatch spacing is converted to pixels of 1/96 inch. For a drawing at another scale, set it
-    /// again.
+    /// Hatch spacing is converted to pixels of 1/96 inch. At another scale, set it again.
     #[must_use]
     pub fn to_draw_options(&self) -> DrawOptions {
         DrawOptions {

@@ -86,7 +86,7 @@ pub(super) fn remove_overlaps(segments: &[PageSegment]) -> Vec<PageSegment> {
     retained.into_iter().map(|(_, segment)| segment).collect()
 }
 
-/// Returns the center of the segments' bounding box, the origin for which rounded slopes matter
+/// Returns the center of the segments' bounding box, an origin for which rounded slopes matter
 /// least.
 fn bounds_center(segments: &[PageSegment]) -> DVec2 {
     let bounds = |f: fn(DVec2, DVec2) -> DVec2, start: f64| {

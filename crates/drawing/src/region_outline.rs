@@ -224,8 +224,7 @@ impl PointColumns {
     }
 }
 
-/// Whether a side passes through the cell of a point, a square of one grid step centered on the
-/// point.
+/// Whether a side passes through the cell of a point: the square of one grid step around it.
 fn passes_cell([a, b]: [Point; 2], point: Point) -> bool {
     let is_beside = |axis: usize| {
         let (low, high) = (a[axis].min(b[axis]), a[axis].max(b[axis]));

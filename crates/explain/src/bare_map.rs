@@ -32,8 +32,7 @@ impl BareMap {
         Self { map, steps: vec![step] }
     }
 
-    /// Creates the textbook's matrix P for the planes z = `near` and z = `far` (PE-1), with its
-    /// inverse.
+    /// Creates the textbook's P for the planes z = `near` and z = `far` (PE-1), with its inverse.
     ///
     /// The numbers are z-coordinates, negative ahead of the camera; both may be positive, as in
     /// exercise 8. The product of P and nf P⁻¹ is nf times the identity (exercise 6).

@@ -130,8 +130,7 @@ impl ApiConventions {
     /// Returns the map from a view space that looks along −z to the view space of the conventions:
     /// diag(1, 1, ±1).
     ///
-    /// The map is its own inverse. With −1, it turns right-handed coordinates into left-handed
-    /// ones.
+    /// The map is its own inverse. With −1, it swaps right-handed and left-handed coordinates.
     pub(super) fn view_flip(self) -> Affine<View, View> {
         Affine::scale(1.0, 1.0, if self.looks_along_z() { -1.0 } else { 1.0 })
     }

@@ -124,8 +124,7 @@ fn labeled_points(explanation: &Explanation, space: &str) -> Vec<LabeledPoint> {
 
 /// Returns the corners of the canonical volume in NDC: x varies fastest, then y, then z.
 ///
-/// Corner n has bit 0 for right, bit 1 for top and bit 2 for far; [`BOX_EDGES`] relies on this
-/// order.
+/// Corner n has bit 0 for right, bit 1 for top and bit 2 for far; [`BOX_EDGES`] relies on this.
 fn canonical_corners(chain: &TransformChain) -> [[f64; 3]; 8] {
     let [near, far] = chain.depth_range();
     let side = |bit: usize| if bit == 0 { -1.0 } else { 1.0 };

@@ -1,5 +1,4 @@
-//! The step for f(t): where points of a segment appear between the images of its ends (IN-1,
-//! exercise 11).
+//! The step for f(t): where points of a segment appear in the segment's image (IN-1, exercise 11).
 //!
 //! ```text
 //!  f(t) = w_R t / (w_r + t (w_R − w_r))        f(0) = 0, f(1) = 1, f′ > 0

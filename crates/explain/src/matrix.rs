@@ -67,8 +67,7 @@ fn corrected_reading(found: &Recognition) -> Option<(MatrixReading, &'static str
     Some((recognize(slip.remedied?).first(), title))
 }
 
-/// Returns an error with the row and column, from 1, of the first entry that is not a finite
-/// number.
+/// Returns an error that names the row and column, from 1, of the first entry that is not finite.
 fn check_finite<const N: usize>(rows: &[[f64; N]; N]) -> Result<(), String> {
     match rows.as_flattened().iter().position(|entry| !entry.is_finite()) {
         Some(at) => {
@@ -173,8 +172,8 @@ fn is_rigid(meaning: &MatrixMeaning) -> bool {
 /// Returns the step with the vanishing points of the three axes.
 ///
 /// The vanishing point of a direction d is M (d, 0): for an axis, a column of the matrix. Columns
-/// with w ≠ 0 give one-, two- and three-point perspective (VN-1); 1e-12 is the relative tolerance
-/// on w.
+/// with w ≠ 0 give one-, two- and three-point perspective (VN-1). w has a relative tolerance of
+/// 1e-12.
 fn vanishing_points_step(map: Projective<View, Clip>) -> Step {
     let points = map.principal_vanishing_points(1e-12);
     let words = |meaning: HPointKind<Clip>| match meaning {

@@ -104,16 +104,14 @@ fn explain_absence(model: &Model, node: usize) -> String {
 /// The number of points, lines and triangles by the stage that removes them.
 #[derive(Default)]
 struct PrimitiveCounts {
-    /// The axis-aligned bounding box in world space: minimum and maximum corners; `None` without
-    /// vertices.
+    /// The minimum and maximum corners of the bounding box in world space; `None` without vertices.
     bounds: Option<[DVec3; 2]>,
     /// The view volume planes that all vertices are outside of: the AND of all outcodes. Each of
     /// these planes rejects the whole mesh, which suggests the simplest remedy.
     common_outcode: Option<Outcode>,
     /// All points, lines and triangles of the node's mesh.
     total: usize,
-    /// Trivially rejected primitives, by the first plane that rejects them; one count for each of
-    /// the six planes.
+    /// Trivially rejected primitives, by the first of the six planes that rejects them.
     outside: [usize; 6],
     /// Back faces culled because their material is single-sided.
     back_facing: usize,
@@ -128,10 +126,9 @@ struct PrimitiveCounts {
 impl PrimitiveCounts {
     /// Counts all points, lines and triangles of a primitive.
     ///
-    /// Positions are skinned, mapped to world and clip space in f64, and then assembled by
-    /// topology. A transform with a negative determinant mirrors the mesh: triangles that were
-    /// counterclockwise appear clockwise, so the opposite side is culled, as the glTF specification
-    /// requires.
+    /// Positions are skinned, mapped to world and clip space in f64, and assembled by topology. A
+    /// negative determinant of the transform mirrors the mesh: triangles that were counterclockwise
+    /// appear clockwise, so the opposite side is culled, as the glTF specification requires.
     fn count_primitive(
         &mut self,
         chain: &TransformChain,

@@ -2,8 +2,7 @@
 //! surface point.
 //!
 //! The fragments come from the renderer itself ([`inspect_pixel`]): the pixel is rendered again
-//! with a recording surface. Several fragments mean an edge within the pixel, or translucent
-//! layers.
+//! with a recording surface. Several fragments mean an edge in the pixel or translucent layers.
 //!
 //! ```text
 //!  pixel (x, y) ─► fragments: primitive, barycentric weights, linear color ─► resolve ─► sRGB
@@ -25,8 +24,7 @@ use scene::Scene;
 /// of the conventions of `chain`: reversed or flipped depth would otherwise select the farthest.
 ///
 /// # Errors
-/// Returns an error if there is no such pixel or if the picture has no shaded pixels; the message
-/// gives the cause.
+/// Returns an error if there is no such pixel or if the picture has no shaded pixels.
 pub fn explain_pixel(
     chain: &TransformChain,
     scene: &Scene,

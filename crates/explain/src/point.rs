@@ -14,8 +14,7 @@ use model::{MeshInstance, Model};
 
 /// Explains the transforms themselves, without a point.
 ///
-/// The camera, projection and viewport matrices are all that a program needs to repeat the
-/// projection.
+/// The camera, projection and viewport matrices are all that a program needs for the projection.
 #[must_use]
 pub fn explain_transforms(chain: &TransformChain) -> Explanation {
     let [_, screen] = chain.screen_steps(&[]);
@@ -52,8 +51,7 @@ pub struct VertexRef {
 
 /// Follows a vertex of a model through every stage, in the model's current pose.
 ///
-/// The order is morph targets, skinning, node transform and model transform, as in the glTF
-/// specification.
+/// The order is morph targets, skinning, node transform and model transform, as glTF specifies.
 ///
 /// # Errors
 /// Returns an error if the model does not show such a vertex; the message lists the existing ones.

@@ -99,8 +99,7 @@ fn describe_projection(kind: &Decomposed) -> String {
     }
 }
 
-/// Returns the formula ids of a projection in the pipeline's own conventions, which are the
-/// chapter's.
+/// Returns the formula ids of a projection in the chapter's conventions, which the pipeline uses.
 ///
 /// For example `PE-1, PE-3, VV-2`, or `None` for a matrix that is not recognized.
 #[must_use]

@@ -270,9 +270,8 @@ impl TransformChain {
 
     /// Returns the step with the outcodes of clip-space points.
     ///
-    /// A bit is set if the signed distance of the point from a plane is negative, for example w − x
-    /// for the right plane (Cohen and Sutherland). The bits are printed in binary and as plane
-    /// names.
+    /// A bit is set if the signed distance of the point from a plane is negative, such as w − x for
+    /// the right plane (Cohen and Sutherland). Bits are printed in binary and as plane names.
     pub(super) fn outcode_step(&self, points: &[NamedPoint<'_, HPoint<Clip>>]) -> Step {
         let mut step =
             Step::new("outcodes", "Outcodes: the planes each point is outside", Some("CL-1"));

@@ -1,5 +1,4 @@
-//! Explains a triangle: clipping planes, the clipped polygon, and its area and winding (CL-3,
-//! RA-1).
+//! Explains a triangle: how it is clipped, and its area and winding on the screen (CL-3, RA-1).
 //!
 //! Clipping cuts the triangle at each plane in turn (Sutherland and Hodgman, 1974), in homogeneous
 //! coordinates before the divide. A vertex of the result is a blend of a, b and c; attributes are
@@ -89,12 +88,10 @@ pub fn explain_triangle(
     Ok(Explanation { subject, steps, verdict })
 }
 
-/// Returns the clipping step: the planes, and the vertices of the clipped polygon with their
-/// weights.
+/// Returns the clipping step: the planes, and the clipped polygon's vertices with their weights.
 ///
 /// The weights of a vertex sum to 1 and are affine in the world, since clipping comes before the
-/// divide. The weights 1, 0, 0 mean the vertex a itself; two nonzero weights mean a point on a cut
-/// edge.
+/// divide. The weights 1, 0, 0 mean the vertex a; two nonzero weights mean a point on an edge.
 fn clip_step(left: &ClippedPolygon) -> Step {
     let mut step = Step::new("clip", "Clipping, in homogeneous space", Some("CL-3"))
         .with_item("cut", "cut by", plane_list(left.outcomes.clipped, "no plane"))
@@ -126,8 +123,7 @@ fn plane_list(code: clip::Outcode, none: &str) -> String {
 /// Returns the signed area on the screen in pixels (shoelace formula): positive if the vertices run
 /// clockwise, with y down.
 ///
-/// A = ½ Σ (xᵢ yᵢ₊₁ − xᵢ₊₁ yᵢ). The clipped polygon is convex and has w > 0, so no vertex is
-/// skipped.
+/// A = ½ Σ (xᵢ yᵢ₊₁ − xᵢ₊₁ yᵢ). The clipped polygon is convex and has w > 0, so all vertices count.
 fn screen_area(chain: &TransformChain, left: &ClippedPolygon) -> f64 {
     let corners: Vec<DVec2> = left
         .vertices()

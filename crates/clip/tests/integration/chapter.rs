@@ -125,8 +125,7 @@ fn lines_to_infinity_end_at_the_far_plane_or_their_vanishing_point() {
     assert_eq!((endless.end, endless.exit), (ahead, None));
 }
 
-/// Rounding may push a crossing past the largest finite number if the border, k w, is close to that
-/// number.
+/// Rounding may push a crossing past the largest finite number if k w is close to that number.
 #[test]
 fn cuts_near_the_largest_numbers_are_finite() {
     let volume = Volume::CHAPTER.with_guard_band(9.167_783_980_303_91, 1.0).expect("allowed");

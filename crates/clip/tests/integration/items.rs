@@ -40,8 +40,7 @@ fn the_canonical_volume_has_six_named_planes() {
     }
 }
 
-/// The signed distance of a point from a side of the canonical frustum, in the side's units;
-/// positive inside.
+/// The signed distance from a side of the canonical frustum, in the side's units; positive inside.
 type Side = fn([f64; 3]) -> f64;
 
 /// C87: in the canonical frustum the sides are x = ±z and y = ±z. Clipping there, before depth is

@@ -117,8 +117,7 @@ fn check(solid: &[Triangle], through: Point<World>, normal: DVec3) -> Result<(),
     }
     let whole = volume(solid, through);
     prop_assert!((halves - whole).abs() < 1e-9, "the halves add up to {halves}, expected {whole}");
-    // A face in the plane already closes the half that contains the solid, so the areas of the two
-    // caps may differ.
+    // A face in the plane already closes the half with the solid, so the cap areas may differ.
     let plane = Plane::through(through, Normal::from_raw(normal));
     let has_face =
         solid.iter().any(|t| t.iter().all(|&corner| plane.evaluate(corner).abs() < 1e-12));

@@ -24,8 +24,7 @@ const RING_SIDES: u32 = 24;
 const ZERO_TOLERANCE: f64 = 1e-12;
 
 impl PicturePlane {
-    /// Returns the horizon with its label; empty in a parallel projection, where the horizon is at
-    /// infinity.
+    /// Returns the horizon with its label; empty in a parallel projection, which has none.
     pub(super) fn horizon_layers(&self) -> Vec<Layer> {
         let Some(ends) = self.horizon_ends() else { return Vec::new() };
         let mut line = overlay_layer("horizon", "horizon", BROWN);

@@ -159,8 +159,7 @@ const fn spacing_name(spacing: Spacing) -> &'static str {
 /// readable.
 ///
 /// Fixed point has a constant step in depth, so its finest steps are kept. The last sample is
-/// always excluded, because there is no step at the far plane. Sorting makes this O(n log n) in the
-/// number of samples.
+/// always excluded, because there is no step at the far plane. Sorting makes this O(n log n).
 fn step_range(samples: &[DepthRow], format: DepthFormat) -> [f64; 2] {
     let left_out = if format == DepthFormat::Float32 { 50 } else { usize::MAX };
     let before_last = samples.len().saturating_sub(1);

@@ -209,8 +209,7 @@ fn view_window(kind: &Decomposed) -> Option<ViewWindow> {
     })
 }
 
-/// Returns the length of each axis unit in the picture and its direction, counterclockwise from the
-/// right.
+/// Returns the drawn length of each axis unit and its direction, counterclockwise from the right.
 ///
 /// `pixels` is the length of a unit of the picture plane. If the matrix does not determine that
 /// length, the longest axis is assumed to be at full scale, as in the plan of a military

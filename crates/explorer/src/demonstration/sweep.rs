@@ -146,8 +146,8 @@ impl Sweep {
     /// Returns the camera and projection for each value, with a note.
     ///
     /// # Errors
-    /// Returns an error if the scene's projection does not have the parameter or if a value is out
-    /// of range.
+    /// Returns an error if the scene's projection lacks the parameter or if a value is out of
+    /// range.
     pub fn view_projections(
         &self,
         scene: &Scene,

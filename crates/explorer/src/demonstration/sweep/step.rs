@@ -18,8 +18,7 @@ use scene::{DepthSpan, Scene};
 
 /// The scene's view, decomposed into camera and parameters.
 ///
-/// It is computed once per sweep, so that the vertices of all models are not collected in each
-/// step.
+/// It is computed once per sweep, so that the vertices of all models are collected only once.
 pub(super) struct SweepBase {
     /// The scene's camera.
     camera: Camera,
