@@ -242,7 +242,7 @@ fn border_sides(sides: &[Side]) -> Vec<[Point; 2]> {
     let rows = SideRows::new(sides);
     let mut border = Vec::new();
     for (index, &([a, b], sign)) in sides.iter().enumerate() {
-        // This is above a horizontal side and to the right of any other side.
+        // The winding number above a horizontal side, or to the right of any other side.
         let beyond = rows.winding_beyond(sides, index);
         let rises = b[1] > a[1];
         let (left, right) = if a[1] == b[1] {

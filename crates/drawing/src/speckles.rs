@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   ──────╮  ·          a dot: a chain shorter than the pen is wide
-//!         ╰─────·── a stub of a crease or intersection next to longer lines
+//!         ╰─────·──     a stub of a crease or intersection next to longer lines
 //! ```
 //!
 //! On scanned surfaces, single facets can be silhouettes, and rounding errors make touching bodies

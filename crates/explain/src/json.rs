@@ -50,7 +50,7 @@ fn step_json(step: &Step) -> Json {
 
 /// Formats an item. A matrix becomes an object with its rows.
 ///
-/// By the object, readers can tell a matrix from a list of coordinates without counting numbers.
+/// The object lets programs tell a matrix from a list of coordinates without counting numbers.
 fn item_json(item: &ExplanationEntry) -> Json {
     let value = match &item.value {
         ItemValue::Matrix(rows) => json!({"rows": rows}),

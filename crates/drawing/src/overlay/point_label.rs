@@ -1,8 +1,8 @@
 //! Labels at world points: text beside the image of a point, with an optional leader line.
 //!
 //! ```text
-//!         ridge offset (24, −24): pixels to the right and up from the
-//!       ╱ point to the nearest corner of the text
+//!         ridge               offset (24, −24): pixels to the right and up from the
+//!       ╱                     point to the nearest corner of the text
 //!      ●  at
 //! ```
 //!

@@ -2,8 +2,9 @@
 //!
 //! ```text
 //! sum     = product { (+ | -) product }
-//! product = { - } power { (* | /) { - } power | power } n f = n*f, but not after / power = value [
-//! ^ { - } power | ² | ³ ] value = number [°] | letters | function ( sum ) | √ value | ( sum )
+//! product = { - } power { (* | /) { - } power | power }       n f = n*f, but not after /
+//! power   = value [ ^ { - } power | ² | ³ ]
+//! value   = number [°] | letters | function ( sum ) | √ value | ( sum )
 //! ```
 
 use super::answer_error::AnswerError;
@@ -76,7 +77,7 @@ pub(super) fn evaluate(entry: &str, letters: Letters<'_>) -> Result<f64, AnswerE
     ))
 }
 
-/// A parser that evaluates an expression while it parses the expression.
+/// A parser that evaluates an expression while parsing it.
 struct Parser<'a> {
     entry: &'a str,
     characters: &'a [char],
