@@ -47,9 +47,9 @@ impl BareMap {
             .with_item("n", "n", near)
             .with_item("f", "f", far)
             .with_item("matrix", "P", p.rows())
-            .with_item("scaled_inverse", "n f times its inverse", inverse.rows())
-            .with_item("product", "P times that", inverse.then(p).rows())
-            .with_item("unscaled", "P⁻¹ itself", format!("alberti matrix --p {near},{far}"));
+            .with_item("scaled_inverse", "n f P⁻¹", inverse.rows())
+            .with_item("product", "P times n f P⁻¹", inverse.then(p).rows())
+            .with_item("unscaled", "command for P⁻¹", format!("alberti matrix --p {near},{far}"));
         Ok(Self { map: Projective::from_raw(p.raw()), steps: vec![step] })
     }
 

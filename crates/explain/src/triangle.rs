@@ -147,5 +147,5 @@ fn area_step(area: f64) -> Step {
     };
     Step::new("raster", "Coverage: the signed area", Some("RA-1"))
         .with_item("area", "area in pixels", area)
-        .with_item("turn", "its corners turn", orientation)
+        .with_item("turn", "the corners turn", orientation)
 }

@@ -314,7 +314,7 @@ fn add_parameters(step: Step, meaning: &MatrixMeaning) -> Step {
         MatrixMeaning::ModelTransform { translation, axis, angle_degrees, scale } => step
             .with_item("scale", "scale, applied first", *scale)
             .with_item("axis", "axis of the rotation", *axis)
-            .with_item("angle", "its angle, degrees", *angle_degrees)
+            .with_item("angle", "angle of the rotation, degrees", *angle_degrees)
             .with_item("translation", "translation", *translation),
         MatrixMeaning::NPoint { projection, .. } => match projection.eye().divide() {
             Some(eye) => step.with_item("eye", "eye", <[f64; 3]>::from(eye)),
@@ -419,7 +419,7 @@ fn add_lens(step: Step, lens: &Lens, convention: Convention) -> Step {
 fn add_oblique(step: Step, oblique: &Oblique) -> Step {
     let phi = oblique.phi().to_degrees();
     step.with_item("length", "drawn length of a unit of depth", oblique.length())
-        .with_item("angle", "its angle, degrees, for z toward the viewer", phi)
+        .with_item("angle", "angle of the depth axis, degrees, for z toward the viewer", phi)
         .with_item("projectors", "projectors to plane, degrees", oblique.alpha().to_degrees())
         .with_item("plane", "plane z", oblique.plane_z())
 }

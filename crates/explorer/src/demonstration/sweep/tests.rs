@@ -11,7 +11,7 @@ fn sweep_house(
     steps: u32,
 ) -> Vec<(ViewProjection, String)> {
     let (_, _, scene) = house_scene();
-    Sweep { parameter, from, to, steps, volumes: false }.view_projections(&scene).expect("shots")
+    Sweep { parameter, from, to, steps, volumes: false }.view_projections(&scene).expect("views")
 }
 
 fn house_view() -> (Scene, ViewProjection, Point<World>) {
