@@ -14,10 +14,10 @@
 use picture::Picture;
 use std::collections::BTreeMap;
 
-/// A pixel corner: the pixel counts to the right and down from the upper left image corner.
+/// A pixel corner, in pixels from the upper left corner of the image, y down.
 pub(super) type PixelCorner = [i32; 2];
 
-/// The maximum distance between a straightened border and its original pixel corners, in pixels.
+/// The maximum distance between a straightened border and the original pixel corners, in pixels.
 const TOLERANCE: f64 = 1.2;
 
 /// Traces the areas of each color in an image as closed lines to be filled with the even-odd rule.

@@ -20,7 +20,7 @@ pub struct Drawing {
     /// The flat or gray fill under the lines: an image that covers the drawing, present if
     /// requested and if there are faces. The pixels of a gray fill are gray levels, not colors.
     pub face_fill: Option<Picture>,
-    /// Warnings from the drawing, without duplicates.
+    /// Warnings about the drawing, without duplicates.
     pub warnings: Vec<Warning>,
 }
 

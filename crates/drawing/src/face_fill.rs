@@ -26,7 +26,7 @@ const MAX_FILL_SIDE: f64 = 8192.0;
 pub struct FillOptions {
     /// The kind of fill. Default: none.
     pub face_fill: FaceFill,
-    /// Fill-image pixels per drawing pixel. Default: 3.
+    /// Fill-image pixels per drawing pixel. Default: 3, or 6 for a gray fill.
     pub scale: f64,
 }
 
@@ -40,7 +40,7 @@ impl FillOptions {
     /// Returns options for a fill of this kind at the resolution it requires.
     #[must_use]
     pub fn new(face_fill: FaceFill) -> Self {
-        // The borders of areas must stay hidden under the lines, which are at least a pixel wide.
+        // Borders of gray areas must stay hidden under the lines, which are at least a pixel wide.
         Self { face_fill, scale: if face_fill == FaceFill::Gray { 6.0 } else { 3.0 } }
     }
 }

@@ -119,7 +119,7 @@ impl Drawing {
 
     /// Returns the flat fill as an image on a page, if the drawing has one.
     ///
-    /// Its rectangle covers the whole drawing, rounded to micrometers, so that lines and fill stay
+    /// The image covers the whole drawing, rounded to micrometers, so that lines and fill stay
     /// aligned.
     #[must_use]
     pub fn face_fill_image(

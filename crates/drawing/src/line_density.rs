@@ -38,8 +38,7 @@ impl Thinning {
 
     /// Computes the thinning of selected segments of a drawing with the given line width in pixels.
     ///
-    /// With `keeps_width`, lines only become paler; this is for drawings whose widths follow a
-    /// standard.
+    /// With `keeps_width`, lines become paler but not thinner, for widths that follow a standard.
     pub(crate) fn for_lines(
         drawing: &Drawing,
         width: f64,
@@ -52,7 +51,7 @@ impl Thinning {
         }
         let factor = MAX_COVERAGE / coverage;
         let width = if keeps_width { 1.0 } else { factor.max(MIN_WIDTH_FACTOR) };
-        // Uses the square root, because overlapping lines darken the page by less than their sum.
+        // Uses the square root, because overlapping lines darken the page less than separate ones.
         Self { width, contrast: (factor / width).sqrt().clamp(MIN_CONTRAST, 1.0) }
     }
 }

@@ -14,8 +14,8 @@ use page::PagePoint;
 /// The minimum length of chains on paper, in millimeters: about the width of a line on a screen.
 pub(super) const LEAST_CHAIN_LENGTH: f64 = 0.3;
 
-/// The treatment of a layer's short chains. The number is the length, in millimeters, below which a
-/// chain is short.
+/// The treatment of a layer's short chains. Each number is the length, in millimeters, below which
+/// a chain is short.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum ShortChains {
     /// Drawn.
@@ -26,7 +26,7 @@ pub(super) enum ShortChains {
     RemovedAtEnds(f64),
     /// Removed unless both of their ends are on longer lines.
     RemovedUnlessBridge(f64),
-    /// Removed.
+    /// Always removed.
     Removed(f64),
 }
 

@@ -1,7 +1,7 @@
 //! SVG diagrams of an explanation: the view volume from above and from the side, the canonical
 //! volume, and the picture.
 //!
-//! They show only numbers from the steps.
+//! The diagrams show only numbers from the steps.
 //!
 //! ```text
 //!   view space from above     canonical volume        picture
@@ -167,7 +167,7 @@ const BOX_EDGES: [[usize; 2]; 12] = [
 
 /// Draws the diagram of a volume seen along an axis, with the points of the subject.
 ///
-/// `corners` are already projected to the plane of the diagram; `project` does this for the points.
+/// `corners` are already projected to the plane of the diagram; `project` projects the points.
 /// Diagrams of view space also show the eye, which is the origin there. The window includes points
 /// outside the volume, so a clipped point is visible next to the box.
 fn volume_diagram(
@@ -319,7 +319,7 @@ mod tests {
             assert!((MARGIN..=SIZE[1] - MARGIN).contains(&y), "{y}");
         }
         let ([x0, y0], [x1, y1]) = (window.to_diagram([0.0, 0.0]), window.to_diagram([1.0, 1.0]));
-        assert!((x1 - x0 - (y0 - y1)).abs() < 1e-9, "y runs up");
+        assert!((x1 - x0 - (y0 - y1)).abs() < 1e-9, "y should point up");
         assert_eq!(
             DiagramWindow::around_points([[2.0, 2.0]].iter()).to_diagram([2.0, 2.0]),
             [150.0, 110.0]

@@ -23,7 +23,7 @@ use recognition::{
 /// The maximum number of readings listed after the first.
 const OTHER_READINGS: usize = 5;
 
-/// The maximum extra cost of a reading after the first: four digits and a rare convention.
+/// The maximum extra cost of a listed reading: the cost of four digits and a rare convention.
 const LESS_LIKELY: u32 = 10;
 
 /// Explains a 4×4 matrix for column vectors.
@@ -110,7 +110,7 @@ pub fn without_rounding(matrix: DMat4, inverse: DMat4) -> [[f64; 4]; 4] {
 /// Returns the step with the kind of map, affine or projective, and its rank and determinant.
 ///
 /// A rank below 4 means that a dimension is lost, as in a projection onto a plane. A negative
-/// determinant means that orientation is reversed, as between handednesses.
+/// determinant means that orientation is reversed, as by a change of handedness.
 fn kind_step(rows: [[f64; 4]; 4], map: Projective<View, Clip>) -> Step {
     let found = map.classify();
     Step::new("kind", "Kind of map", Some("HO-3"))

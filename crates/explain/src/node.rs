@@ -85,8 +85,8 @@ fn tree_step(model: &Model, node: usize) -> Step {
 
 /// Explains why a node has no visible mesh.
 ///
-/// The index is out of range, the node has no mesh (as a group, joint, light or camera) or is outside
-/// the drawn scene, or the mesh has no instances.
+/// The index is out of range, the node has no mesh (a group, joint, light or camera), or the mesh
+/// is outside the drawn scene or has no instances.
 fn explain_absence(model: &Model, node: usize) -> String {
     match model.nodes.get(node) {
         None => "The node does not exist.".to_owned(),

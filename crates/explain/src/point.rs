@@ -54,7 +54,7 @@ pub struct VertexRef {
 /// The order is morph targets, skinning, node transform and model transform, as glTF specifies.
 ///
 /// # Errors
-/// Returns an error if the model does not show such a vertex; the message lists the existing ones.
+/// Returns an error if the model does not show such a vertex.
 pub fn explain_vertex(
     chain: &TransformChain,
     model_instance: &ModelInstance,

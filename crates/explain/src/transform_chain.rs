@@ -21,7 +21,7 @@ use viewport::{Viewport, ViewportError};
 
 /// Camera, projection and viewport in the conventions of a graphics API.
 ///
-/// The volume is converted once, when the chain is built; all steps then use the same convention.
+/// The projection is converted once, when the chain is built; all steps then share a convention.
 #[derive(Clone, Copy, Debug)]
 pub struct TransformChain {
     /// The camera, whose view space looks along −z.
@@ -114,7 +114,7 @@ impl TransformChain {
     /// Whether a triangle shows its front, the side on which its vertices run counterclockwise;
     /// `None` if it is seen edge-on. Points and lines have no back.
     ///
-    /// Because the test comes before the divide, it needs no clipping: the sign is correct for
+    /// Because the test comes before the divide, it needs no clipping: the sign is correct even for
     /// triangles that cross the plane of the eye. A flip of y (Vulkan) and a mirrored window each
     /// invert it; two flips cancel.
     pub(super) fn is_front_facing(&self, corners: &[HPoint<Clip>]) -> Option<bool> {
@@ -344,8 +344,8 @@ impl TransformChain {
 
     /// Describes the pixel in words: column and row from the top, as in image files.
     ///
-    /// These are the floors of the coordinates relative to the image border; for points outside the
-    /// picture, the column or row is negative or beyond the last.
+    /// The numbers are the floors of the coordinates relative to the image border; for points
+    /// outside the picture, the column or row is negative or beyond the last.
     fn describe_pixel(&self, [x, y, _]: [f64; 3]) -> String {
         let pixels = self.viewport.convention();
         let (border, height) = (pixels.centers.image_border(), self.viewport.area().height());
