@@ -55,7 +55,7 @@ pub struct Exercise {
     multiples: Multiples,
     /// Sample values of the symbols; an answer is compared for each sample.
     samples: &'static [&'static [f64]],
-    /// Returns the correct answer for values of the symbols, or `None` if it does not exist.
+    /// Computes the correct answer for values of the symbols; `None` if there is none.
     answer: fn(&[f64]) -> Option<Entries>,
 }
 

@@ -9,8 +9,8 @@
 //!  depth(D) = F (D − N) / ((F − N) D)        for the range [0, 1] from near N to far F
 //!  resolution of b-bit fixed point: ΔD ≈ D² (F − N) / (F N) / (2^b − 1)
 //! ```
-//! The smallest resolved step grows with the square of the distance. Doubling N halves it, while F
-//! hardly matters beyond a few hundred N.
+//! The smallest resolved step grows with the square of the distance. Doubling N halves the step,
+//! while F hardly matters beyond a few hundred N.
 
 use super::number_format::format_short;
 use projection::{Convention, DepthCurve, DepthFormat, ProjectionError, chapter};

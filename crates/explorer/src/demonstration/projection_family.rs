@@ -83,7 +83,7 @@ pub fn projection_panels(
 ///
 /// A parallel projection gets the lengths and directions of the axes; a perspective projection gets
 /// its field of view and vanishing points. A projection is parallel if w does not change along any
-/// axis. This can be read even from a matrix that cannot be decomposed.
+/// axis. This is known even for a matrix that cannot be decomposed.
 fn projection_notes(
     projection: &ProjectionFile,
     view_projection: &ViewProjection,
@@ -137,8 +137,8 @@ fn class_path(class: ProjectionClass) -> String {
 /// number of vanishing points.
 ///
 /// Parallel projections in a scene file already have the name of their class. The class of a
-/// perspective depends on the camera: turning the camera changes a one-point perspective into a
-/// two-point perspective with the same lens.
+/// perspective projection depends on the camera: turning the camera changes a one-point perspective
+/// into a two-point perspective with the same lens.
 fn classify_projection(
     projection: &ProjectionFile,
     map: Projective<World, Clip>,

@@ -41,14 +41,14 @@ pub enum SweepParameter {
     Near,
     /// Distance of the far plane. It affects only clipping.
     Far,
-    /// Distance of the near plane with a fixed window on it (`glFrustum`). It changes the angle.
+    /// Distance of the near plane with a fixed window on it (`glFrustum`), to change the angle.
     Lens,
     /// Shift of the window to the right, in half widths: a lens shift.
     Shift,
     /// Distance of the eye from the center of the models along the line of sight.
     Distance,
-    /// Distance of the eye, with the angle adapted so that the center keeps its size (a dolly
-    /// zoom).
+    /// Distance of the eye, with the angle adapted so that objects at the center keep their size (a
+    /// dolly zoom).
     Dolly,
     /// Rotation of the camera about the vertical axis through the center of the models, in degrees,
     /// counterclockwise seen from above.

@@ -36,7 +36,7 @@ impl Letters<'_> {
         let mut begins: Vec<(&str, f64)> = begins
             .filter_map(|(name, value)| Some((without_name(written, name)?, *value)))
             .collect();
-        // Longest name first, so that z1z2 is not read as z and the rest.
+        // Tries longer names first, so that z1z2 is not read as z followed by 1z2.
         begins.sort_by_key(|(rest, _)| rest.len());
         begins.into_iter().find_map(|(rest, value)| Some(value * self.value(rest)?))
     }
