@@ -15,7 +15,7 @@ fn a_frustum_and_a_misprint_are_recognized() {
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     let read = "OpenGL (near −1, far +1)";
     assert!(run.stdout.contains(read), "{}", run.stdout);
-    let window = "perspective: left -1, right 3, bottom -2, top 1, near 2, far 6";
+    let window = "perspective projection: left -1, right 3, bottom -2, top 1, near 2, far 6";
     assert!(run.stdout.contains(window), "{}", run.stdout);
     assert!(!run.stdout.contains("misprint"), "{}", run.stdout);
     let slide: Vec<&str> = SLIDE.split_whitespace().collect();
@@ -345,7 +345,7 @@ fn the_likeliest_reading_comes_first() {
         ("1 0 0 0 0 1 0 0 0 0 1 0 3 4 5 1", "\nTransposed, it is a translation by (3, 4, 5)"),
         (
             "0.9743 0 0 0 0 1.7321 0 0 0 0 -1.0020 -1 0 0 -0.2002 0",
-            "\nTransposed, it is a perspective: left -0.1026, right 0.1026, bottom -0.05773, top \
+            "\nTransposed, it is a perspective projection: left -0.1026, right 0.1026, bottom -0.05773, top \
              0.05773, near 0.1, far 100",
         ),
         ("320 0 0 0 0 240 0 0 0 0 1 0 319.5 239.5 0 1", "\nTransposed, it is the viewport"),

@@ -1,7 +1,7 @@
 //! View volumes as tables of planes in clip space.
 //!
-//! A plane is a row (a, b, c, d); a point is inside if a x + b y + c z + d w ≥ 0. The boundary is
-//! part of the volume. Conventions differ only in the two rows for z:
+//! A plane is a row (a, b, c, d); a point (x, y, z, w) is inside if a x + b y + c z + d w ≥ 0. The
+//! boundary is part of the volume. Conventions differ only in the two rows for z:
 //!
 //! | volume | near | far | depth near … far |
 //! | --- | --- | --- | --- |
@@ -17,11 +17,11 @@ use glam::DVec4;
 use homog::{Clip, ClipRange, HPoint, Plane};
 use thiserror::Error;
 
-/// A plane or guard band error.
+/// An error in adding a plane or setting a guard band.
 #[derive(Clone, Copy, PartialEq, Debug, Error)]
 #[non_exhaustive]
 pub enum VolumeError {
-    /// A plane has coefficients that are infinite, NaN, or all zero.
+    /// A coefficient of a plane is infinite or NaN, or all are zero.
     #[error(
         "{coefficients:?} is not a plane: its four coefficients must be finite and not all zero"
     )]
@@ -74,10 +74,10 @@ impl Volume {
     /// The widest guard band; beyond it, plane equations would lose too many digits.
     pub const MAX_GUARD_BAND: f64 = 1_048_576.0;
 
-    /// Returns the canonical volume of a clip range, which is a [`ClipRange`] or a
+    /// Returns the canonical volume for a clip range, given as a [`ClipRange`] or a
     /// `projection::Convention`.
     ///
-    /// y runs from −w to w whether it points up or down, so only depths matter here.
+    /// y runs from −w to w whether it points up or down, so only the depth range matters here.
     ///
     /// ```
     /// use clip::Volume;
@@ -90,7 +90,8 @@ impl Volume {
     }
 
     const fn canonical(range: ClipRange) -> Self {
-        // The side of one depth that contains the other; 0 − x keeps −0 out of the table.
+        // Each depth plane faces the other, so the order of the depths gives the sign.
+        // Adding to 0 keeps −0 out of the table.
         let (near, far) = (range.near_depth(), range.far_depth());
         let side = if far < near { -1.0 } else { 1.0 };
         let near = DVec4::new(0.0, 0.0, side, 0.0 - side * near);
@@ -148,7 +149,7 @@ impl Volume {
     /// Use [`homog::Projective::transform_plane`] for a plane in world space.
     ///
     /// # Errors
-    /// Returns [`VolumeError::NoPlane`] if the coefficients are not finite or all zero, and
+    /// Returns [`VolumeError::NoPlane`] if a coefficient is not finite or all are zero, and
     /// [`VolumeError::TooManyPlanes`] if all plane slots are in use.
     pub fn with_plane(mut self, plane: Plane<Clip>) -> Result<Self, VolumeError> {
         let largest = plane.raw().abs().max_element();
@@ -163,22 +164,21 @@ impl Volume {
         Ok(self)
     }
 
-    /// Returns the planes of the volume.
+    /// Returns the set of planes that bound the volume.
     #[must_use]
     pub const fn active_planes(&self) -> Outcode {
         self.active_planes
     }
 
-    /// Returns the plane with this index, scaled to make its largest coefficient 1 (or the guard
-    /// band factor), or `None` if the volume has no such plane.
+    /// Returns the plane with this index, scaled so that its largest coefficient has magnitude 1
+    /// (or the guard band factor), or `None` if the volume has no such plane.
     #[must_use]
     pub fn plane(&self, index: PlaneIndex) -> Option<Plane<Clip>> {
         let present = self.active_planes.contains(index);
         present.then(|| Plane::from_raw(self.planes[index.index()]))
     }
 
-    /// Returns the planes that a point is outside of (CL-1). A point that is not finite is outside
-    /// of all planes.
+    /// Returns the planes that a point is outside of (CL-1): all, if the point is not finite.
     #[inline]
     #[must_use]
     pub fn outcode(&self, point: HPoint<Clip>) -> Outcode {
@@ -190,11 +190,11 @@ impl Volume {
         if raw.is_finite() { self.full_outcode(raw) } else { self.active_planes }
     }
 
-    /// Returns whether a point is certainly finite and inside the six planes of the box, whether or
-    /// not the volume has them.
+    /// Returns whether a point is certainly finite and inside all six planes of the box, including
+    /// any that the volume lacks.
     #[inline]
     fn is_in_box(&self, point: DVec4) -> bool {
-        /// Beyond this, the limits of x and y may not be finite.
+        /// Above this, the bounds of x and y may overflow.
         const SAFE: f64 = 1e300;
         let along_z = |plane: DVec4| plane.z * point.z + plane.w * point.w >= 0.0;
         (point.x.abs() <= self.planes[0].w * point.w)
@@ -205,9 +205,8 @@ impl Volume {
             & (point.w < SAFE)
     }
 
-    /// Returns the outcode of a finite point. The sums for the box are the same as in
-    /// [`Self::plane_distance`], but without the zero coefficients; their sign is correct even on
-    /// overflow.
+    /// Returns the outcode of a finite point. For the box, the sums in [`Self::plane_distance`] are
+    /// computed without their zero terms; their signs are correct even on overflow.
     #[inline]
     fn full_outcode(&self, point: DVec4) -> Outcode {
         let [kx, ky] = [self.planes[0].w * point.w, self.planes[2].w * point.w];
@@ -246,8 +245,7 @@ impl Volume {
         point.w() > 0.0 && self.outcode(point).is_inside()
     }
 
-    /// Returns the signed distance from a plane in the plane's units: positive inside, negative
-    /// outside.
+    /// Returns the signed distance of a point from a plane, in the plane's units; positive inside.
     pub(crate) fn plane_distance(&self, index: PlaneIndex, point: DVec4) -> f64 {
         self.planes[index.index()].dot(point)
     }
@@ -262,8 +260,7 @@ impl Volume {
         point
     }
 
-    /// Moves a point that rounding left slightly outside the box back onto it, to make clipping
-    /// idempotent.
+    /// Moves a point that rounding left just outside the box onto it, so clipping is idempotent.
     pub(crate) fn clamp_to_box(&self, point: DVec4) -> DVec4 {
         let outside = self.full_outcode(point).planes();
         outside.fold(point, |point, index| self.snap_to_plane(index, point))
@@ -308,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn borders_are_inside_and_infinite_points_are_not() {
+    fn boundary_points_are_inside_and_nonfinite_points_are_outside() {
         for x in [-1.0, 1.0] {
             assert!(Volume::CHAPTER.contains(HPoint::new(x, x, x, 1.0)));
             assert!(!Volume::CHAPTER.contains(HPoint::new(x * 1.0000000000000002, x, x, 1.0)));

@@ -1,4 +1,4 @@
-//! Charts: curves over a linear or logarithmic axis, as strokes on a page.
+//! Charts: curves over linear or logarithmic axes, drawn as strokes on a page.
 //!
 //! ```text
 //!   depth    ── normal   - - reversed
@@ -106,7 +106,7 @@ struct Plot<'a> {
 
 impl Chart {
     /// Returns the layers of the chart. Its axes span the rectangle with the given upper left
-    /// corner and size, in millimeters; labels are outside it.
+    /// corner and size, in millimeters. Tick labels, axis titles and the legend are outside it.
     #[must_use]
     pub fn to_layers(&self, corner: DVec2, size: DVec2) -> Vec<Layer> {
         let plot = Plot { chart: self, corner, size };
@@ -127,22 +127,22 @@ impl Plot<'_> {
         layer
     }
 
-    /// Returns the position of an x value on the page.
+    /// Returns the x coordinate on the page of a value on the x axis.
     fn page_x(&self, value: f64) -> f64 {
         self.corner.x + self.chart.x.fraction_at(value) * self.size.x
     }
 
-    /// Returns the position of a y value on the page.
+    /// Returns the y coordinate on the page of a value on the y axis.
     fn page_y(&self, value: f64) -> f64 {
         self.corner.y + (1.0 - self.chart.y.fraction_at(value)) * self.size.y
     }
 
-    /// Returns the right end of the plot.
+    /// Returns the x coordinate of the right edge of the plot.
     fn right_edge(&self) -> f64 {
         self.corner.x + self.size.x
     }
 
-    /// Returns the lower end of the plot.
+    /// Returns the y coordinate of the bottom edge of the plot.
     fn bottom_edge(&self) -> f64 {
         self.corner.y + self.size.y
     }
@@ -155,7 +155,7 @@ impl Plot<'_> {
         )
     }
 
-    /// Returns grid lines at all ticks.
+    /// Returns a layer with grid lines at all ticks.
     fn grid_layer(&self) -> Layer {
         let uprights =
             self.chart.x.ticks().into_iter().filter_map(|x| self.vertical_line(self.page_x(x)));
@@ -168,7 +168,7 @@ impl Plot<'_> {
         self.plot_layer("grid", "grid", Pen::solid(AXIS_WIDTH, LIGHT_GRAY), strokes)
     }
 
-    /// Returns the two axes and their ticks.
+    /// Returns a layer with the two axes and their ticks.
     fn axes_layer(&self) -> Layer {
         let (low, far) = (DVec2::new(self.corner.x, self.bottom_edge()), self.right_edge());
         let cross = [self.corner, low, DVec2::new(far, low.y)];
@@ -185,7 +185,7 @@ impl Plot<'_> {
         self.plot_layer("axes", "axes", Pen::solid(AXIS_WIDTH, INK), strokes.collect())
     }
 
-    /// Returns dashed lines at the marked values.
+    /// Returns a layer with dashed lines at the marked values.
     fn marks_layer(&self) -> Layer {
         let lines =
             self.chart.marks.iter().filter_map(|mark| self.vertical_line(self.page_x(mark.value)));
@@ -193,7 +193,7 @@ impl Plot<'_> {
         self.plot_layer("marks", "marked values", pen, lines.collect())
     }
 
-    /// Returns the tick labels, axis titles, notes and legend.
+    /// Returns a layer with the tick labels, axis titles, notes and curve names.
     fn text_layer(&self) -> Layer {
         let mut strokes = Vec::new();
         let mut write = |text: &str, at: DVec2, align: TextAlign| {

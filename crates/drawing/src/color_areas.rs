@@ -14,14 +14,14 @@
 use picture::Picture;
 use std::collections::BTreeMap;
 
-/// A pixel corner, counted to the right and down from the upper left corner of the image.
+/// A pixel corner, in pixels from the upper left corner of the image, y down.
 pub(super) type PixelCorner = [i32; 2];
 
-/// The maximum distance between a straightened border and its original pixel corners, in pixels.
+/// The maximum distance between a straightened border and the original pixel corners, in pixels.
 const TOLERANCE: f64 = 1.2;
 
-/// Traces the border of each color of an image, except transparent areas, as closed lines to be
-/// filled with the even-odd rule.
+/// Traces the areas of each color in an image as closed lines to be filled with the even-odd rule.
+/// Transparent pixels belong to no area.
 pub(super) fn trace_color_areas(picture: &Picture) -> BTreeMap<[u8; 4], Vec<Vec<PixelCorner>>> {
     let image = ColorImage { picture, size: [picture.width, picture.height].map(|n| n as i32) };
     let mut areas: BTreeMap<[u8; 4], Vec<Vec<PixelCorner>>> = BTreeMap::new();
@@ -63,7 +63,7 @@ struct ColorImage<'a> {
 }
 
 impl ColorImage<'_> {
-    /// Returns the color of a pixel, or `None` if it is transparent or outside.
+    /// Returns the color of a pixel, or `None` if it is transparent or outside the image.
     fn color(&self, [x, y]: PixelCorner) -> Option<[u8; 4]> {
         let is_inside = (0..self.size[0]).contains(&x) && (0..self.size[1]).contains(&y);
         let color = is_inside.then(|| self.picture.pixels[(y * self.size[0] + x) as usize]);
@@ -117,7 +117,7 @@ impl ColorImage<'_> {
     }
 }
 
-/// Removes corners from a closed border; only junctions are sure to remain.
+/// Straightens a closed border by removing corners, but never junctions.
 fn straighten(border: &[BorderCorner]) -> Vec<PixelCorner> {
     let first = match border.iter().position(|corner| corner.is_junction) {
         Some(first) => first,
@@ -145,8 +145,8 @@ fn straighten(border: &[BorderCorner]) -> Vec<PixelCorner> {
     outline
 }
 
-/// Removes corners from part of a border, except its ends. A reversed part gives the reversed
-/// result.
+/// Straightens a part of a border by removing corners, but never its endpoints. A reversed part
+/// gives the reversed result.
 fn straighten_part(mut part: Vec<PixelCorner>) -> Vec<PixelCorner> {
     let last = part.len() - 1;
     let is_reversed = if part[0] == part[last] {
@@ -182,7 +182,7 @@ fn straighten_part(mut part: Vec<PixelCorner>) -> Vec<PixelCorner> {
     kept
 }
 
-/// Returns the squared distance of a corner from a straight line between two others.
+/// Returns the squared distance of a corner from the segment between two others.
 fn squared_distance(point: PixelCorner, [a, b]: [PixelCorner; 2]) -> f64 {
     let between = |from: PixelCorner, to: PixelCorner| {
         [0, 1].map(|axis| f64::from(to[axis]) - f64::from(from[axis]))

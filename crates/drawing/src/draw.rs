@@ -20,7 +20,7 @@ use viewport::Viewport;
 /// the number of threads, optionally with a monitor; the number does not change the drawing.
 ///
 /// # Errors
-/// See [`hidden_line::draw`]; also fails if the fill image would be too large.
+/// Fails if [`hidden_line::draw`] does, or if the fill has too many faces or pixels.
 pub fn draw<'a>(
     subject: &Subject<'_>,
     options: &DrawOptions,
@@ -56,8 +56,8 @@ pub fn draw_surface<'a>(
     Ok(Drawing { face_fill, ..lines.into() })
 }
 
-/// Returns a function for the luma of faces under the key light of a view, which includes material
-/// colors if the fill shows them.
+/// Returns a function that computes the luma of a face under the key light of a view. Material
+/// colors count only if the fill shows them.
 fn face_luma(
     view_projection: &ViewProjection,
     [width, height]: [u32; 2],
@@ -72,7 +72,7 @@ fn face_luma(
     })
 }
 
-/// Returns the hatching of a fill.
+/// Returns the face hatching that a fill requires.
 fn face_hatching(fill: FaceFill, luma: &dyn Fn([DVec3; 3], [f32; 3]) -> f64) -> FaceHatching<'_> {
     match fill {
         FaceFill::Hatching | FaceFill::ShadeHatching => FaceHatching::ByLuma(luma),

@@ -20,12 +20,12 @@ pub struct Drawing {
     /// The flat or gray fill under the lines: an image that covers the drawing, present if
     /// requested and if there are faces. The pixels of a gray fill are gray levels, not colors.
     pub face_fill: Option<Picture>,
-    /// Warnings from the drawing, without duplicates.
+    /// Warnings about the drawing, without duplicates.
     pub warnings: Vec<Warning>,
 }
 
 impl Drawing {
-    /// Whether the drawing is empty.
+    /// Whether the drawing has no segments, no regions and no visible fill.
     pub fn is_empty(&self) -> bool {
         let is_clear = |fill: &Picture| fill.pixels.iter().all(|pixel| pixel[3] == 0);
         let has_fill = self.face_fill.as_ref().is_some_and(|fill| !is_clear(fill));
@@ -34,7 +34,7 @@ impl Drawing {
 }
 
 impl From<LineDrawing> for Drawing {
-    /// Converts lines to a drawing without a fill, and adds a warning if its outlines would not be
+    /// Converts lines to a drawing without a fill, and adds a warning if the outlines would not be
     /// exact on a page.
     fn from(lines: LineDrawing) -> Self {
         let LineDrawing { size, objects, segments, regions, warnings } = lines;

@@ -1,9 +1,9 @@
 //! Flat shading of faces under the lines: a fixed key light, and a z-buffer image of flat colors.
 //!
-//! A flat fill is an image instead of vector fills. Faces that overlap cyclically or intersect
-//! cannot be painted in any order (the painter's algorithm fails); their visible parts would have
-//! to be cut out. A z-buffer resolves visibility at a resolution higher than any screen's, and the
-//! exact lines are drawn over it.
+//! A flat fill is an image rather than a set of vector fills. Faces that overlap cyclically or
+//! intersect cannot be painted in any order (the painter's algorithm fails); their visible parts
+//! would have to be cut out. A z-buffer resolves visibility at several times the resolution of the
+//! drawing, and the exact lines are drawn over it.
 
 use super::FaceFill;
 use super::gray_fill::gray_pixel;
@@ -21,12 +21,12 @@ const AMBIENT_LIGHT: f64 = 0.35;
 /// The maximum side length of a fill image in pixels.
 const MAX_FILL_SIDE: f64 = 8192.0;
 
-/// The fill of faces under the lines of a drawing.
+/// Options for the fill of faces under the lines of a drawing.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct FillOptions {
     /// The kind of fill. Default: none.
     pub face_fill: FaceFill,
-    /// Fill-image pixels per drawing pixel. Default: 3.
+    /// Fill-image pixels per drawing pixel. Default: 3, or 6 for a gray fill.
     pub scale: f64,
 }
 
@@ -37,10 +37,10 @@ impl Default for FillOptions {
 }
 
 impl FillOptions {
-    /// Returns a fill of this kind at its required resolution.
+    /// Returns options for a fill of this kind at the resolution it requires.
     #[must_use]
     pub fn new(face_fill: FaceFill) -> Self {
-        // The borders of areas must stay hidden under the lines, which are at least a pixel wide.
+        // Borders of gray areas must stay hidden under the lines, which are at least a pixel wide.
         Self { face_fill, scale: if face_fill == FaceFill::Gray { 6.0 } else { 3.0 } }
     }
 }
@@ -50,12 +50,12 @@ impl FillOptions {
 pub(super) struct KeyLight {
     /// The unit vector toward the light, in world space.
     direction: DVec3,
-    /// Provides the direction to the viewer, so both sides of a face are lit like the visible side.
+    /// Provides the direction to the viewer, so that a face is lit on its visible side.
     projector: Projector,
 }
 
 impl KeyLight {
-    /// Returns the key light of a camera.
+    /// Returns the key light for a camera.
     pub(super) fn new(view_projection: &ViewProjection, projector: Projector) -> Self {
         let towards = Vector::<View>::new(-0.5, 0.7, 0.6);
         let direction = view_projection
@@ -79,8 +79,8 @@ impl KeyLight {
     /// Returns the luma of the shaded face, from 0 for black to 1 for white: Rec. 709 weights on
     /// sRGB-encoded channels.
     ///
-    /// Hatching compares it with thresholds. Encoded values are nearly uniform to the eye; linear
-    /// values are not.
+    /// Hatching compares the luma with thresholds. Equal steps between encoded values look nearly
+    /// equal; equal steps between linear values do not.
     pub(super) fn face_luma(&self, vertices: [DVec3; 3], surface: [f32; 3]) -> f64 {
         let [r, g, b] = self.shade_face(vertices, surface);
         let code = SrgbEncoder::shared().encode_pixel([r, g, b, 1.0]);
@@ -90,7 +90,8 @@ impl KeyLight {
 }
 
 /// Renders each face in one flat color, or in the gray of its material. Returns an image that is
-/// transparent outside the visible parts. Returns `None` for other fills, or if there are no faces.
+/// transparent outside the visible faces, or `None` if the fill is of another kind or there are no
+/// faces.
 ///
 /// Each face comes with the linear color of its material, or `None` for section caps, which are
 /// white or, in gray fills, blank. The image has `fill.scale` pixels per drawing pixel, but no side
@@ -98,7 +99,7 @@ impl KeyLight {
 /// output pixels.
 ///
 /// # Errors
-/// Fails if the image has no valid viewport or there are more faces than ids.
+/// Fails if the image has no valid viewport or if there are more faces than ids.
 pub(super) fn rasterize_fill(
     faces: impl Iterator<Item = ([DVec3; 3], Option<[f32; 3]>)>,
     view_projection: &ViewProjection,

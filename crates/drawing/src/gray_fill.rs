@@ -1,8 +1,9 @@
 //! Gray fill: paints visible faces in tints of the ink, by the luminance of their materials.
 //!
-//! Exact outlines of the visible parts of faces would have to be assembled from lines whose ends
-//! depend on tolerances. Instead, a z-buffer finds the visible parts, as for a flat fill, and their
-//! borders are traced. They are off by about one pixel of a fine image, which the wider lines hide.
+//! Exact outlines of the visible parts of faces would have to be assembled from lines whose
+//! endpoints depend on tolerances. Instead, a z-buffer finds the visible parts, as for a flat fill,
+//! and their borders are traced. The traced borders are off by about one pixel of a fine image, but
+//! the lines over them are wider.
 
 use super::Drawing;
 use super::color_areas::{PixelCorner, trace_color_areas};
@@ -21,8 +22,8 @@ const TINTS: [f64; 2] = [0.06, 0.55];
 
 /// Encodes the gray of a material as a pixel of the fill image, transparent if it has no color.
 ///
-/// The luminance of the base color (Rec. 709) is sRGB-encoded, so that levels are nearly uniform to
-/// the eye.
+/// The luminance of the base color (Rec. 709) is sRGB-encoded, so that level steps look nearly
+/// equal.
 pub(super) fn gray_pixel(color: Option<[f32; 3]>) -> [u8; 4] {
     let Some([r, g, b]) = color else { return [0; 4] };
     let luminance = r * 0.2126 + g * 0.7152 + b * 0.0722;
@@ -43,11 +44,11 @@ fn tint(level: u8, [ink, paper]: [Ink; 2]) -> Ink {
 }
 
 impl Drawing {
-    /// Returns the layers of a [gray](FaceFill::Gray) fill, one for each gray, to be placed under
-    /// the lines. Other fills have none.
+    /// Returns the layers of a [gray](FaceFill::Gray) fill, one for each gray level, to be placed
+    /// under the lines. Other fills have none.
     ///
-    /// Grays are tints of the ink on the paper. `prefix` is prepended to the layer ids, as in
-    /// [`to_layers`](Self::to_layers).
+    /// `inks` are the ink and the paper color, which are mixed for each gray. `prefix` is prepended
+    /// to the layer ids, as in [`to_layers`](Self::to_layers).
     #[must_use]
     pub fn face_fill_layers(
         &self,
@@ -97,7 +98,7 @@ mod tests {
         // Blue is darker than green of the same intensity.
         assert!(gray([0.0, 0.0, 1.0]) < gray([0.0, 1.0, 0.0]));
         assert_eq!(gray_pixel(None)[3], 0);
-        // On blue paper with white ink, a dark part is lighter: a negative.
+        // With white ink on blue paper, dark materials come out lighter, as in a negative.
         assert!(tint(0, [white, [0, 0, 128]])[0] > tint(31, [white, [0, 0, 128]])[0]);
     }
 }

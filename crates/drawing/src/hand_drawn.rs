@@ -1,4 +1,4 @@
-//! Hand-drawn lines: strokes that waver around their true position, each drawn twice.
+//! Hand-drawn lines: each line is drawn twice, as strokes that waver around its true position.
 //!
 //! ```text
 //!   true     ●───────────────────●
@@ -7,17 +7,17 @@
 //!            ╶─╌╌──────────╌╌──────╴     at both ends by a random fraction of the overshoot
 //! ```
 //!
-//! Only strokes on the page change, by less than twice the amplitude; edges, visibility and the
-//! model do not. The random numbers depend only on the line itself. A line therefore has the same
-//! shape in every run, even when other lines are added or removed.
+//! Only strokes on the page change, by less than twice the amplitude and, at open ends, the
+//! overshoot. Edges, visibility and the model stay the same. The random numbers depend only on the
+//! line itself, so its shape does not depend on the run or on other lines.
 
 use glam::DVec2;
 use page::{PagePoint, Polyline, to_micrometers, to_millimeters};
 
-/// The distance between the points of a drawn stroke, in millimeters.
+/// The maximum distance between consecutive points of a drawn stroke, in millimeters.
 const STEP: f64 = 1.5;
 
-/// The distance over which the displacement changes, in millimeters.
+/// The distance along a line between independent random displacements, in millimeters.
 const WAVELENGTH: f64 = 12.0;
 
 /// The number of strokes per line.
@@ -29,7 +29,7 @@ const OVERSHOOT: f64 = 4.0;
 /// The maximum number of points in a stroke; longer lines have larger steps.
 const MOST_POINTS: f64 = 20_000.0;
 
-/// Draws lines by hand, displaced by up to `amplitude` millimeters in x and y.
+/// Returns hand-drawn strokes for lines, displaced by up to `amplitude` millimeters in x and y.
 pub(super) fn draw_by_hand(lines: &[Polyline], amplitude: f64) -> Vec<Polyline> {
     let rounds = lines.iter().flat_map(|line| (0..ROUNDS).map(move |round| (line, round)));
     rounds.filter_map(|(line, round)| drawn_stroke(line, round, amplitude)).collect()
@@ -83,8 +83,7 @@ fn resample(points: &[DVec2], step: f64) -> Vec<(DVec2, f64)> {
     samples
 }
 
-/// Returns value noise from −1 to 1 with a continuous slope: random values at integers, joined by
-/// cubics.
+/// Returns smooth value noise from −1 to 1: random values at integers, joined by cubics.
 fn smooth_noise(seed: u64, x: f64) -> f64 {
     let cell = x.floor();
     let t = x - cell;
@@ -138,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_keeps_its_shape_whatever_else_is_drawn() {
+    fn a_line_keeps_its_shape_when_others_are_added() {
         let (one, other) =
             (line(&[(0.0, 0.0), (9.0, 5.0)], false), line(&[(3.0, 0.0), (3.0, 7.0)], false));
         let both = draw_by_hand(&[other, one.clone()], 0.2);

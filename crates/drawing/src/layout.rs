@@ -42,7 +42,7 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// The upper left corner of the page, with 96 pixels per inch.
+    /// At the upper left corner of the page, with 96 pixels per inch.
     pub const PICTURE: Self =
         Self { corner: DVec2::ZERO, scale: DVec2::splat(MILLIMETERS_PER_PIXEL) };
 
@@ -63,7 +63,7 @@ impl Placement {
         is_traced(region.edges.iter().map(|edge| (edge.ends.map(on_page), edge.winding)))
     }
 
-    /// Returns the area of a hatched region on the page, or `None` if it has no hatching.
+    /// Returns the area of a hatched region on the page, or `None` without hatching or outlines.
     fn hatch_area(&self, region: &Region) -> Option<HatchArea> {
         let RegionHatching { direction, spacing } = region.hatching?;
         let loops = self.region_loops(region);
@@ -77,7 +77,7 @@ impl Placement {
 /// The number of depth bands in a drawing with a depth cue. Each band has a different ink.
 const DEPTH_BANDS: u32 = 8;
 
-/// A kind of line: the lines that form one layer.
+/// A kind of line. The lines of one kind form one layer.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 struct LineKind {
     /// Whether the lines are hidden.
@@ -119,7 +119,7 @@ impl Drawing {
 
     /// Returns the flat fill as an image on a page, if the drawing has one.
     ///
-    /// Its rectangle covers the whole drawing, rounded to micrometers, so that lines and fill stay
+    /// The image covers the whole drawing, rounded to micrometers, so that lines and fill stay
     /// aligned.
     #[must_use]
     pub fn face_fill_image(
@@ -207,8 +207,8 @@ impl Drawing {
         (!layer.groups.is_empty()).then_some(layer)
     }
 
-    /// Records in the groups of a layer which areas their hatch lines fill, unless both faces and
-    /// cuts are hatched.
+    /// Records, in each group of a layer, the areas that its hatch lines fill, unless the style
+    /// also hatches faces by luma.
     fn mark_hatchings(&self, layer: &mut Layer, style: &LineStyle, placement: Placement) {
         if matches!(style.face_fill, FaceFill::Hatching | FaceFill::ShadeHatching) {
             return;
@@ -265,8 +265,8 @@ impl LineStyle {
         self.ink.filter(|ink| can_be_seen(*ink, paper)).unwrap_or_else(|| ink_on_paper(paper))
     }
 
-    /// Returns the ink of a sheet: the style's own ink, or black. If it cannot be seen on the
-    /// style's paper, it is an ink that contrasts with that paper.
+    /// Returns the ink of a sheet: the style's ink, or black if it has none. An ink that cannot be
+    /// seen on the style's paper is replaced by one that contrasts with the paper.
     #[must_use]
     pub fn ink_of_sheet(&self) -> Ink {
         let paper = Some(self.paper.unwrap_or(WHITE));
@@ -279,7 +279,7 @@ impl LineStyle {
 /// can be seen.
 const LEAST_CONTRAST: u8 = 32;
 
-/// Whether lines in this ink can be seen on the paper. On transparent paper, all can.
+/// Whether lines in this ink can be seen on the paper. On transparent paper, all inks can.
 fn can_be_seen(ink: Ink, paper: Option<Ink>) -> bool {
     let differs = |paper: Ink| ink.iter().zip(paper).any(|(a, b)| a.abs_diff(b) >= LEAST_CONTRAST);
     paper.is_none_or(differs)
@@ -385,8 +385,8 @@ impl<'a> LineKinds<'a> {
         }
     }
 
-    /// Returns the pen of a kind. It is narrow for hidden, tangent and hatch lines, dashed for
-    /// hidden lines, and fades with depth.
+    /// Returns the pen of a kind. The pen is narrow for hidden, tangent and hatch lines and dashed
+    /// for hidden lines; its ink fades with depth.
     fn pen_for_kind(&self, kind: LineKind, ink: Ink) -> Pen {
         let style = self.style;
         let [wide, narrow] = style.line_widths.wide_and_narrow();
@@ -405,8 +405,9 @@ impl<'a> LineKinds<'a> {
 
 /// Returns the thinning of dense lines in a style, first for visible lines, then for hidden lines.
 ///
-/// Only lines that overlap each other are thinned: wireframes and hidden lines. In other styles the
-/// visible lines are the drawing itself. Sheets are to scale and keep the requested widths and ink.
+/// Only wireframes and hidden lines are thinned, because these lines overlap each other. In other
+/// styles, the visible lines are the drawing itself. Sheets are to scale and keep the requested
+/// widths and ink.
 fn thinning_for_style(drawing: &Drawing, style: &LineStyle, placement: Placement) -> [Thinning; 2] {
     if placement != Placement::PICTURE {
         return [Thinning::NONE; 2];

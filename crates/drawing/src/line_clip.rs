@@ -6,9 +6,9 @@
 //!   ──────╲─────╱──────        ╲─────╱
 //! ```
 //!
-//! Each line is cut where it crosses the border, and each part is kept or removed by its midpoint.
-//! An area keeps exactly the parts that its complement removes, so nothing is drawn twice. Depth is
-//! linear on the screen, so the depths of parts are interpolated.
+//! Each line is cut where it crosses the border, and the midpoint of each part decides whether the
+//! part is kept. An area keeps exactly the parts that its complement removes, so nothing is drawn
+//! twice. Depth is linear on the screen, so the depths of parts are interpolated.
 
 use super::Drawing;
 use glam::DVec2;
@@ -57,7 +57,7 @@ impl ClipArea {
         Self::Star { center: point + left * 0.5, corners }
     }
 
-    /// Converts the area to a polygon: its center and corners.
+    /// Returns the area as a star-shaped polygon: its center and corners.
     fn to_star(&self) -> (DVec2, Vec<DVec2>) {
         match self {
             Self::Star { center, corners } => (*center, corners.clone()),
@@ -78,8 +78,7 @@ impl ClipArea {
         }
     }
 
-    /// Returns the sorted fractions at which a line crosses the border, preceded by 0 and followed
-    /// by 1.
+    /// Returns the sorted fractions at which a line crosses the border, together with 0 and 1.
     fn crossings(&self, [a, b]: [DVec2; 2]) -> Vec<f64> {
         let mut cuts = vec![0.0, 1.0];
         let step = b - a;
@@ -144,13 +143,13 @@ pub fn circle_points(center: DVec2, radius: f64, count: u32) -> Vec<DVec2> {
     (0..count).map(at).collect()
 }
 
-/// Returns the point at a fraction of a line; its ends are exact.
+/// Returns the point at a fraction `t` of a line; the endpoints are exact.
 pub fn point_at([a, b]: [DVec2; 2], t: f64) -> DVec2 {
     if t == 1.0 { b } else { a.lerp(b, t) }
 }
 
 impl Drawing {
-    /// Returns the part of the drawing inside or outside an area. Outside, regions are dropped.
+    /// Returns the part of the drawing inside or outside an area. The outside part has no regions.
     pub fn clipped(mut self, area: &ClipArea, side: ClipSide) -> Self {
         let segments = self.segments.iter().flat_map(|segment| {
             let parts = area.intervals(segment.ends, side).into_iter();
@@ -168,7 +167,7 @@ impl Drawing {
         self
     }
 
-    /// Makes the fill transparent in drawing pixels that are not kept.
+    /// Makes the fill transparent at positions that `keeps` rejects, given in drawing pixels.
     fn mask_face_fill(&mut self, keeps: impl Fn(DVec2) -> bool) {
         let size = self.size;
         let Some(fill) = &mut self.face_fill else { return };

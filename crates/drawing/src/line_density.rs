@@ -18,7 +18,7 @@ use hidden_line::EdgeSegment;
 const CELL_SIDE: f64 = 16.0;
 /// The coverage up to which lines are drawn unchanged.
 const MAX_COVERAGE: f64 = 0.6;
-/// The minimum fraction of its width that a line keeps; if that is not enough, it becomes paler.
+/// The minimum fraction of its width that a line keeps; beyond that, lines become paler.
 const MIN_WIDTH_FACTOR: f64 = 0.4;
 /// The minimum fraction of its contrast that a line keeps.
 const MIN_CONTRAST: f64 = 0.4;
@@ -38,8 +38,7 @@ impl Thinning {
 
     /// Computes the thinning of selected segments of a drawing with the given line width in pixels.
     ///
-    /// With `keeps_width`, lines only become paler; this is for drawings whose widths follow a
-    /// standard.
+    /// With `keeps_width`, lines become paler but not thinner, for widths that follow a standard.
     pub(crate) fn for_lines(
         drawing: &Drawing,
         width: f64,
@@ -52,7 +51,7 @@ impl Thinning {
         }
         let factor = MAX_COVERAGE / coverage;
         let width = if keeps_width { 1.0 } else { factor.max(MIN_WIDTH_FACTOR) };
-        // Uses the square root, because overlapping lines darken the page by less than their sum.
+        // Uses the square root, because overlapping lines darken the page less than separate ones.
         Self { width, contrast: (factor / width).sqrt().clamp(MIN_CONTRAST, 1.0) }
     }
 }
@@ -103,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn coverage_is_the_fraction_of_ink_on_the_page() {
+    fn coverage_is_the_inked_fraction_of_the_page() {
         for (count, width, coverage) in [(10, 1.0, 10.0 / 160.0), (100, 0.5, 50.0 / 160.0)] {
             let mean = mean_coverage(&drawing_of_lines(count), width, |_| true);
             assert!((mean - coverage).abs() < 0.1 * coverage, "{count}: {mean}");

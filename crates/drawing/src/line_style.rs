@@ -26,10 +26,10 @@ pub struct LineStyle {
     pub edges: EdgeSelection,
     /// The treatment of hidden lines.
     pub hidden_lines: HiddenLines,
-    /// Two faces that meet at more than this angle, in radians, have an edge between them.
+    /// The crease angle in radians: two faces that meet at a larger angle form a crease.
     pub crease_angle: f64,
-    /// Two faces that meet at more than this angle, in radians, but not at a crease, have a tangent
-    /// edge between them. With `None`, only a change of material makes a tangent edge.
+    /// The tangent angle in radians: two faces that meet at a larger angle without forming a crease
+    /// form a tangent edge. With `None`, only a change of material makes a tangent edge.
     pub tangent_angle: Option<f64>,
     /// Whether an edge counts as smooth if the vertex normals in the file agree on both sides.
     pub asks_normals: bool,
@@ -41,7 +41,7 @@ pub struct LineStyle {
     pub line_widths: LineWidths,
     /// The color of the lines, or `None` for a color that contrasts with the paper.
     pub ink: Option<Ink>,
-    /// The color of the paper of sheets, or `None` for white.
+    /// The paper color of sheets, or `None` for white.
     pub paper: Option<Ink>,
     /// The shape of line ends.
     pub cap: Cap,
@@ -101,8 +101,8 @@ pub enum FaceFill {
     /// Areas in tints of the ink, one gray for each material brightness, regardless of the light.
     /// Section cuts stay blank.
     Gray,
-    /// Hatch lines on all faces of an object, at an angle and spacing that differ from those of its
-    /// neighbors. With section planes, only the cuts are hatched.
+    /// Hatch lines on all faces of an object, at an angle and spacing that differ between
+    /// neighboring objects. With section planes, only the cuts are hatched.
     PartHatching,
 }
 
@@ -205,8 +205,7 @@ impl LineStyle {
 impl LineStyle {
     /// Returns the options for making a drawing in this style.
     ///
-    /// Hatch spacing is converted to pixels of 1/96 inch. For a drawing at another scale, set it
-    /// again.
+    /// Hatch spacing is converted to pixels of 1/96 inch. At another scale, set it again.
     #[must_use]
     pub fn to_draw_options(&self) -> DrawOptions {
         DrawOptions {
@@ -236,7 +235,7 @@ impl LineStyle {
         }
     }
 
-    /// Returns the fill of a drawing in this style.
+    /// Returns the fill options for a drawing in this style.
     #[must_use]
     pub fn to_fill_options(&self) -> FillOptions {
         FillOptions::new(self.face_fill)

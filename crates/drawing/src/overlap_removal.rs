@@ -6,10 +6,10 @@
 //!   hidden                ├───────┤                       ├──┤   merged with the previous one
 //! ```
 //!
-//! In a front view, the back edges are exactly behind the front edges. Drawn twice, they would be
-//! darker, and their dashes would fill each other's gaps. Precedence follows technical drawing
-//! practice: visible lines before hidden lines (ISO 128-2). Adjacent segments of one object and
-//! layer are merged.
+//! In a front view, the back edges are exactly behind the front edges. Lines drawn twice would be
+//! darker, and dashes would fill each other's gaps. Precedence follows technical drawing practice:
+//! visible lines before hidden lines (ISO 128-2). Adjacent segments of one object and layer are
+//! merged.
 //!
 //! Segments are grouped by their supporting line, rounded to a grid; sorting takes O(n log n) and
 //! dominates the cost.
@@ -23,15 +23,15 @@ pub(super) struct PageSegment {
     pub(super) ends: [DVec2; 2],
     /// The layer; a lower number is more important.
     pub(super) layer: u32,
-    /// The object it belongs to.
+    /// The object that the segment belongs to.
     pub(super) object: u32,
 }
 
 /// The distance, in millimeters, below which segments coincide: one step of the page grid.
 const GRID_STEP: f64 = 1e-3;
 
-/// Slopes that differ by less than this coincide. Across the longest sheet, 1.2 m, they diverge by
-/// less than a grid step.
+/// Slopes that differ by less than this count as equal. Across the longest sheet, 1.2 m, such lines
+/// diverge by less than a grid step.
 const SLOPE_STEP: f64 = 0.5e-6;
 
 /// Segments shorter than this, in millimeters, are left unchanged, because their direction is too
@@ -50,7 +50,8 @@ struct LineInterval {
     to: f64,
 }
 
-/// A supporting line rounded to a grid, shared by collinear segments: steepness, slope, intercept.
+/// A supporting line rounded to a grid, shared by collinear segments: whether it is steep, its
+/// slope and its height.
 type SupportLine = (bool, i64, i64);
 
 /// Removes the parts covered by more important segments, and merges adjacent segments. The result
@@ -85,7 +86,8 @@ pub(super) fn remove_overlaps(segments: &[PageSegment]) -> Vec<PageSegment> {
     retained.into_iter().map(|(_, segment)| segment).collect()
 }
 
-/// Returns the center of all segments, where rounding the slopes has the least effect.
+/// Returns the center of the segments' bounding box, an origin for which rounded slopes matter
+/// least.
 fn bounds_center(segments: &[PageSegment]) -> DVec2 {
     let bounds = |f: fn(DVec2, DVec2) -> DVec2, start: f64| {
         segments.iter().flat_map(|segment| segment.ends).fold(DVec2::splat(start), f)
@@ -247,7 +249,7 @@ mod tests {
     fn visible_segments_cover_hidden_ones() {
         let rest = remaining_on_line(&[(1, 0, 4.0, 9.0), (0, 0, 0.0, 5.0), (1, 1, 8.0, 12.0)]);
         assert_eq!(rest, [(1, 0, 5.0, 9.0), (0, 0, 0.0, 5.0), (1, 1, 9.0, 12.0)]);
-        // Covered at either end and in the middle, also with the ends swapped.
+        // The first segment, with its ends swapped, is covered at both ends and in the middle.
         let rest = remaining_on_line(&[
             (2, 0, 10.0, 0.0),
             (1, 0, 4.0, 5.0),

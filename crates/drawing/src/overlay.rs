@@ -10,7 +10,7 @@
 //!
 //! The axes, the grid and the view volume are part of the world, so models can hide them. The
 //! horizon and the vanishing points are drawn on the picture plane. Anything behind the eye is
-//! clipped before the perspective divide. The near and far planes do not clip.
+//! clipped before the perspective divide. The near and far planes do not clip overlays.
 
 mod perspective;
 mod point_label;
@@ -34,11 +34,11 @@ use page::{
 /// An annotation drawn over a picture to explain it.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Overlay {
-    /// The world axes, drawn from the origin with this length; `None` chooses a length from the
-    /// size of the models.
+    /// The world axes, drawn from the origin with this length; with `None`, the length depends on
+    /// the size of the models.
     Axes(Option<f64>),
-    /// A grid on the ground, y = 0, with this spacing; `None` chooses a round spacing from the size
-    /// of the models.
+    /// A grid on the ground, y = 0, with this spacing; with `None`, a round spacing that depends on
+    /// the size of the models.
     Grid(Option<f64>),
     /// The vanishing line of horizontal planes.
     Horizon,
@@ -56,9 +56,11 @@ pub enum Overlay {
 pub const AXES: [(Vector<World>, &str, Ink); 3] =
     [(Vector::X, "x", RED), (Vector::Y, "y", GREEN), (Vector::Z, "z", BLUE)];
 
-/// The line width, character height and arrowhead length, in millimeters.
+/// The line width in millimeters.
 const LINE_WIDTH: f64 = 0.25;
+/// The height of characters in millimeters.
 const LETTER_HEIGHT: f64 = 3.0;
+/// The length of an arrowhead in millimeters.
 const ARROW_LENGTH: f64 = 2.4;
 
 /// The maximum number of grid lines in each direction.
@@ -93,7 +95,7 @@ pub fn overlay_layers(
     layers.filter(|layer| layer.groups.iter().any(|group| !group.strokes.is_empty())).collect()
 }
 
-/// The picture plane, which projects world points, directions and lines to the page.
+/// The picture plane, to which world points, directions and lines are projected.
 struct PicturePlane {
     world_to_clip: Projective<World, Clip>,
     /// Half the width and height of the page in millimeters.
@@ -170,8 +172,8 @@ impl PicturePlane {
 
     /// Divides a world line into visible and hidden strokes.
     ///
-    /// Without occluders the whole line is visible. Parts are fractions of the world line; each
-    /// part is clipped to the picture and projected separately.
+    /// Without occluders, the whole line is visible. Each part is an interval of fractions of the
+    /// world line and is projected and clipped to the picture separately.
     fn divide_line(&self, from: Point<World>, to: Point<World>, strokes: &mut DividedStrokes) {
         let stroke = |[a, b]: [f64; 2]| {
             let [a, b] = [a, b].map(|t| self.project_point(from.lerp(to, t)));
@@ -238,8 +240,8 @@ impl PicturePlane {
     /// Returns the ground grid under the models, extending one cell beyond their bounding box on
     /// each side.
     ///
-    /// Lines are at multiples of the step, so the grids of different scenes coincide. If the
-    /// requested step would give more than [`MAX_GRID_LINES`] lines, it is increased.
+    /// Lines are at multiples of the step, so grids with the same step coincide across scenes. If
+    /// the requested step would give more than [`MAX_GRID_LINES`] lines, it is increased.
     fn grid_layers(&self, step: Option<f64>) -> Vec<Layer> {
         let (min, max) = (self.bounds.min(), self.bounds.max());
         let size = (max.x() - min.x()).max(max.z() - min.z()).max(self.bounds.diagonal() * 0.1);

@@ -193,7 +193,7 @@ mod tests {
     use super::*;
     use page::to_millimeters;
 
-    /// Returns a page of 40 × 30 mm with a diagonal.
+    /// Returns a panel of 40 × 30 mm with a diagonal.
     fn panel(id: &str) -> Panel {
         let mut page = Page::new(DVec2::new(40.0, 30.0), id, None);
         let mut layer = Layer::new("lines", "lines", Pen::solid(0.2, INK));

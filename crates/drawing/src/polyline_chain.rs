@@ -1,7 +1,7 @@
-//! Polyline chaining: joins segments with common ends into polylines.
+//! Polyline chaining: joins segments with common endpoints into polylines.
 //!
-//! The result has mitered or rounded corners, dashes that continue around corners, and smaller
-//! files. Ends are equal if they are the same point on the page's micrometer grid. At a junction of
+//! Corners can then be mitered or rounded, dashes continue around corners, and files are smaller.
+//! Endpoints are equal if they are the same point of the page's micrometer grid. At a junction of
 //! more than two segments, a chain continues in the straightest direction.
 //!
 //! ```text
@@ -21,15 +21,14 @@ pub(super) struct PolylineChain {
     pub(super) polyline: Polyline,
 }
 
-/// At a junction of more than two segments, a turn of more than 60° ends the chain.
+/// The cosine of 60°, the largest turn of a chain at a junction of more than two segments.
 const MIN_TURN_COSINE: f64 = 0.5;
 
-/// A point is removed if it is at most this far from the line between its neighbors, in
-/// micrometers.
+/// The maximum distance of a removed point from the line between its neighbors, in micrometers.
 const COLLINEAR_TOLERANCE: f64 = 1.0;
 
 /// The maximum number of consecutive points that are removed. Every new point retests all points of
-/// the run, so the time grows with the square of its length.
+/// the run, so the time grows with the square of the run's length.
 const MAX_DROPPED_RUN: usize = 64;
 
 /// Joins segments into chains, ordered by layer, by object and by first segment.
@@ -60,7 +59,7 @@ pub(super) fn join_into_chains(
     chains
 }
 
-/// The grid segments of one layer and object, and their connections.
+/// The grid segments of one pen and one object, and their connections.
 struct SegmentGraph {
     /// The two ends of each segment.
     segments: Vec<[PagePoint; 2]>,
@@ -116,8 +115,7 @@ impl SegmentGraph {
         lines
     }
 
-    /// Returns the layer with the largest total length among these segments, or the first such
-    /// layer.
+    /// Returns the layer with the largest total length among these segments; in a tie, the lowest.
     fn longest_layer(&self, chain: &[usize]) -> u32 {
         let mut lengths: Vec<(u32, f64)> = Vec::new();
         for &index in chain {
@@ -156,7 +154,7 @@ impl SegmentGraph {
     /// ```text
     ///             ╱ best: the smallest turn
     ///   before ──● here
-    ///             ╲ also incident; at a junction, a candidate only below 60°
+    ///             ╲ also incident; at a junction, a candidate only up to 60°
     /// ```
     ///
     /// If only two segments meet, the chain continues at any angle.
@@ -263,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn a_square_in_any_order_is_one_closed_line() {
+    fn the_sides_of_a_square_in_any_order_form_one_closed_line() {
         let square = [
             [0.0, 0.0, 1.0, 0.0],
             [1.0, 1.0, 0.0, 1.0],
@@ -295,13 +293,13 @@ mod tests {
         ];
         let expected = [(vec![[0, 5], [10, 5]], false), (vec![[5, 0], [5, 10]], false)];
         assert_eq!(chains_in_millimeters(&cross), expected);
-        // A T: the bar is one line and the stem is another.
+        // In a T, the bar is one line and the stem is another.
         let expected = [(vec![[0, 5], [10, 5]], false), (vec![[5, 5], [5, 10]], false)];
         assert_eq!(chains_in_millimeters(&[cross[0], cross[3], cross[2]]), expected);
     }
 
     #[test]
-    fn duplicates_and_segments_below_the_grid_are_dropped() {
+    fn duplicates_and_segments_shorter_than_a_grid_step_are_dropped() {
         let twice = [[0.0, 0.0, 1.0, 2.0], [1.0, 2.0, 0.0, 0.0], [0.0, 0.0, 0.0001, 0.0]];
         assert_eq!(chains_in_millimeters(&twice), [(vec![[0, 0], [1, 2]], false)]);
     }

@@ -1,4 +1,4 @@
-//! Region outlines: simple closed loops around an area, with each border point on one loop.
+//! Region outlines: simple closed loops around an area, which may touch but never cross.
 //!
 //! ```text
 //!   ┌───────┐              ┌───────┐
@@ -13,13 +13,14 @@
 //!    that point. This is snap rounding (Hobby 1999), which adds no crossings. It is repeated until
 //!    no crossings remain.
 //! 2. The winding number next to a side is the number of faces there, counted along a ray in
-//!    integer arithmetic. A side is part of the outline if there are faces to its left or right,
-//!    but not both.
+//!    integer arithmetic. A side is part of the outline if there are faces on exactly one side of
+//!    it.
 //! 3. At each point, as many outline sides begin as end, so they form loops. Each loop keeps the
 //!    area on its left and is divided where it touches itself.
 //!
-//! The number of crossings between random triangles grows with the square of their number. If there
-//! are too many, the area is sampled on a fine grid, and its border follows the cells of the grid.
+//! The number of crossings between random triangles grows with the square of the number of
+//! triangles. If there are too many crossings, the area is sampled on a fine grid, and its border
+//! follows the cells of the grid.
 
 mod coverage;
 
@@ -36,7 +37,7 @@ type Side = ([Point; 2], i32);
 /// The maximum number of snap rounding passes; normally one or two remove all crossings.
 const MAX_ROUNDS: usize = 8;
 
-/// Loops with a smaller mean width, in micrometers, are gaps between faces.
+/// The mean width, in micrometers, below which a loop is a gap between faces.
 const MIN_WIDTH: f64 = 2.0;
 
 /// Returns the loops around the area enclosed by sides, which must form closed curves. With x to
@@ -70,13 +71,13 @@ pub(super) fn is_traced(sides: impl Iterator<Item = ([PagePoint; 2], i32)>) -> b
     find_crossings(&sides).is_none()
 }
 
-/// An outline is exact up to this many crossings, plus [`CROSSINGS_PER_SIDE`] for each side.
+/// The maximum number of crossings of an exact outline, without [`CROSSINGS_PER_SIDE`] per side.
 const ANY_CROSSINGS: usize = 1 << 14;
 /// The additional crossings for each side; see [`ANY_CROSSINGS`].
 const CROSSINGS_PER_SIDE: usize = 8;
 
-/// Orients sides from the smaller to the larger end, adds up equal sides, and drops sides that
-/// cancel out.
+/// Orients sides from the smaller to the larger end, adds up the multiplicities of equal sides, and
+/// drops sides that cancel out.
 fn merge_sides(mut sides: Vec<Side>) -> Vec<Side> {
     for (ends, sign) in &mut sides {
         if ends[0] > ends[1] {
@@ -200,15 +201,15 @@ impl PointColumns {
             (0..2).map(|axis| i128::from(point[axis] - a[axis]) * i128::from(along[axis])).sum()
         };
         found.sort_by_key(|&point| (position(point), point));
-        // The ends are among the points; other points in their cells may be just as far along the
-        // side.
+        // The ends are placed explicitly, because other points in their cells may be just as far
+        // along the side.
         found.retain(|point| *point != a && *point != b);
         found.insert(0, a);
         found.push(b);
         found
     }
 
-    /// Returns the minimum and maximum y of a side in a column, with a margin of one cell.
+    /// Returns the minimum and maximum y of a side in a column, with a margin of at least one cell.
     fn heights_in_column(&self, [a, b]: [Point; 2], column: i64) -> [i64; 2] {
         if a[0] == b[0] {
             return [a[1].min(b[1]) - 1, a[1].max(b[1]) + 1];
@@ -223,7 +224,7 @@ impl PointColumns {
     }
 }
 
-/// Whether a side passes through the cell of a point, a square of one grid step centered on it.
+/// Whether a side passes through the cell of a point: the square of one grid step around it.
 fn passes_cell([a, b]: [Point; 2], point: Point) -> bool {
     let is_beside = |axis: usize| {
         let (low, high) = (a[axis].min(b[axis]), a[axis].max(b[axis]));
@@ -241,7 +242,7 @@ fn border_sides(sides: &[Side]) -> Vec<[Point; 2]> {
     let rows = SideRows::new(sides);
     let mut border = Vec::new();
     for (index, &([a, b], sign)) in sides.iter().enumerate() {
-        // Tests above a horizontal side and to the right of any other side.
+        // The winding number above a horizontal side, or to the right of any other side.
         let beyond = rows.winding_beyond(sides, index);
         let rises = b[1] > a[1];
         let (left, right) = if a[1] == b[1] {
@@ -285,8 +286,8 @@ impl SideRows {
         Self { rows, low, height }
     }
 
-    /// Returns the winding number next to the middle of a side: just beyond it in x, or in y if it
-    /// is horizontal.
+    /// Returns the winding number next to the middle of a side: just beyond the middle in x, or in
+    /// y if the side is horizontal.
     ///
     /// A ray from there to the right counts the sides that it crosses. A side includes its lower
     /// end but not its upper end. Coordinates are doubled, so that the middle is at integers.
@@ -312,7 +313,7 @@ impl SideRows {
     }
 }
 
-/// Returns the contribution of a side to the winding number around a point, by a ray to the right.
+/// Returns what a side adds to the winding number around a point, on a ray to the right.
 fn crossing_of_ray(point: Point, [a, b]: [Point; 2], sign: i32) -> i32 {
     let rises = b[1] > a[1];
     let (low, high) = if rises { (a, b) } else { (b, a) };
@@ -356,7 +357,7 @@ fn join_loops(sides: &[[Point; 2]]) -> Vec<Vec<Point>> {
 }
 
 /// Returns the first unused side that starts at `here`, clockwise from the direction back to
-/// `from`. It bounds the same part of the area.
+/// `from`. This side bounds the same part of the area.
 fn next_side(sides: &[[Point; 2]], used: &[bool], from: Point, here: Point) -> Option<usize> {
     let first = sides.partition_point(|[start, _]| *start < here);
     let starting = (first..sides.len()).take_while(|&index| sides[index][0] == here);
@@ -372,7 +373,7 @@ fn next_side(sides: &[[Point; 2]], used: &[bool], from: Point, here: Point) -> O
 }
 
 /// Whether the direction to `a` comes before the direction to `b`, clockwise around `center` from
-/// `from`.
+/// the direction to `from`.
 fn is_clockwise_before(center: Point, from: Point, a: Point, b: Point) -> bool {
     // Directions in the half turn clockwise from `from` come first, then the other half.
     let half = |to: Point| {

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   ──────╮  ·          a dot: a chain shorter than the pen is wide
-//!         ╰─────·──     a stub of a crease or a crossing next to longer lines
+//!         ╰─────·──     a stub of a crease or intersection next to longer lines
 //! ```
 //!
 //! On scanned surfaces, single facets can be silhouettes, and rounding errors make touching bodies
@@ -14,19 +14,19 @@ use page::PagePoint;
 /// The minimum length of chains on paper, in millimeters: about the width of a line on a screen.
 pub(super) const LEAST_CHAIN_LENGTH: f64 = 0.3;
 
-/// The treatment of a layer's short chains. The number is the length, in millimeters, below which a
-/// chain is short.
+/// The treatment of a layer's short chains. Each number is the length, in millimeters, below which
+/// a chain is short.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum ShortChains {
     /// Drawn.
     Retained,
-    /// Removed if the total length of the chains connected to them is also below this length.
+    /// Removed if the total length of all connected chains is also below this length.
     RemovedAlone(f64),
-    /// Also removed if they branch off a longer line and have a free end.
+    /// Like `RemovedAlone`, but also removed if they branch off a longer line and have a free end.
     RemovedAtEnds(f64),
     /// Removed unless both of their ends are on longer lines.
     RemovedUnlessBridge(f64),
-    /// Removed.
+    /// Always removed.
     Removed(f64),
 }
 
@@ -98,7 +98,7 @@ impl Contacts {
         Self { corners, count: chains.len() }
     }
 
-    /// Returns the chains at a point, except this one.
+    /// Returns the chains at a point, except `chain`.
     fn others_at(&self, point: PagePoint, chain: usize) -> impl Iterator<Item = usize> {
         let first = self.corners.partition_point(|(other, _)| *other < point);
         let here = self.corners[first..].iter().take_while(move |(other, _)| *other == point);

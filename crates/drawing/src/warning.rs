@@ -1,4 +1,4 @@
-//! Warnings about missing or approximate parts of a page, returned along with it.
+//! Warnings about missing or approximate parts of a page, returned along with the page.
 
 use crate::overlay::LabelFault;
 use core::cmp::Ordering;

@@ -9,7 +9,7 @@ use scene::{Origin, Scene};
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let names: Vec<String> = std::env::args().skip(1).collect();
     let [model, column, row] = names.as_slice() else {
-        return Err("specify a model and a pixel".into());
+        return Err("specify a model, a column and a row".into());
     };
     let (origin, file) = Origin::from_model_path(model.as_ref());
     let scene = Scene::resolve(&origin, &file, &Default::default())?;

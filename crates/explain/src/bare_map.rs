@@ -1,5 +1,5 @@
-//! Explanation of points and segments under a single matrix, without a scene: the examples and
-//! exercises of the textbook (HO-3, PE-1, IN-1).
+//! Explanation of points and segments under a single matrix, without a scene, for the textbook's
+//! examples and exercises (HO-3, PE-1, IN-1).
 //!
 //! ```text
 //!  p = (x, y, z, w) ──M──► M p ──÷ its w──► the image       a segment adds f(t)
@@ -32,14 +32,14 @@ impl BareMap {
         Self { map, steps: vec![step] }
     }
 
-    /// Creates the textbook's matrix P for the planes z = `near` and z = `far` (PE-1), with its
-    /// inverse.
+    /// Creates the textbook's P for the planes z = `near` and z = `far` (PE-1), with its inverse.
     ///
     /// The numbers are z-coordinates, negative ahead of the camera; both may be positive, as in
     /// exercise 8. The product of P and nf P⁻¹ is nf times the identity (exercise 6).
     ///
     /// # Errors
-    /// If a number is 0 or not finite, both are equal, or they are on different sides of the eye.
+    /// Returns an error if a number is 0 or not finite, or if the planes are equal or on different
+    /// sides of the eye.
     pub fn from_planes(near: f64, far: f64) -> Result<Self, ProjectionError> {
         let p = chapter::p(near, far)?;
         let inverse = chapter::p_inverse_scaled(near, far)?;
@@ -47,16 +47,16 @@ impl BareMap {
             .with_item("n", "n", near)
             .with_item("f", "f", far)
             .with_item("matrix", "P", p.rows())
-            .with_item("scaled_inverse", "n f times its inverse", inverse.rows())
-            .with_item("product", "P times that", inverse.then(p).rows())
-            .with_item("unscaled", "P⁻¹ itself", format!("alberti matrix --p {near},{far}"));
+            .with_item("scaled_inverse", "n f P⁻¹", inverse.rows())
+            .with_item("product", "P times n f P⁻¹", inverse.then(p).rows())
+            .with_item("unscaled", "command for P⁻¹", format!("alberti matrix --p {near},{far}"));
         Ok(Self { map: Projective::from_raw(p.raw()), steps: vec![step] })
     }
 
-    /// Explains the image of one or more homogeneous points: a segment has two.
+    /// Explains the images of homogeneous points; two points are the endpoints of a segment.
     ///
     /// # Errors
-    /// If all four coordinates of a point are 0.
+    /// Returns an error if all four coordinates of a point are 0.
     pub fn explain_points(&self, points: &[HPoint<View>]) -> Result<Explanation, String> {
         let mut steps = self.steps.clone();
         let labels: &[&str] = if let [_] = points { &[""] } else { &["a", "b"] };
@@ -114,8 +114,8 @@ fn describe_segment(start: f64, end: f64) -> &'static str {
         "An end with w = 0 maps to infinity, so the image has no end there: clip the segment first."
     } else {
         "Each end has an image, but w changes sign between them: the segment crosses the plane \
-         of the eye, where w is 0, and the line between the two images is not its image. Clip it \
-         first."
+         of the eye, where w is 0. The line between the two images is not the image of the segment, \
+         so clip the segment first."
     }
 }
 

@@ -18,17 +18,17 @@ pub(super) struct ChapterMatrices {
     window: Window,
     /// The z-coordinates n and f of the near and far planes.
     planes: [f64; 2],
-    /// P, for a perspective.
+    /// P, for a perspective projection.
     p: Option<Projective<View, View>>,
     /// M_orth.
     m_orth: Affine<View, Clip>,
-    /// M_per for a perspective, M_orth for a parallel projection.
+    /// M_per for a perspective projection, M_orth for a parallel one.
     projection: Projective<View, Clip>,
 }
 
 impl ChapterMatrices {
     /// Returns the factors of a projection to the textbook's canonical volume; `None` for other
-    /// kinds, and if the far plane is infinite.
+    /// kinds of projection, and if the far plane is at infinity.
     pub(super) fn from_projection(view_to_clip: Projective<View, Clip>) -> Option<Self> {
         let kind = decompose(view_to_clip, Convention::CHAPTER).ok()?.kind;
         let (window, n, f) = match kind {
@@ -47,7 +47,7 @@ impl ChapterMatrices {
         Some(Self { window, planes: [n, f], p, m_orth, projection })
     }
 
-    /// Returns the ids of the formulas.
+    /// Returns the ids of the formulas for the factors.
     pub(super) const fn formula(&self) -> &'static str {
         if self.p.is_some() { "OR-1, PE-1, PE-2, PE-3" } else { "OR-1" }
     }

@@ -1,4 +1,4 @@
-//! Conventions of graphics APIs: canonical view volume, handedness of view space, pixel
+//! Conventions of graphics APIs: canonical view volume, handedness of view space, and pixel
 //! coordinates. They do not change the picture, but they change the numbers in an explanation.
 //!
 //! | conventions | NDC z, near to far | y in clip space | view space |
@@ -41,7 +41,7 @@ pub enum ApiConventions {
     OpenGl,
     /// Vulkan: near at z = 0, y down in clip space.
     ///
-    /// Framebuffer rows count from the top, as in image files, because both flips of y cancel.
+    /// Framebuffer rows count from the top, as in image files, because the two flips of y cancel.
     Vulkan,
     /// Direct3D: near at z = 0, view space looks along +z.
     Direct3d,
@@ -63,7 +63,7 @@ impl ApiConventions {
 
     /// Returns the name on the command line.
     ///
-    /// It is in lower case, without spaces; `FromStr` accepts exactly these names.
+    /// Names are in lower case, without spaces; `FromStr` accepts exactly these names.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -130,8 +130,7 @@ impl ApiConventions {
     /// Returns the map from a view space that looks along −z to the view space of the conventions:
     /// diag(1, 1, ±1).
     ///
-    /// It is its own inverse, and its determinant of −1 turns right-handed into left-handed
-    /// coordinates.
+    /// The map is its own inverse. With −1, it swaps right-handed and left-handed coordinates.
     pub(super) fn view_flip(self) -> Affine<View, View> {
         Affine::scale(1.0, 1.0, if self.looks_along_z() { -1.0 } else { 1.0 })
     }
@@ -164,8 +163,8 @@ impl ApiConventions {
 
     /// Returns the map from NDC z to the depth of a pixel.
     ///
-    /// OpenGL maps −1 … +1 to 0 … 1, as `glDepthRange(0, 1)` does; conventions with NDC z in 0 … 1,
-    /// and the chapter, leave z unchanged.
+    /// OpenGL maps −1 … +1 to 0 … 1, as `glDepthRange(0, 1)` does, and so does Alberti. The others,
+    /// with NDC z in 0 … 1 or as in the chapter, leave z unchanged.
     #[must_use]
     pub const fn depth_range(self) -> DepthRange {
         match self {
@@ -190,7 +189,7 @@ impl ApiConventions {
     /// Returns the viewport that covers a whole image.
     ///
     /// # Errors
-    /// If width or height is 0.
+    /// Returns an error if the width or height is 0.
     pub(super) fn image(self, width: u32, height: u32) -> Result<Viewport, ViewportError> {
         Ok(self.viewport(Rectangle::from_size(width.into(), height.into())?))
     }

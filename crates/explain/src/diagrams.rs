@@ -1,7 +1,7 @@
 //! SVG diagrams of an explanation: the view volume from above and from the side, the canonical
 //! volume, and the picture.
 //!
-//! They show only numbers from the steps.
+//! The diagrams show only numbers from the steps.
 //!
 //! ```text
 //!   view space from above     canonical volume        picture
@@ -106,7 +106,7 @@ pub(super) fn draw_diagrams(
     figures
 }
 
-/// Finds the points of the steps in a space by item ids: one, two ends or three vertices.
+/// Finds the points in a space by the ids of step items: one point, two ends or three vertices.
 ///
 /// Accepts the id `space` itself and `space_label`. Skips items of other types, homogeneous points
 /// (four numbers) and coordinates that are not finite, such as a clip-space point near w = 0.
@@ -124,8 +124,7 @@ fn labeled_points(explanation: &Explanation, space: &str) -> Vec<LabeledPoint> {
 
 /// Returns the corners of the canonical volume in NDC: x varies fastest, then y, then z.
 ///
-/// Corner n has bit 0 for right, bit 1 for top and bit 2 for far; [`BOX_EDGES`] relies on this
-/// order.
+/// Corner n has bit 0 for right, bit 1 for top and bit 2 for far; [`BOX_EDGES`] relies on this.
 fn canonical_corners(chain: &TransformChain) -> [[f64; 3]; 8] {
     let [near, far] = chain.depth_range();
     let side = |bit: usize| if bit == 0 { -1.0 } else { 1.0 };
@@ -168,7 +167,7 @@ const BOX_EDGES: [[usize; 2]; 12] = [
 
 /// Draws the diagram of a volume seen along an axis, with the points of the subject.
 ///
-/// `corners` are already projected to the plane of the diagram; `project` does this for the points.
+/// `corners` are already projected to the plane of the diagram; `project` projects the points.
 /// Diagrams of view space also show the eye, which is the origin there. The window includes points
 /// outside the volume, so a clipped point is visible next to the box.
 fn volume_diagram(
@@ -226,7 +225,7 @@ fn picture_diagram(chain: &TransformChain, picture: &Picture, marks: &[LabeledPo
     Diagram { caption, svg }
 }
 
-/// Draws the points with their labels, joined to a polygon if there are several; `unit` scales
+/// Draws the points with their labels, joined into a polygon if there are several; `unit` scales
 /// lines and text.
 ///
 /// `positions` are in SVG user units, one for each mark. A segment is a polygon of two points,
@@ -268,7 +267,7 @@ fn open_svg([width, height]: [f64; 2]) -> String {
     format!("<svg viewBox=\"0 0 {width} {height}\" role=\"img\">")
 }
 
-/// The window-to-viewport map of a diagram: y up to y down, equal scales on both axes.
+/// The window-to-viewport map of a diagram: from y up to y down, with equal scales on both axes.
 ///
 /// ```text
 ///  x_svg = SIZE_x / 2 + (x − center_x) · scale
@@ -320,7 +319,7 @@ mod tests {
             assert!((MARGIN..=SIZE[1] - MARGIN).contains(&y), "{y}");
         }
         let ([x0, y0], [x1, y1]) = (window.to_diagram([0.0, 0.0]), window.to_diagram([1.0, 1.0]));
-        assert!((x1 - x0 - (y0 - y1)).abs() < 1e-9, "y runs up");
+        assert!((x1 - x0 - (y0 - y1)).abs() < 1e-9, "y should point up");
         assert_eq!(
             DiagramWindow::around_points([[2.0, 2.0]].iter()).to_diagram([2.0, 2.0]),
             [150.0, 110.0]

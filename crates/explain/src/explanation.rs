@@ -25,9 +25,9 @@ pub struct Step {
     pub id: &'static str,
     /// A heading for people.
     pub title: String,
-    /// The ids of its formulas, such as `PE-1, VV-2`.
+    /// The ids of the step's formulas, such as `PE-1, VV-2`.
     pub formula: Option<&'static str>,
-    /// Its inputs and results.
+    /// The inputs and results of the step.
     pub items: Vec<ExplanationEntry>,
 }
 

@@ -1,5 +1,4 @@
-//! The step for f(t): where points of a segment appear between the images of its ends (IN-1,
-//! exercise 11).
+//! The step for f(t): where points of a segment appear in the segment's image (IN-1, exercise 11).
 //!
 //! ```text
 //!  f(t) = w_R t / (w_r + t (w_R − w_r))        f(0) = 0, f(1) = 1, f′ > 0
@@ -17,7 +16,7 @@ const SAMPLES: [(&str, f64); 5] =
 /// A segment whose ends have w with different signs crosses the plane of the eye. Its image is not
 /// connected, so the step states that f(t) is not defined.
 pub(super) fn foreshortening_step<S: Space>(start: HPoint<S>, end: HPoint<S>) -> Step {
-    let title = "f(t): where its points land between the images of the ends";
+    let title = "f(t): where points of the segment land between the images of its ends";
     let mut step = Step::new("foreshortening", title, Some("IN-1"))
         .with_item("w_r", "w_r, of a", start.w())
         .with_item("w_R", "w_R, of b", end.w());

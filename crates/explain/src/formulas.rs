@@ -17,11 +17,11 @@ const PAGE: &str = include_str!("../formulas.md");
 pub struct Formula {
     /// The ids and name, such as `OB-1, oblique projection by length and angle`.
     pub name: &'static str,
-    /// The abbreviations of its sources, such as `S, N`.
+    /// The abbreviations of the sources, such as `S, N`.
     marks: &'static str,
     /// The formula and its meaning, as Markdown.
     pub text: &'static str,
-    /// The command that demonstrates it; `None` if no command shows it separately.
+    /// The command that demonstrates the formula; `None` if no command does so separately.
     pub command: Option<&'static str>,
 }
 
@@ -91,7 +91,7 @@ impl Formula {
         is_id(id) && words.into_iter().any(|word| word.eq_ignore_ascii_case(id))
     }
 
-    /// Returns the titles of its sources.
+    /// Returns the titles of the formula's sources.
     pub fn sources(&self) -> impl Iterator<Item = &'static str> {
         self.marks.split(", ").filter_map(|mark| {
             let row = format!("| [{mark}] | ");

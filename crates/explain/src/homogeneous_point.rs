@@ -18,7 +18,7 @@ use homog::{Clip, HPoint, World};
 /// point with w = 0 is a direction: it is not clipped, and the divide gives its vanishing point.
 ///
 /// # Errors
-/// If all four numbers are 0, which is not a point.
+/// Returns an error if all four numbers are 0, because they do not represent a point.
 pub fn explain_homogeneous_point(
     chain: &TransformChain,
     point: HPoint<World>,

@@ -83,8 +83,8 @@ fn matrix_html<const N: usize>(rows: &[[f64; N]; N]) -> String {
 
 /// Escapes text for HTML content and attribute values.
 ///
-/// The ampersand comes first, or it would escape the other entities. Node and model names come from
-/// files and can contain any character.
+/// The ampersand is replaced first; otherwise, the other entities would be escaped again. Node and
+/// model names come from files and can contain any character.
 fn escape_html(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -12,7 +12,7 @@ use serde_json::{Value as Json, json};
 
 /// The name of the schema.
 ///
-/// Consumers check it before they read anything else; the program also writes other JSON documents.
+/// Consumers check it first, because the program also writes other JSON documents.
 pub const SCHEMA_NAME: &str = "alberti-explain";
 /// The version of the schema. It increases when a member changes its meaning or is removed; new
 /// members may be added in any release.
@@ -50,7 +50,7 @@ fn step_json(step: &Step) -> Json {
 
 /// Formats an item. A matrix becomes an object with its rows.
 ///
-/// The object distinguishes a matrix from a list of coordinates without counting numbers.
+/// The object lets programs tell a matrix from a list of coordinates without counting numbers.
 fn item_json(item: &ExplanationEntry) -> Json {
     let value = match &item.value {
         ItemValue::Matrix(rows) => json!({"rows": rows}),

@@ -1,11 +1,10 @@
-//! Explains the viewing pipeline step by step for a point, segment, triangle, node, pixel or
+//! Explains the steps of the viewing pipeline for a point, segment, triangle, node, pixel or
 //! matrix.
 //!
 //! ```text
 //!  subject ─► steps, each with its formula ─► items: matrices, coordinates ─► text, JSON, HTML
 //! ```
-//! Every number comes from the same stage that renders a picture; nothing is computed differently
-//! here.
+//! Every number comes from the code that also renders pictures, so explanations match pictures.
 //!
 //! | subject | file |
 //! | --- | --- |

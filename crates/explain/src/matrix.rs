@@ -1,10 +1,10 @@
-//! Explains a matrix: its kind, its inverse, its meaning with parameters, and known misprints it
-//! resembles.
+//! Explains a matrix: its kind, its inverse, its meaning with parameters, and known misprints that
+//! it resembles.
 //!
 //! Sixteen numbers can represent several projections, each in a different convention: OpenGL's and
 //! the textbook's differ by the sign of z. The most likely reading comes first with all its
-//! parameters; others follow, one per line. A misprint is reported only if the matrix as given is
-//! less plausible; if both are equally plausible, both are listed.
+//! parameters; others follow, one per line. A misprint is reported only if the corrected matrix is
+//! more plausible; if both are equally plausible, both are listed.
 
 mod meaning;
 mod planar;
@@ -23,16 +23,16 @@ use recognition::{
 /// The maximum number of readings listed after the first.
 const OTHER_READINGS: usize = 5;
 
-/// The maximum extra cost of a reading after the first: four digits and a rare convention.
+/// The maximum extra cost of a listed reading: the cost of four digits and a rare convention.
 const LESS_LIKELY: u32 = 10;
 
 /// Explains a 4×4 matrix for column vectors.
 ///
-/// # Errors
-/// If an entry is not a finite number.
+/// The transposed matrix (for row vectors, or stored by columns and read by rows) is reported only
+/// if its reading is more likely. The report then shows the corrected matrix.
 ///
-/// The transposed matrix (row vectors, or column-major storage read by rows) is reported only if
-/// its reading is more likely, and is shown corrected.
+/// # Errors
+/// Returns an error if an entry is not a finite number.
 pub fn explain_matrix(rows: [[f64; 4]; 4]) -> Result<Explanation, String> {
     check_finite(&rows)?;
     let map = Projective::<View, Clip>::from_rows(rows);
@@ -67,7 +67,7 @@ fn corrected_reading(found: &Recognition) -> Option<(MatrixReading, &'static str
     Some((recognize(slip.remedied?).first(), title))
 }
 
-/// Names the first entry that is not a finite number, counted from 1.
+/// Returns an error that names the row and column, from 1, of the first entry that is not finite.
 fn check_finite<const N: usize>(rows: &[[f64; N]; N]) -> Result<(), String> {
     match rows.as_flattened().iter().position(|entry| !entry.is_finite()) {
         Some(at) => {
@@ -89,9 +89,9 @@ fn inverse_step(map: Projective<View, Clip>) -> Step {
     }
 }
 
-/// Returns the rows of an inverse, with 0 for rounding noise. Entries are noise if they are below
-/// the error bound of Gaussian elimination, ε |M⁻¹| |M| |M⁻¹| by entries (Higham 2002, chapter 14).
-/// So are entries so small that M M⁻¹ and M⁻¹ M are the identity without them.
+/// Returns the rows of an inverse, with 0 for rounding noise. An entry is noise if it is below the
+/// error bound of Gaussian elimination, ε |M⁻¹| |M| |M⁻¹| by entries (Higham 2002, chapter 14). It
+/// is also noise if M M⁻¹ and M⁻¹ M are the identity without it.
 #[must_use]
 pub fn without_rounding(matrix: DMat4, inverse: DMat4) -> [[f64; 4]; 4] {
     let size = |m: DMat4| DMat4::from_cols_array(&m.to_cols_array().map(f64::abs));
@@ -110,7 +110,7 @@ pub fn without_rounding(matrix: DMat4, inverse: DMat4) -> [[f64; 4]; 4] {
 /// Returns the step with the kind of map, affine or projective, and its rank and determinant.
 ///
 /// A rank below 4 means that a dimension is lost, as in a projection onto a plane. A negative
-/// determinant means that orientation is reversed, as between handednesses.
+/// determinant means that orientation is reversed, as by a change of handedness.
 fn kind_step(rows: [[f64; 4]; 4], map: Projective<View, Clip>) -> Step {
     let found = map.classify();
     Step::new("kind", "Kind of map", Some("HO-3"))
@@ -120,9 +120,9 @@ fn kind_step(rows: [[f64; 4]; 4], map: Projective<View, Clip>) -> Step {
         .with_item("determinant", "determinant", map.raw().determinant())
 }
 
-/// Returns the parts of an affine map: translation, scale of each axis, shear, handedness.
+/// Returns the parts of an affine map: translation, scale of each axis, shear and handedness.
 ///
-/// Only for matrices whose last row is a multiple of (0, 0, 0, 1). With the columns a₁, a₂, a₃ of
+/// Returns `None` unless the last row is a multiple of (0, 0, 0, 1). With the columns a₁, a₂, a₃ of
 /// the upper left 3 × 3:
 ///
 /// ```text
@@ -171,8 +171,9 @@ fn is_rigid(meaning: &MatrixMeaning) -> bool {
 
 /// Returns the step with the vanishing points of the three axes.
 ///
-/// The vanishing point of a direction d is M (d, 0): the columns of the matrix. Finite columns give
-/// one-, two- and three-point perspective (VN-1); 1e-12 is the relative tolerance on w.
+/// The vanishing point of a direction d is M (d, 0): for an axis, a column of the matrix. Columns
+/// with w ≠ 0 give one-, two- and three-point perspective (VN-1). w has a relative tolerance of
+/// 1e-12.
 fn vanishing_points_step(map: Projective<View, Clip>) -> Step {
     let points = map.principal_vanishing_points(1e-12);
     let words = |meaning: HPointKind<Clip>| match meaning {
@@ -199,7 +200,7 @@ fn other_readings_step(found: &Recognition) -> Option<Step> {
     let turned = misprint == Some(Misprint::Transposed);
     let equal = if turned { 0 } else { found.equal_readings().count() };
     let most = found.first().cost + LESS_LIKELY;
-    // Programs use rigid matrices in all three ways, regardless of their entries.
+    // Programs use any rigid matrix as a camera, a camera pose or a model transform.
     let rigid = is_rigid(&found.first().meaning);
     let told = |reading: &&MatrixReading| {
         let likely = reading.cost <= most || (rigid && is_rigid(&reading.meaning));
@@ -243,7 +244,7 @@ fn changed_entry(rows: [[f64; 4]; 4], slip: &Suspicion) -> Option<[usize; 2]> {
 /// Returns the step with a known misprint, its correction, and the meaning of the corrected matrix.
 ///
 /// The corrected matrix is shown only if the sixteen entries determine it. The first misprint has
-/// the id `misprint`, later misprints have `other_misprint`.
+/// the id `misprint`; later ones have `other_misprint`.
 fn misprint_step(at: usize, rows: [[f64; 4]; 4], slip: &Suspicion) -> Step {
     let known = slip.misprint.id().unwrap_or("unnumbered");
     let title = match (slip.misprint, slip.strength) {
@@ -270,7 +271,7 @@ fn misprint_step(at: usize, rows: [[f64; 4]; 4], slip: &Suspicion) -> Step {
         }
         _ => step,
     };
-    // The report on a corrected matrix already has its reading.
+    // If the report is on the corrected matrix, it already has its reading.
     let corrected = [Misprint::Transposed, Misprint::LastRowNegated, Misprint::WrongSign];
     let likely = slip.strength == SuspicionStrength::Likely;
     let is_read = at == 0 && likely && corrected.contains(&slip.misprint);

@@ -5,7 +5,7 @@
 //!            not in a scene       outside of a plane         away, edge-on     transparent
 //! ```
 //! A primitive is counted at the first stage that removes it. If one stage removes everything, the
-//! verdict names it and a remedy.
+//! verdict names that stage and a remedy.
 //!
 //! The stages follow pipeline order, so the count of a later stage excludes everything that an
 //! earlier one removed. Counts are exact integers; the percentage in the verdict is the only
@@ -22,7 +22,7 @@ use model::ModelInstance;
 use model::{AlphaMode, MeshInstance, Model, Primitive, Topology};
 
 /// Counts the primitives of a node's mesh by the stage that removes them: view volume, back-face
-/// culling, transparency.
+/// culling or transparency.
 ///
 /// Occlusion by other surfaces is not tested: it comes after all of these stages.
 ///
@@ -62,7 +62,7 @@ pub fn explain_node(
 fn tree_step(model: &Model, node: usize) -> Step {
     let mut path = Vec::new();
     let mut above = Some(node);
-    // The importer refuses cycles, so this terminates.
+    // The importer rejects cycles, so this loop terminates.
     while let Some(at) = above {
         path.push(describe_node(model, at));
         above = model.nodes.get(at).and_then(|node| node.parent);
@@ -85,8 +85,8 @@ fn tree_step(model: &Model, node: usize) -> Step {
 
 /// Explains why a node has no visible mesh.
 ///
-/// Three causes: the index is out of range, the node has no mesh (a group, joint, light or camera),
-/// or the node is outside the drawn scene.
+/// The index is out of range, the node has no mesh (a group, joint, light or camera), or the mesh
+/// is outside the drawn scene or has no instances.
 fn explain_absence(model: &Model, node: usize) -> String {
     match model.nodes.get(node) {
         None => "The node does not exist.".to_owned(),
@@ -104,16 +104,14 @@ fn explain_absence(model: &Model, node: usize) -> String {
 /// The number of points, lines and triangles by the stage that removes them.
 #[derive(Default)]
 struct PrimitiveCounts {
-    /// The axis-aligned bounding box in world space: minimum and maximum corners; `None` without
-    /// vertices.
+    /// The minimum and maximum corners of the bounding box in world space; `None` without vertices.
     bounds: Option<[DVec3; 2]>,
     /// The view volume planes that all vertices are outside of: the AND of all outcodes. Each of
     /// these planes rejects the whole mesh, which suggests the simplest remedy.
     common_outcode: Option<Outcode>,
     /// All points, lines and triangles of the node's mesh.
     total: usize,
-    /// Trivially rejected primitives, by the first plane that rejects them; one count for each of
-    /// the six.
+    /// Trivially rejected primitives, by the first of the six planes that rejects them.
     outside: [usize; 6],
     /// Back faces culled because their material is single-sided.
     back_facing: usize,
@@ -128,8 +126,8 @@ struct PrimitiveCounts {
 impl PrimitiveCounts {
     /// Counts all points, lines and triangles of a primitive.
     ///
-    /// Positions are skinned, mapped to world and clip space in f64, then assembled by topology. A
-    /// transform with a negative determinant mirrors the mesh: triangles that were counterclockwise
+    /// Positions are skinned, mapped to world and clip space in f64, and assembled by topology. A
+    /// negative determinant of the transform mirrors the mesh: triangles that were counterclockwise
     /// appear clockwise, so the opposite side is culled, as the glTF specification requires.
     fn count_primitive(
         &mut self,
@@ -167,12 +165,12 @@ impl PrimitiveCounts {
         self.bounds = Some([least.min(point), most.max(point)]);
     }
 
-    /// Counts one point, line or triangle. `culled` returns whether front faces (`true`) or back
-    /// faces (`false`) are culled.
+    /// Counts one point, line or triangle. `culled` takes `true` for a front face or `false` for a
+    /// back face and returns whether that face is culled.
     ///
-    /// The tests in order: trivial rejection (the AND of the vertices' outcodes is not 0), facing
-    /// (edge-on if the area is 0), culling, alpha. A primitive outside several planes is counted at
-    /// the first of them, so that the counts add up to the total.
+    /// The tests are, in order: trivial rejection (the AND of the vertices' outcodes is not 0),
+    /// facing (edge-on if the area is 0), culling, alpha. A primitive outside several planes is
+    /// counted at the first of them, so that the counts add up to the total.
     fn classify_primitive(
         &mut self,
         chain: &TransformChain,
@@ -215,7 +213,7 @@ impl PrimitiveCounts {
         };
         let common = self.common_outcode.unwrap_or(Outcode::INSIDE);
         step.with_item("least", "minimum x, y, z in world space", min.to_array())
-            .with_item("most", "greatest x, y, z", most.to_array())
+            .with_item("most", "maximum x, y, z", most.to_array())
             .with_item("outside", "the whole mesh is", describe_outcode(common))
     }
 
@@ -241,7 +239,7 @@ impl PrimitiveCounts {
     /// States the result in a sentence: the stage that removes everything, or the visible fraction.
     ///
     /// The first condition that explains everything wins: an empty mesh, one plane that rejects
-    /// all, a visible remainder, culling, alpha. A mesh that is rejected partly by one plane and
+    /// all, a visible remainder, culling, or alpha. A mesh that is rejected partly by one plane and
     /// partly by another has no single cause.
     fn verdict(&self) -> String {
         let common = self.common_outcode.unwrap_or(Outcode::INSIDE);

@@ -2,8 +2,7 @@
 //! surface point.
 //!
 //! The fragments come from the renderer itself ([`inspect_pixel`]): the pixel is rendered again
-//! with a recording surface. Several fragments mean an edge within the pixel, or translucent
-//! layers.
+//! with a recording surface. Several fragments mean an edge in the pixel or translucent layers.
 //!
 //! ```text
 //!  pixel (x, y) ─► fragments: primitive, barycentric weights, linear color ─► resolve ─► sRGB
@@ -21,11 +20,11 @@ use scene::Scene;
 
 /// Explains the color of a pixel; x and y count from the upper left corner.
 ///
-/// # Errors
-/// If there is no such pixel, or the picture has no shaded pixels; the message says which.
-///
 /// The nearest fragment is the one with the largest depth in the pipeline's own volume, independent
 /// of the conventions of `chain`: reversed or flipped depth would otherwise select the farthest.
+///
+/// # Errors
+/// Returns an error if there is no such pixel or if the picture has no shaded pixels.
 pub fn explain_pixel(
     chain: &TransformChain,
     scene: &Scene,
@@ -60,7 +59,7 @@ pub fn explain_pixel(
 /// Returns the step for a fragment: source primitive, weights, color and world position.
 ///
 /// A fragment without a source comes from the environment, backdrop or ground and has no position.
-/// Its color is linear RGB, premultiplied by alpha.
+/// The color is linear RGB, premultiplied by alpha.
 fn fragment_step(scene: &Scene, at: usize, seen: &ShadedFragment) -> Step {
     let title = match seen.source {
         Some(owner) => format!("Visible: {}", source_name(scene, owner)),
@@ -79,7 +78,7 @@ fn fragment_step(scene: &Scene, at: usize, seen: &ShadedFragment) -> Step {
 /// Describes the primitive of a fragment in words.
 ///
 /// `triangle 12 of primitive 0 at node 3 of model 0`: `--triangle` and `--node` accept these
-/// indices, so you can explain that triangle or node next.
+/// indices, so a reader can ask about that triangle or node next.
 fn source_name(scene: &Scene, owner: FragmentSource) -> String {
     let FragmentSource { model, node, primitive, element: item } = owner;
     let Some(model_instance) = scene.models.get(model) else { return String::new() };
@@ -105,8 +104,8 @@ fn find_primitive(scene: &Scene, owner: FragmentSource) -> Option<&model::Primit
 /// Returns the world position of a fragment: the triangle's vertices, blended by the weights.
 ///
 /// p = w₀ p₀ + w₁ p₁ + w₂ p₂, with the vertices skinned and mapped to world space in f64. The
-/// weights are f32, so the position is exact to about 1e-7 of the triangle's size. Points and lines
-/// have no barycentric weights and give `None`.
+/// weights are f32, so the position is accurate to about 1e-7 of the triangle's size. Points and
+/// lines have no barycentric weights and give `None`.
 fn fragment_position(scene: &Scene, seen: &ShadedFragment) -> Option<Point<World>> {
     let owner = seen.source?;
     let model_instance = scene.models.get(owner.model)?;
@@ -127,7 +126,7 @@ fn fragment_position(scene: &Scene, seen: &ShadedFragment) -> Option<Point<World
 /// Returns the step with the resolved color of the pixel.
 ///
 /// Samples are averaged in linear light; an average of sRGB values would darken edges. The result
-/// has 8 bits per channel and straight alpha, as the PNG stores it.
+/// has 8 bits per channel and straight alpha, as in a PNG file.
 fn color_step(makeup: &PixelFragments) -> Step {
     let [r, g, b, alpha] = makeup.color;
     Step::new("pixel", "The pixel: samples resolved in linear light, then sRGB", Some("RA-2"))
@@ -137,7 +136,7 @@ fn color_step(makeup: &PixelFragments) -> Step {
 
 /// States the result in a sentence.
 ///
-/// Names the color in hexadecimal and the number of distinct fragments: more than one is an
+/// Names the color in hexadecimal and the number of distinct fragments: more than one means an
 /// antialiased edge or blending.
 fn pixel_verdict(makeup: &PixelFragments) -> String {
     let [r, g, b, alpha] = makeup.color;

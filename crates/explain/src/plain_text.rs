@@ -1,4 +1,4 @@
-//! An explanation as plain text: labels in a column, matrices aligned.
+//! An explanation as plain text, with labels in a column and aligned matrices.
 //!
 //! ```text
 //!  1. Camera: from the world to view space (CA-1, CA-2)
@@ -10,7 +10,7 @@
 use super::{Explanation, ExplanationEntry, ItemValue, Step};
 use std::fmt::{self, Display, Formatter};
 
-/// The width of the introduction in characters.
+/// The maximum width of the introduction in characters.
 const LINE_WIDTH: usize = 100;
 
 impl Display for Explanation {
@@ -45,9 +45,7 @@ fn write_wrapped(f: &mut Formatter<'_>, words: &str) -> fmt::Result {
     writeln!(f, "{line}")
 }
 
-/// Formats the formula ids of a step in parentheses.
-///
-/// Prints ` (CA-1, CA-2)`, or nothing for a step without a formula.
+/// The formula ids of a step, to be formatted as ` (CA-1, CA-2)`, or as nothing if it has none.
 struct FormulaSuffix<'a>(&'a Step);
 
 impl Display for FormulaSuffix<'_> {
@@ -79,7 +77,7 @@ fn write_item_text(f: &mut Formatter<'_>, item: &ExplanationEntry, width: usize)
     Ok(())
 }
 
-/// Formats a matrix with aligned columns, one row per line, and numbers as elsewhere.
+/// Formats a matrix with aligned columns, one row per line, and the numbers formatted as in lists.
 fn format_matrix<const N: usize>(rows: &[[f64; N]; N]) -> String {
     let cells = rows.map(|row| row.map(format_number));
     let width = |column: usize| cells.iter().map(|row| row[column].len()).max().unwrap_or(0);
@@ -100,7 +98,7 @@ fn format_matrix<const N: usize>(rows: &[[f64; N]; N]) -> String {
 /// The digits before the point are counted in the rounded number, so 9.9999999 becomes 10 instead
 /// of a number with eight digits. Infinities print as `inf`.
 pub(super) fn format_number(x: f64) -> String {
-    // People read −0 as 0.
+    // Turns −0 into 0.
     let x = x + 0.0;
     let size = x.abs();
     if !(size == 0.0 || (1e-4..1e9).contains(&size)) {

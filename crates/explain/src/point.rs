@@ -1,4 +1,4 @@
-//! Explains a world point or a mesh vertex: all transforms to its pixel.
+//! Explains a world point or a mesh vertex: all transforms up to its pixel.
 //!
 //! ```text
 //!  mesh ─nodes─► model ─scene─► world ─camera─► view ─projection─► clip ─÷ w─► NDC ─► pixel
@@ -14,8 +14,7 @@ use model::{MeshInstance, Model};
 
 /// Explains the transforms themselves, without a point.
 ///
-/// The camera, projection and viewport matrices are all that a program needs to repeat the
-/// projection.
+/// The camera, projection and viewport matrices are all that a program needs for the projection.
 #[must_use]
 pub fn explain_transforms(chain: &TransformChain) -> Explanation {
     let [_, screen] = chain.screen_steps(&[]);
@@ -52,11 +51,10 @@ pub struct VertexRef {
 
 /// Follows a vertex of a model through every stage, in the model's current pose.
 ///
-/// # Errors
-/// If the model does not show such a vertex; the message lists what exists.
+/// The order is morph targets, skinning, node transform and model transform, as glTF specifies.
 ///
-/// The order is morph targets, skinning, node transform, model transform, as in the glTF
-/// specification.
+/// # Errors
+/// Returns an error if the model does not show such a vertex.
 pub fn explain_vertex(
     chain: &TransformChain,
     model_instance: &ModelInstance,
@@ -145,11 +143,11 @@ pub(super) fn model_step(
 
 /// Finds the first instance of a node's mesh, and one of its primitives.
 ///
-/// # Errors
-/// If either does not exist; the message lists the existing nodes or counts the primitives.
+/// A node outside the drawn scene has no instance.
 ///
-/// A node outside the drawn scene has no instance. The message lists up to twelve nodes that have
-/// one.
+/// # Errors
+/// Returns an error if either does not exist. The message lists up to twelve nodes that have an
+/// instance, or counts the primitives.
 pub(super) fn find_shown_primitive(
     model: &Model,
     node: usize,

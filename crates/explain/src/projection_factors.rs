@@ -77,7 +77,7 @@ fn describe_projection(kind: &Decomposed) -> String {
         Decomposed::ApexMoved(_) => "perspective with its apex moved (LW-1)".to_owned(),
         Decomposed::PlacedFrustum { frustum: f, .. } => {
             let lens = format!("{}, {}", window(f.window()), depth(f.near(), f.far()));
-            format!("a camera and a perspective in one: {lens}")
+            format!("a camera and a perspective projection in one: {lens}")
         }
         Decomposed::ObliqueNear { .. } => "perspective with an oblique near plane".to_owned(),
         Decomposed::Orthographic(o) => {
@@ -99,7 +99,7 @@ fn describe_projection(kind: &Decomposed) -> String {
     }
 }
 
-/// Returns the formula ids of a projection in the pipeline's own conventions, as in the chapter.
+/// Returns the formula ids of a projection in the chapter's conventions, which the pipeline uses.
 ///
 /// For example `PE-1, PE-3, VV-2`, or `None` for a matrix that is not recognized.
 #[must_use]
@@ -111,7 +111,7 @@ pub fn formula_ids(view_to_clip: Projective<View, Clip>) -> Option<&'static str>
 /// Returns the formula ids for a kind of projection in some conventions.
 ///
 /// Perspective and orthographic matrices have separate formulas for the volumes of graphics APIs
-/// (GL-1, GL-3); the classical projections are numbered once.
+/// (GL-1, GL-3); the classical projections have the same formulas in all of them.
 fn formula_ids_of_kind(kind: &Decomposed, conventions: ApiConventions) -> Option<&'static str> {
     let chapter = conventions == ApiConventions::Alberti || conventions.is_textbook();
     match kind {

@@ -3,9 +3,9 @@
 //! ```text
 //!  p(t) = a + t (b − a) in clip space;  each plane cuts at t = d(a) / (d(a) − d(b))
 //! ```
-//! d is a plane's signed distance, such as w − x for the right plane. The visible part runs from
-//! the largest t at which the segment enters to the smallest at which it leaves (Liang and Barsky,
-//! 1984).
+//! d is the signed distance from a plane, such as w − x for the right plane. The visible part runs
+//! from the largest t at which the segment enters to the smallest at which it leaves (Liang and
+//! Barsky, 1984).
 
 use super::foreshortening::foreshortening_step;
 use super::plain_text::format_number;

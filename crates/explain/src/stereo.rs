@@ -13,7 +13,7 @@ impl Explanation {
     /// Returns the explanation with a step for the eyes of a stereo pair: left, then right.
     ///
     /// `point` is the subject, whose position in both pictures gives the parallax; without a point,
-    /// the step has the eyes and their matrices. Coordinates are in each eye's own picture.
+    /// the step has only the eyes and their matrices. Coordinates are in each eye's own picture.
     #[must_use]
     pub fn with_stereo_pair(
         mut self,

@@ -21,7 +21,7 @@ use viewport::{Viewport, ViewportError};
 
 /// Camera, projection and viewport in the conventions of a graphics API.
 ///
-/// The volume is converted once, when the chain is built; all steps then use the same convention.
+/// The projection is converted once, when the chain is built; all steps then share a convention.
 #[derive(Clone, Copy, Debug)]
 pub struct TransformChain {
     /// The camera, whose view space looks along −z.
@@ -46,12 +46,12 @@ pub(super) type NamedPoint<'a, P> = (&'a str, P);
 impl TransformChain {
     /// Creates the chain for a picture of width × height pixels.
     ///
-    /// # Errors
-    /// If the picture has no pixels.
-    ///
     /// The projection is converted from the pipeline's own volume by `Convention::convert`; in
-    /// left-handed conventions, the camera is composed with a flip of z. World to clip is their
-    /// product in f64.
+    /// left-handed conventions, the camera is composed with a flip of z. The map from world to clip
+    /// space is the product of the two in f64.
+    ///
+    /// # Errors
+    /// Returns an error if the picture has no pixels.
     pub fn new(
         view_projection: &ViewProjection,
         size: (u32, u32),
@@ -114,7 +114,7 @@ impl TransformChain {
     /// Whether a triangle shows its front, the side on which its vertices run counterclockwise;
     /// `None` if it is seen edge-on. Points and lines have no back.
     ///
-    /// Because the test comes before the divide, it needs no clipping: the sign is correct for
+    /// Because the test comes before the divide, it needs no clipping: the sign is correct even for
     /// triangles that cross the plane of the eye. A flip of y (Vulkan) and a mirrored window each
     /// invert it; two flips cancel.
     pub(super) fn is_front_facing(&self, corners: &[HPoint<Clip>]) -> Option<bool> {
@@ -166,7 +166,7 @@ impl TransformChain {
         }
     }
 
-    /// Returns the textbook's matrices, in its conventions and for the projections it covers.
+    /// Returns the textbook's matrices, for its own conventions and the projections it covers.
     fn chapter_matrices(&self) -> Option<ChapterMatrices> {
         let is_textbook = self.conventions.is_textbook();
         is_textbook.then(|| ChapterMatrices::from_projection(self.view_to_clip)).flatten()
@@ -228,8 +228,8 @@ impl TransformChain {
     /// Returns the step with the projection's factors, and the points in clip space.
     ///
     /// The formula ids depend on the kind of projection and are added with the factors. Clip
-    /// coordinates have four components; w is the distance ahead for a perspective and 1 for a
-    /// parallel projection.
+    /// coordinates have four components; w is the distance ahead for a perspective projection and 1
+    /// for a parallel one.
     pub(super) fn projection_step(&self, points: &[NamedPoint<'_, Point<World>>]) -> Step {
         let mut step = Step::new("projection", "Projection: from view to clip space", None);
         projection_factors::add_projection_factors(&mut step, self.view_to_clip, self.conventions);
@@ -261,8 +261,8 @@ impl TransformChain {
         step.add_item(id, label, <[f64; 4]>::from(clip));
     }
 
-    /// Returns the intrinsics of a perspective that looks straight ahead, with picture rows counted
-    /// from the top.
+    /// Returns the intrinsics of a perspective projection that looks straight ahead, with picture
+    /// rows counted from the top.
     fn intrinsics(&self) -> Option<Intrinsics> {
         let volume = self.conventions.canonical_volume();
         Intrinsics::from_view_to_clip(self.view_to_clip, volume, self.size).ok()
@@ -270,8 +270,8 @@ impl TransformChain {
 
     /// Returns the step with the outcodes of clip-space points.
     ///
-    /// A bit is set if the signed distance of the point from a plane is negative, such as w − x
-    /// < 0 for right (Cohen and Sutherland). The bits are printed in binary and as plane names.
+    /// A bit is set if the signed distance of the point from a plane is negative, such as w − x for
+    /// the right plane (Cohen and Sutherland). Bits are printed in binary and as plane names.
     pub(super) fn outcode_step(&self, points: &[NamedPoint<'_, HPoint<Clip>>]) -> Step {
         let mut step =
             Step::new("outcodes", "Outcodes: the planes each point is outside", Some("CL-1"));
@@ -290,8 +290,8 @@ impl TransformChain {
     /// Divides clip-space points by w and maps them to the viewport.
     ///
     /// Returns the divide step and the viewport step. A point at infinity appears only in the
-    /// first. Points outside the volume are mapped too: their coordinates show how far outside they
-    /// are. Depth is 0 … 1; the conventions determine its direction.
+    /// divide step. Points outside the volume are mapped too: their coordinates show how far
+    /// outside they are. The conventions determine the range and direction of depth.
     pub(super) fn screen_steps(&self, points: &[NamedPoint<'_, HPoint<Clip>>]) -> [Step; 2] {
         let mut divide = Step::new("divide", "The divide by w", Some("HO-1"));
         let mut screen = Step::new(
@@ -344,8 +344,8 @@ impl TransformChain {
 
     /// Describes the pixel in words: column and row from the top, as in image files.
     ///
-    /// These are the floors of the coordinates relative to the image border; for points outside the
-    /// picture, the column or row is negative or beyond the last.
+    /// The numbers are the floors of the coordinates relative to the image border; for points
+    /// outside the picture, the column or row is negative or beyond the last.
     fn describe_pixel(&self, [x, y, _]: [f64; 3]) -> String {
         let pixels = self.viewport.convention();
         let (border, height) = (pixels.centers.image_border(), self.viewport.area().height());
@@ -367,8 +367,8 @@ impl TransformChain {
 
 /// Returns the item for a point whose w is 0.
 ///
-/// It has the id of the NDC coordinates but contains text, because a direction or a point in the
-/// plane of the eye has no image.
+/// The item has the id of the NDC coordinates but contains text, because a direction or a point in
+/// the plane of the eye has no image.
 fn infinity_item(name: &str) -> ExplanationEntry {
     let words = "w is 0: the point is at infinity and has no screen position";
     ExplanationEntry {

@@ -1,4 +1,4 @@
-//! Explains a triangle: clipping planes, the clipped polygon, its area and winding (CL-3, RA-1).
+//! Explains a triangle: how it is clipped, and its area and winding on the screen (CL-3, RA-1).
 //!
 //! Clipping cuts the triangle at each plane in turn (Sutherland and Hodgman, 1974), in homogeneous
 //! coordinates before the divide. A vertex of the result is a blend of a, b and c; attributes are
@@ -21,11 +21,12 @@ use model::Topology;
 
 /// Follows a triangle of a model through every stage.
 ///
-/// # Errors
-/// If the model does not show such a triangle; the message lists what exists.
-///
 /// Vertices keep the labels a, b, c through the transforms; vertices of the clipped polygon are
-/// numbered from 1. The area is measured for the visible part in square pixels, before sampling.
+/// numbered from 1. The area of the visible part is measured in square pixels, before sampling.
+///
+/// # Errors
+/// Returns an error if the model does not show such a triangle. The message lists the shown nodes
+/// or counts the primitives or triangles.
 pub fn explain_triangle(
     chain: &TransformChain,
     model_instance: &ModelInstance,
@@ -87,11 +88,10 @@ pub fn explain_triangle(
     Ok(Explanation { subject, steps, verdict })
 }
 
-/// Returns the clipping step: the planes, and the vertices of the clipped polygon with their
-/// weights.
+/// Returns the clipping step: the planes, and the clipped polygon's vertices with their weights.
 ///
 /// The weights of a vertex sum to 1 and are affine in the world, since clipping comes before the
-/// divide. The weights 1, 0, 0 mean the vertex a itself; two nonzero weights mean a cut edge.
+/// divide. The weights 1, 0, 0 mean the vertex a; two nonzero weights mean a point on an edge.
 fn clip_step(left: &ClippedPolygon) -> Step {
     let mut step = Step::new("clip", "Clipping, in homogeneous space", Some("CL-3"))
         .with_item("cut", "cut by", plane_list(left.outcomes.clipped, "no plane"))
@@ -123,8 +123,7 @@ fn plane_list(code: clip::Outcode, none: &str) -> String {
 /// Returns the signed area on the screen in pixels (shoelace formula): positive if the vertices run
 /// clockwise, with y down.
 ///
-/// A = ½ Σ (xᵢ yᵢ₊₁ − xᵢ₊₁ yᵢ). The clipped polygon is convex and has w > 0, so no vertex is
-/// skipped.
+/// A = ½ Σ (xᵢ yᵢ₊₁ − xᵢ₊₁ yᵢ). The clipped polygon is convex and has w > 0, so all vertices count.
 fn screen_area(chain: &TransformChain, left: &ClippedPolygon) -> f64 {
     let corners: Vec<DVec2> = left
         .vertices()
@@ -138,7 +137,7 @@ fn screen_area(chain: &TransformChain, left: &ClippedPolygon) -> f64 {
 
 /// Returns the step with the area and winding on the screen.
 ///
-/// The direction is described by axes instead of as clockwise, because y points up in some
+/// The direction is described by axes rather than as clockwise, because y points up in some
 /// conventions and down in others.
 fn area_step(area: f64) -> Step {
     let orientation = match area {
@@ -148,5 +147,5 @@ fn area_step(area: f64) -> Step {
     };
     Step::new("raster", "Coverage: the signed area", Some("RA-1"))
         .with_item("area", "area in pixels", area)
-        .with_item("turn", "its corners turn", orientation)
+        .with_item("turn", "the corners turn", orientation)
 }

@@ -3,7 +3,7 @@
 //! ```sh
 //! cargo run -p alberti-explorer --example answer -- scenes 'what=world&lesson=frustum&format=png' > world.png
 //! ```
-//! Further requests are answered too. Their times are written to standard error.
+//! Several requests are answered in turn. The time for each is written to standard error.
 
 use explorer::Explorer;
 use std::error::Error;

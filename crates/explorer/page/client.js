@@ -55,13 +55,13 @@ export class EngineClient {
     }
   }
 
-  /** Answers a request. @returns {Promise<{contentType: string, bytes: Uint8Array}>} */
+  /** Sends a request and returns the answer. @returns {Promise<{contentType: string, bytes: Uint8Array}>} */
   async ask(query) {
     await this.start();
     return this.post({ query: `${query}&lang=${currentLanguage()}` });
   }
 
-  /** Answers a request as an object. @param {string} query */
+  /** Sends a request and returns the answer as an object. @param {string} query */
   async askJson(query) {
     return JSON.parse(new TextDecoder().decode((await this.ask(query)).bytes));
   }

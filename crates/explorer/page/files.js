@@ -4,7 +4,7 @@ import { byId } from './dom.js';
 
 /** Extensions of model files. */
 const MODEL = /\.(glb|gltf|stl|obj|ply|3mf)$/i;
-/** Maximum total size in bytes of the files that a page tries to read. */
+/** Maximum total size in bytes of the files that the page tries to read. */
 const MAX_BYTES = 512 * 2 ** 20;
 
 /** Whether a file is a model. @param {string} name */
@@ -63,7 +63,7 @@ export function acceptDrops(open) {
   });
 }
 
-/** Copies text, or shows it if the clipboard is blocked. Returns whether it was copied. */
+/** Copies text, or shows it if the clipboard is blocked. Returns whether the text was copied. */
 export async function copyText(words) {
   try {
     await navigator.clipboard.writeText(words);

@@ -45,13 +45,13 @@ async function start() {
   addEventListener('hashchange', () => openLink(location.hash.slice(1)));
 }
 
-/** Returns the user's last file for a lesson that shows one. */
+/** Returns the user's last file that a lesson can show. */
 function ownFile(id) {
   const isOwn = { model: isModel, scene: isScene }[id] ?? (() => false);
   return [...(server.files ?? []), ...client.files.keys()].findLast(isOwn);
 }
 
-/** Returns the lessons of the menu. A server reads no files from the browser. */
+/** Returns the lessons in the menu. Lessons without a model are omitted if no file can be opened. */
 function offered() {
   return lessons.filter(({ id, models }) => models.length > 0 || !client.native || ownFile(id));
 }
@@ -72,7 +72,7 @@ async function openLink(link) {
     query = (await client.askJson(`${asked}&what=state&size=${SIZE.join('x')}`)).link;
   } catch (error) {
     const isMissing = error.code === 'missing_model';
-    // Without any model, the lesson says how to begin.
+    // Without any model, the text of the lesson says how to begin.
     if (!isMissing || asked.includes('model=')) showNotice(error.message, `${sentence(error.help)} ${isMissing ? '' : text('badLinkHelp')}`.trim());
     query = `v=1&lesson=${known.id}`;
   }
@@ -158,7 +158,7 @@ function showState(answer) {
   showLegend(answer);
   byId('depth').alt = text('depthLabel');
   showDepthTable(answer.depth_table);
-  // A wrong picture has no scene.
+  // No scene file describes a wrong picture.
   for (const id of ['copy-command', 'copy-scene']) byId(id).disabled = answer.scene === null;
 }
 
@@ -224,7 +224,7 @@ function updatePin() {
   });
 }
 
-/** Explains a pixel, and pins the surface there. */
+/** Explains a pixel, and pins the surface point there. */
 async function pick(pixel) {
   try {
     const query = `${state.query()}&what=pick&pixel=${pixel.join(',')}&size=${SIZE.join('x')}`;

@@ -35,7 +35,7 @@ export class Panes {
     this.frameTimes = [];
   }
 
-  /** Shows these panes and `state`, the pane of text and numbers; or none. @param {string[] | null} names */
+  /** Shows these panes and `state`, the pane of text and numbers; `null` shows none. @param {string[] | null} names */
   select(names) {
     this.panes = ['picture', 'state', 'world', 'volume', 'depth']
       .filter((what) => names && (what === 'state' || names.includes(what)))
@@ -147,7 +147,7 @@ const STEP = 5;
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 /**
- * Makes a canvas orbit by dragging and with the arrow keys.
+ * Lets the view in a canvas be orbited by dragging or with the arrow keys.
  * @param {HTMLCanvasElement} canvas
  * @param {{angles: () => number[], turn: (angles: number[]) => void}} orbit angles in degrees: azimuth, elevation
  */

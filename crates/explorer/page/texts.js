@@ -33,7 +33,7 @@ const TEXTS = {
     'To begin, choose a file below or drop it on the page.',
     '请先在下面选择文件，或将文件拖到页面上。',
   ],
-  startNative: ['To begin, start the program with it: `alberti explore --native MODEL`.', '请先用它启动程序：`alberti explore --native MODEL`。'],
+  startNative: ['To begin, start the program with a file: `alberti explore --native MODEL`.', '请先用它启动程序：`alberti explore --native MODEL`。'],
   picture: ['Picture', '图像'],
   pictureLabel: ['Picture from the camera', '相机所见的图像'],
   pictureHint: [
@@ -59,13 +59,13 @@ const TEXTS = {
   copyByHand: ['Copy this text', '请复制以下文字'],
   cursorAt: ['pixel {0}, {1}', '像素 {0}, {1}'],
   footer: [
-    'This page runs the same code as the program, so a saved picture has the same bytes.',
+    'This page runs the same code as the program, so saved pictures are identical, byte for byte.',
     '此处一切均由 Alberti 计算，与命令行程序使用同一代码：保存的图像逐字节相同。',
   ],
   native: ['Computed by the server.', '由服务器计算。'],
   noModel: ['None of these files is a model.', '这些文件中没有模型。'],
   noModelHelp: ['Choose a .glb, .gltf, .stl, .obj, .ply, .3mf or .ron file.', '请选择 .glb、.gltf、.stl、.obj、.ply、.3mf 或 .ron 文件。'],
-  hugeModel: ['{0} is larger than {1} MB.', '{0} 大于 {1} MB。'],
+  hugeModel: ['{0} and its files exceed {1} MB.', '{0} 大于 {1} MB。'],
   hugeModelHelp: ['Run the program instead: `alberti explore --native MODEL`.', '请使用程序：`alberti explore --native MODEL`。'],
   died: ['The computation stopped: {0}', '计算中止：{0}'],
   diedHelp: [

@@ -15,17 +15,18 @@ use serde_json::{Value as Json, json};
 const CURVE_INK: Ink = [26, 86, 176];
 const MODEL_INK: Ink = [230, 159, 0];
 
-/// The page, and the upper left corner and size of the chart, in millimeters.
+/// The size of the page in millimeters.
 const PAGE_SIZE: DVec2 = DVec2::new(150.0, 84.0);
+/// The upper left corner of the chart in millimeters.
 const CHART_CORNER: DVec2 = DVec2::new(16.0, 12.0);
 const CHART_SIZE: DVec2 = DVec2::new(126.0, 56.0);
 
 const SAMPLES: u32 = 400;
 
-/// Draws the curve as SVG.
+/// Draws the curve of depth against distance as SVG.
 ///
 /// # Errors
-/// If the view volume has no far plane.
+/// Returns an error if the view volume lacks a near or a far plane.
 pub(crate) fn depth_svg(
     facts: &Facts,
     conventions: ApiConventions,
@@ -77,7 +78,7 @@ pub(crate) fn depth_svg(
     Ok(page.to_svg())
 }
 
-/// Returns the NDC depth of a distance in these conventions.
+/// Returns the NDC depth at a distance in these conventions.
 fn depth_in(facts: &Facts, conventions: ApiConventions, distance: f64) -> Option<f64> {
     let own = facts.depth_at(distance)?;
     Some(match conventions {

@@ -36,7 +36,7 @@ impl ExplorerError {
         Self::new("invalid_scene", error.to_string(), RESET)
     }
 
-    /// Turns this error into an error about the user's own model if it mentions that file.
+    /// Makes this an error about the user's model if the message begins with the name of its file.
     pub(crate) fn about_model(self, name: &str) -> Self {
         let is_of_model = !name.is_empty() && self.message.starts_with(&format!("{name}: "));
         match is_of_model {

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! answer ─► answer_text: entries ─► expression: numbers, for several values of the letters
-//!                                     └─► entries: the crates' answer? else a mistake's? else where?
+//!                                     └─► entries: right, a known mistake, or wrong in some places
 //! ```
 //! Exercises 1 to 11 come from the textbook's chapter; 12 to 24 were written for this project. The
 //! crates compute the correct answers. Formulas are compared by value, so every notation is
@@ -55,7 +55,7 @@ pub struct Exercise {
     multiples: Multiples,
     /// Sample values of the symbols; an answer is compared for each sample.
     samples: &'static [&'static [f64]],
-    /// Returns the correct answer for values of the symbols, or `None` if it does not exist.
+    /// Computes the correct answer for values of the symbols; `None` if there is none.
     answer: fn(&[f64]) -> Option<Entries>,
 }
 
@@ -120,8 +120,7 @@ impl Exercise {
     /// Numbers may differ by up to 1e-9 of an entry's value.
     ///
     /// # Errors
-    /// If the text is not an answer because it contains other symbols or the wrong number of
-    /// entries.
+    /// Returns an error if the text contains other symbols or has the wrong number of entries.
     pub fn check(&'static self, answer: &str) -> Result<Verdict, AnswerError> {
         let rows = split_answer(answer, self.shape)?;
         if let Some(mistake) = self.mistakes.iter().find(|mistake| mistake.is_written_in(&rows)) {
@@ -200,7 +199,8 @@ impl Exercise {
         ))
     }
 
-    /// Returns `l*nx` if an answer without commas has too many entries in a row because of `l nx`.
+    /// Returns a product such as `l*nx` if an answer without commas has too many entries in a row
+    /// because it was written as `l nx`.
     fn product_between_blanks(&self, rows: &[Vec<String>], answer: &str) -> Option<String> {
         if answer.contains([',', '，', '、']) {
             return None;

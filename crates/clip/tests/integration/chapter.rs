@@ -1,7 +1,7 @@
-//! Clipping as the sources describe it, with their misprints and pitfalls.
+//! Clipping as described in the sources, including their misprints and pitfalls.
 //!
-//! The projection is the chapter's projection in its form with w > 0 (PE-3), for n = −1, f = −9 and
-//! the window [−1, 1]²: w = −z, near maps to depth 1, and far maps to −1.
+//! The projection is the chapter's, in its form with w > 0 (PE-3), for n = −1, f = −9 and the
+//! window [−1, 1]². Then w = −z, near maps to depth 1, and far maps to depth −1.
 
 use clip::{PlaneIndex, Volume, clip_point, clip_segment, clip_triangle};
 use glam::{DMat4, DVec4};
@@ -20,8 +20,8 @@ fn seen(x: f64, y: f64, z: f64) -> HPoint<Clip> {
     view_to_clip().transform_point(Point::new(x, y, z))
 }
 
-/// M28, C54: clipping is against −w ≤ x, y, z ≤ w, before the division. In the cube after the
-/// division, a point behind the eye looks visible.
+/// M28, C54: points are clipped to −w ≤ x, y, z ≤ w before the division. After it, a point behind
+/// the eye can be in the cube and look visible.
 #[test]
 fn misprint_m28_the_cube_exists_only_after_the_division() {
     let behind = seen(0.1, 0.1, 5.0);
@@ -33,15 +33,18 @@ fn misprint_m28_the_cube_exists_only_after_the_division() {
     assert!(ahead.x() > 1.0 && clip_point(ahead, &Volume::CHAPTER).is_some());
 }
 
-/// C36, PL-2: a segment through the plane of the eye is torn apart by the divide. Drawn between its
-/// divided ends, it covers exactly the part that is not visible; clipped first, it ends where it
-/// leaves the view.
+/// C36, PL-2: the division tears apart a segment through the eye plane. Drawn between its divided
+/// endpoints, it covers exactly the part that is not visible. If it is clipped first, it ends where
+/// it leaves the view.
 #[test]
 fn a_segment_that_passes_the_eye_ends_at_the_border_of_the_view() {
     // On the floor, from three meters ahead to three meters behind.
     let (ahead, behind) = (seen(0.5, -1.0, -3.0), seen(0.5, -1.0, 3.0));
     let [p, q] = [ahead, behind].map(|end| end.divide().expect("w is not 0"));
-    assert!(p.y() < 0.0 && q.y() > 0.0, "floor before the eye plane, sky behind it: {p:?} {q:?}");
+    assert!(
+        p.y() < 0.0 && q.y() > 0.0,
+        "expected one end below and one above the horizon: {p:?} {q:?}"
+    );
     let visible = clip_segment(ahead, behind, &Volume::CHAPTER).expect("it starts in view");
     let end = visible.end.divide().expect("in view");
     assert_eq!((visible.start, visible.enter), (ahead, None));
@@ -58,8 +61,8 @@ fn points_on_both_sides_of_the_eye_are_far_apart_in_the_picture() {
     assert!(clip_segment(seen(0.5, 0.5, -1e-9), seen(0.5, 0.5, 1e-9), &Volume::CHAPTER).is_none());
 }
 
-/// C31, C47: clipping in four dimensions agrees with clipping in the picture. After the divide, the
-/// cut point is where the image leaves the square.
+/// C31, C47: clipping in four dimensions agrees with clipping in the picture. After the division,
+/// the cut point is where the image leaves the square.
 #[test]
 fn cuts_before_and_after_the_division_agree() {
     let (p, q) = (seen(0.0, 0.0, -2.0), seen(6.0, 2.0, -4.0));
@@ -122,8 +125,7 @@ fn lines_to_infinity_end_at_the_far_plane_or_their_vanishing_point() {
     assert_eq!((endless.end, endless.exit), (ahead, None));
 }
 
-/// Rounding may carry a crossing beyond the largest finite number if the border at k w is close to
-/// it.
+/// Rounding may push a crossing past the largest finite number if k w is close to that number.
 #[test]
 fn cuts_near_the_largest_numbers_are_finite() {
     let volume = Volume::CHAPTER.with_guard_band(9.167_783_980_303_91, 1.0).expect("allowed");

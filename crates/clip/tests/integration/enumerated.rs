@@ -1,6 +1,6 @@
 //! Exhaustive tests of small cases: triangles and segments with coordinates from five values. Two
 //! of the values are on the borders, two are outside and one is in the middle, so every way of
-//! touching, crossing and missing occurs.
+//! touching, crossing and missing the volume occurs.
 //!
 //! ```text
 //!    −2  −1   0   1   2
@@ -30,9 +30,9 @@ fn signed_area(ring: &[[f64; 2]]) -> f64 {
     ring.iter().zip(next).map(|(a, b)| (a[0] * b[1] - a[1] * b[0]) / 2.0).sum()
 }
 
-/// Returns the area of the part of a triangle in [−1, 1]², computed independently by integrating
-/// the length of its horizontal cuts. The length is linear between consecutive heights of corners
-/// and crossings, so the midpoint rule is exact.
+/// Returns the area of the part of a triangle inside [−1, 1]², computed independently by
+/// integrating the length of its horizontal cuts. The length is linear between consecutive heights
+/// of corners and crossings, so the midpoint rule is exact.
 fn area_by_cuts(corners: [[f64; 2]; 3]) -> f64 {
     let edges = [0, 1, 2].map(|i| (corners[i], corners[(i + 1) % 3]));
     let mut heights: Vec<f64> = vec![-1.0, 1.0];
@@ -77,7 +77,7 @@ fn areas_of_all_flat_triangles_match_integration() {
     assert_eq!(by_corners[1] + by_corners[2], 0);
     assert!(
         by_corners[3..7].iter().all(|&count| count > 0),
-        "expected triangles to hexagons: {by_corners:?}"
+        "expected polygons with 3, 4, 5 and 6 corners: {by_corners:?}"
     );
 }
 
@@ -105,8 +105,8 @@ fn triangles_with_one_corner_anywhere_in_4d_give_valid_polygons() {
     }
 }
 
-/// A segment is inside where all six tests pass. Nothing changes between two crossings, so testing
-/// the midpoint of each stretch is enough.
+/// A segment is inside where all six tests pass. No test changes its result between two crossings,
+/// so testing the midpoint of each stretch is enough.
 #[test]
 fn all_segments_match_midpoint_tests() {
     for n in 0..5_usize.pow(8) {
@@ -124,8 +124,8 @@ fn all_segments_match_midpoint_tests() {
                     "{p:?} {q:?}: {left:?}"
                 );
             }
-            // A segment that touches at one point has no visible stretch, and neither does a
-            // segment of length 0.
+            // A segment that touches the volume at one point has no visible stretch, and neither
+            // does a segment of length 0.
             (Some(left), ..) => assert!(left.t0 == left.t1 || p == q, "{p:?} {q:?}: {left:?}"),
             (None, first, _) => assert_eq!(first, None, "{p:?} {q:?}"),
         }

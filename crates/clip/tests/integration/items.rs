@@ -4,7 +4,7 @@ use clip::{Outcode, PlaneIndex, Volume, clip_segment};
 use glam::{DMat4, DVec4};
 use homog::{Clip, HPoint, Point, Projective, View};
 
-/// Points beyond only one border, with near at +1 as in the chapter.
+/// Points that are each beyond exactly one border, with near at +1 as in the chapter.
 const BEYOND: [([f64; 3], PlaneIndex, &str); 6] = [
     ([-1.5, 0.0, 0.0], PlaneIndex::LEFT, "left"),
     ([1.5, 0.0, 0.0], PlaneIndex::RIGHT, "right"),
@@ -19,7 +19,7 @@ fn at(p: [f64; 3], w: f64) -> HPoint<Clip> {
 }
 
 /// C4, C7, C85: six named planes bound the volume, and the coordinates of a point determine which
-/// of them it is beyond, for any w.
+/// of them it is beyond, for any w > 0.
 #[test]
 fn the_canonical_volume_has_six_named_planes() {
     let volume = Volume::CHAPTER;
@@ -40,8 +40,7 @@ fn the_canonical_volume_has_six_named_planes() {
     }
 }
 
-/// The signed distance of a point from a side of the canonical frustum, in the side's units;
-/// positive inside.
+/// The signed distance from a side of the canonical frustum, in the side's units; positive inside.
 type Side = fn([f64; 3]) -> f64;
 
 /// C87: in the canonical frustum the sides are x = ±z and y = ±z. Clipping there, before depth is

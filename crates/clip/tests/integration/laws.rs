@@ -1,7 +1,7 @@
 //! Laws of clipping, tested on random shapes: nothing is lost, nothing is added, and the order of
 //! planes and vertices does not matter.
 //!
-//! The shapes cross w = 0, are behind the eye, touch borders and extend far out. Coordinates are
+//! Shapes may cross w = 0, be behind the eye, touch borders or extend far out. Coordinates are
 //! often small integers, so ties and degenerate shapes are common.
 
 use clip::{
@@ -87,7 +87,7 @@ proptest! {
     }
 
     /// D8: an edge shared by two triangles is cut at bit-identical points, regardless of its
-    /// direction and the rest of the triangles.
+    /// direction and of the third vertices.
     #[test]
     fn shared_edges_are_watertight(
         edge in [moderate(), moderate()],
@@ -161,7 +161,7 @@ proptest! {
         prop_assert!(small <= large + 1e-12);
     }
 
-    /// The guard band changes which triangles are passed on, not the visible part.
+    /// A guard band changes how much of a triangle is passed on, but not its visible part.
     #[test]
     fn clipping_to_the_band_first_keeps_the_visible_area(corners in [place(), place(), place()], k in 1.0..16.0) {
         let band = Volume::CHAPTER.with_guard_band(k, k).expect("allowed");
@@ -179,7 +179,7 @@ proptest! {
     }
 
     #[test]
-    fn segments_are_clipped_alike_from_both_ends(p in anywhere(), q in anywhere(), volume in volume()) {
+    fn segments_are_clipped_alike_in_both_directions(p in anywhere(), q in anywhere(), volume in volume()) {
         let (there, back) = (clip_segment(p, q, &volume), clip_segment(q, p, &volume));
         prop_assert_eq!(there.is_some(), back.is_some());
         if let (Some(there), Some(back)) = (there, back) {

@@ -1,8 +1,7 @@
 //! Section cuts of closed solids: the outline closes, the volume is conserved, and the cap fills
 //! the outline.
 //!
-//! The solids are a cube, a faceted sphere, and two tori whose cuts have holes or fall into two
-//! pieces.
+//! The solids are a cube, a faceted sphere, and two tori whose sections have a hole or two pieces.
 
 use clip::{CutTriangle, Outline, cut_triangle};
 use glam::DVec3;
@@ -12,7 +11,7 @@ use std::f64::consts::TAU;
 
 type Triangle = [Point<World>; 3];
 
-/// Returns a faceted torus: a surface over a grid that is closed in both directions.
+/// Returns a faceted torus over a grid that closes in both directions.
 fn ring(around: usize, along: usize) -> Vec<Triangle> {
     let place = |i: usize, j: usize| {
         let (s, c) = libm::sincos(TAU * (i % around) as f64 / around as f64);
@@ -72,7 +71,7 @@ fn solids() -> [Vec<Triangle>; 4] {
     [cube(), sphere(), ring(24, 12), ring(5, 3)]
 }
 
-/// Returns the volume of a solid as a sum of tetrahedra with their apex at a point.
+/// Returns the volume of a solid as a sum over tetrahedra with a common apex.
 fn volume(triangles: &[Triangle], from: Point<World>) -> f64 {
     let six = |[a, b, c]: Triangle| (a - from).dot((b - from).cross(c - from));
     triangles.iter().copied().map(six).sum::<f64>() / 6.0
@@ -82,7 +81,7 @@ fn area(triangles: &[Triangle], normal: DVec3) -> f64 {
     triangles.iter().map(|[a, b, c]| (*b - *a).cross(*c - *a).raw().dot(normal) / 2.0).sum()
 }
 
-/// Returns the part on the positive side and the outline of the opening.
+/// Returns the part of a solid on the positive side of a plane, and the outline of the opening.
 fn cut(solid: &[Triangle], plane: Plane<World>) -> (Vec<Triangle>, Outline<World>) {
     let pieces: Vec<_> = solid.iter().map(|&triangle| cut_triangle(triangle, plane)).collect();
     let left = pieces.iter().flat_map(CutTriangle::triangles);
@@ -99,7 +98,10 @@ fn check(solid: &[Triangle], through: Point<World>, normal: DVec3) -> Result<(),
         let (left, outline) = cut(solid, plane);
         prop_assert!(outline.is_closed(), "open: {:?}", outline.open);
         let cap = outline.triangulate_cap(plane);
-        prop_assert!(cap.iter().all(|&t| area(&[t], -normal) > -1e-12), "a triangle is clockwise");
+        prop_assert!(
+            cap.iter().all(|&t| area(&[t], -normal) > -1e-12),
+            "a cap triangle is clockwise"
+        );
         // With the apex on the plane, the cap contributes no volume; with the apex elsewhere, it
         // must close the solid.
         let half = volume(&left, through);
@@ -115,8 +117,7 @@ fn check(solid: &[Triangle], through: Point<World>, normal: DVec3) -> Result<(),
     }
     let whole = volume(solid, through);
     prop_assert!((halves - whole).abs() < 1e-9, "the halves add up to {halves}, expected {whole}");
-    // A face in the plane serves as the cap on the side of the solid, and it coincides with the cap
-    // on the other side.
+    // A face in the plane already closes the half with the solid, so the cap areas may differ.
     let plane = Plane::through(through, Normal::from_raw(normal));
     let has_face =
         solid.iter().any(|t| t.iter().all(|&corner| plane.evaluate(corner).abs() < 1e-12));
@@ -140,14 +141,14 @@ proptest! {
     }
 }
 
-/// Planes along the axes hit corners, edges and whole faces of the solids.
+/// Planes in these special positions hit corners, edges and whole faces of the solids.
 #[test]
 fn planes_through_corners_and_edges_also_conserve_volume() {
     for solid in solids() {
         for axis in [DVec3::X, DVec3::Y, DVec3::Z, DVec3::new(0.6, 0.8, 0.0)] {
             for place in [-0.5, 0.0, 0.25, 0.5, 0.75] {
                 check(&solid, Point::from_raw(DVec3::splat(place)), axis).unwrap_or_else(|error| {
-                    panic!("through {place} along {axis}: {error}");
+                    panic!("plane through {place} with normal {axis}: {error}");
                 });
             }
         }
@@ -155,7 +156,7 @@ fn planes_through_corners_and_edges_also_conserve_volume() {
 }
 
 #[test]
-fn horizontal_torus_cuts_have_a_hole_and_vertical_cuts_two_pieces() {
+fn horizontal_torus_cuts_have_a_hole_and_vertical_cuts_have_two_pieces() {
     let ring = ring(24, 12);
     let pieces = |normal| {
         let plane = Plane::through(Point::new(0.0, 0.1, 0.05), normal);
@@ -172,7 +173,7 @@ fn horizontal_torus_cuts_have_a_hole_and_vertical_cuts_two_pieces() {
 }
 
 #[test]
-fn planes_that_miss_keep_everything_or_nothing() {
+fn planes_that_miss_the_solid_keep_everything_or_nothing() {
     let above = Plane::through(Point::new(0.0, 5.0, 0.0), Normal::new(0.0, 1.0, 0.0));
     let (left, outline) = cut(&cube(), above);
     assert!(

@@ -42,8 +42,7 @@ pub enum Spacing {
 }
 
 impl Axis {
-    /// Returns the position of a value on the axis: 0 at its start, 1 at its end, clamped to that
-    /// range.
+    /// Returns the position of a value on the axis, clamped to 0 at its start and 1 at its end.
     #[must_use]
     pub fn fraction_at(&self, value: f64) -> f64 {
         let part = match self.spacing {
@@ -65,8 +64,7 @@ impl Axis {
         }
     }
 
-    /// Returns ticks at multiples of 1, 2 or 5 · 10ⁿ, with the smallest step that gives at most
-    /// nine.
+    /// Returns ticks at multiples of 1, 2 or 5 · 10ⁿ, with the smallest step for at most nine.
     ///
     /// If the step is a fraction, values are computed as quotients: 3 / 10 has the same bits as
     /// 0.3, but 3 · 0.1 does not.
@@ -85,8 +83,7 @@ impl Axis {
             let first = libm::ceil(self.from / step - 5e-4) as i64;
             let last = libm::floor(self.to / step + 5e-4) as i64;
             if last - first < MAX_TICKS as i64 {
-                // If the step is a fraction, divides by an integer: 3 / 10 has the same bits as the
-                // literal 0.3.
+                // If the step is a fraction, divides by an integer, as explained above.
                 let value = |n: i64| match power {
                     ..0 => n as f64 * digit / power_of_ten(-power),
                     _ => n as f64 * step,
@@ -118,7 +115,7 @@ impl Axis {
     }
 }
 
-/// Returns the float nearest to a digit times a power of ten, which is the value of that literal.
+/// Returns the float nearest to a digit times a power of ten, as a decimal literal would give it.
 fn nearest_decimal(digit: f64, power: i32) -> f64 {
     format!("{digit}e{power}").parse().unwrap_or(1.0)
 }

@@ -20,11 +20,11 @@ const BORDER_GAP: f64 = 1.5;
 /// The number of sides of a ring.
 const RING_SIDES: u32 = 24;
 
-/// A component counts as zero if it is smaller than this fraction of the others.
+/// A component counts as zero if it is at most this fraction of the vector's length.
 const ZERO_TOLERANCE: f64 = 1e-12;
 
 impl PicturePlane {
-    /// Returns the horizon with its label; empty in a parallel projection, where it is at infinity.
+    /// Returns the horizon with its label; empty in a parallel projection, which has none.
     pub(super) fn horizon_layers(&self) -> Vec<Layer> {
         let Some(ends) = self.horizon_ends() else { return Vec::new() };
         let mut line = overlay_layer("horizon", "horizon", BROWN);
@@ -44,9 +44,9 @@ impl PicturePlane {
     /// Returns the points where the horizon enters and leaves the picture, from left to right.
     ///
     /// The horizon is the line through the vanishing points of x and z. In homogeneous coordinates
-    /// of the picture plane, the line through two points is their cross product (a, b, c), the line
-    /// a x + b y + c = 0. Its point nearest to the center is −c (a, b) / (a² + b²), and clipping to
-    /// the picture starts there.
+    /// of the picture plane, the line a x + b y + c = 0 through two points is their cross product
+    /// (a, b, c). Its point nearest to the center is −c (a, b) / (a² + b²), the middle of the
+    /// segment that is clipped to the picture.
     fn horizon_ends(&self) -> Option<[DVec2; 2]> {
         let [x, z] = [Vector::X, Vector::Z].map(|direction| self.project_direction(direction));
         if x.z.max(z.z) <= ZERO_TOLERANCE * x.length().max(z.length()) {

@@ -1,8 +1,8 @@
 //! Labels at world points: text beside the image of a point, with an optional leader line.
 //!
 //! ```text
-//!         ridge               offset (24, −24): up and to the right of the point, in
-//!       ╱                     pixels, to the nearest corner of the text
+//!         ridge               offset (24, −24): pixels to the right and up from the
+//!       ╱                     point to the nearest corner of the text
 //!      ●  at
 //! ```
 //!
@@ -117,7 +117,7 @@ impl PicturePlane {
         let width = lines.iter().map(Label::width).fold(0.0, f64::max);
         let pitch = LINE_PITCH * height;
         let extent = DVec2::new(width, height + pitch * lines.len().saturating_sub(1) as f64);
-        // The offset from that corner back to the upper left corner.
+        // The offset from the corner or side nearest to the point back to the upper left corner.
         let back = |offset: f64, extent: f64| match offset {
             x if x > 0.0 => 0.0,
             x if x < 0.0 => -extent,
@@ -139,8 +139,8 @@ impl PicturePlane {
     }
 }
 
-/// Adds a halo under each label to keep it legible: its characters drawn with wider strokes in a
-/// contrasting color. Other layers are unchanged.
+/// Adds a halo under each label to keep it legible: the label's characters, drawn with wider
+/// strokes in a contrasting color. Other layers are unchanged.
 #[must_use]
 pub fn with_label_halos(layers: Vec<Layer>) -> Vec<Layer> {
     let add_halo = |layer: Layer| {

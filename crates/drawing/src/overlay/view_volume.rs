@@ -8,8 +8,8 @@
 //! ```
 //!
 //! The corners of the clip-space cube are mapped back to the world by the inverse projection. Any
-//! projection can therefore be shown: an oblique projection is a sheared box, and a projection
-//! without an eye has no rays.
+//! projection can therefore be shown: the volume of an oblique projection is a sheared box, and
+//! without an eye there are no rays.
 
 use super::{LETTER_HEIGHT, PicturePlane, overlay_layer};
 use camera::ViewProjection;

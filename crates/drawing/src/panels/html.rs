@@ -41,7 +41,6 @@ impl Panels {
 ///
 /// All figures on an HTML page share one id namespace, so layer ids are prefixed with the panel id.
 fn push_figure(html: &mut String, panel: &Panel) {
-    // The panel id as a prefix makes ids unique on the page.
     let mut page = Page::new(panel.page.size, panel.title.clone(), panel.page.paper);
     page.paste_page(&panel.page, DVec2::ZERO, &format!("{}-", panel.id));
     let (id, svg, title) = (escape_markup(&panel.id), page.to_svg(), escape_markup(&panel.title));

@@ -8,7 +8,7 @@
 
 use super::{Point, Side};
 
-/// The side length of a cell in micrometers: a tenth of a 0.5 mm pen.
+/// The side length of a cell in micrometers: a tenth of the width of a 0.5 mm pen.
 const CELL: i64 = 50;
 /// The maximum number of cells in a row or column. Drawings larger than 0.4 m use larger cells.
 const MAX_CELLS: i64 = 8192;
@@ -59,7 +59,7 @@ impl Grid {
             return None;
         }
         let (run, rise) = (i128::from(high[0] - low[0]), i128::from(high[1] - low[1]));
-        // Twice the distance of the crossing from the center of the first column.
+        // Twice the distance of the crossing from the center of the first column, times `rise`.
         let along = run * i128::from(y - 2 * low[1]);
         let first = 2 * self.low[0] + self.cell;
         let ahead = i128::from(2 * low[0] - first) * rise + along;
@@ -92,7 +92,7 @@ pub(super) fn traced_border(sides: &[Side]) -> Vec<[Point; 2]> {
     border
 }
 
-/// Returns for each cell of a row whether the winding number at its center is positive.
+/// Returns, for each cell of a row, whether the winding number at its center is positive.
 fn covered_cells(grid: &Grid, active: &[&Side], row: i64) -> Vec<bool> {
     let mut changes = vec![0_i32; grid.columns + 1];
     for (ends, sign) in active {

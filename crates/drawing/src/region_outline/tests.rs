@@ -1,5 +1,5 @@
-//! Compares outlines with known areas, and winding numbers around points with the random triangles
-//! that contain the points.
+//! Compares outlines with known areas, and tests that the outlines of random triangles wind around
+//! exactly the points that the triangles cover.
 
 use super::*;
 
@@ -71,14 +71,14 @@ fn outlines_of_squares_enclose_the_area_of_their_union() {
 }
 
 #[test]
-fn narrow_gaps_are_closed() {
+fn enclosed_narrow_gaps_are_closed() {
     // A gap of one micrometer between two halves stays, because it is open at both ends.
     let halves = [
         polygon(&[[0, 0], [500, 0], [500, 1000], [0, 1000]]),
         polygon(&[[501, 0], [1000, 0], [1000, 1000], [501, 1000]]),
     ];
     assert_eq!(areas(halves.concat()).len(), 2);
-    // The same gap inside a plate.
+    // The same gap inside a plate is closed.
     let mut gap = polygon(&[[500, 100], [501, 100], [501, 900], [500, 900]]);
     gap.iter_mut().for_each(|(_, sign)| *sign = -1);
     assert_eq!(areas([square(0, 0, 1000), gap].concat()), [1_000_000]);
@@ -96,7 +96,7 @@ impl Numbers {
 }
 
 #[test]
-fn winding_numbers_match_random_triangles() {
+fn outlines_wind_around_the_points_that_triangles_cover() {
     let mut numbers = Numbers(7);
     for round in 0..60 {
         // Small grids have many coincidences; large grids have long sides.
@@ -126,7 +126,7 @@ fn winding_numbers_match_random_triangles() {
                 (0..3).map(|k| distance([wide[k], wide[(k + 1) % 3]])).fold(f64::INFINITY, f64::min)
             };
             let depth = triangles.iter().map(within).fold(f64::NEG_INFINITY, f64::max);
-            // Rounding may move a point near a side across it.
+            // Rounding may move a side across a point near it.
             if depth.abs() < 3.0 {
                 continue;
             }
@@ -154,7 +154,7 @@ fn outlines_with_too_many_crossings_are_traced_on_the_grid() {
     let sticks = (0..1000).map(|k| stick(20 * k));
     let sides = sticks.flat_map(|vertical| {
         let horizontal = vertical.map(|[x, y]| [y, x]);
-        // Reversed, because they are oriented negatively.
+        // Reversed, because swapping x and y also reverses the orientation.
         let horizontal = [horizontal[3], horizontal[2], horizontal[1], horizontal[0]];
         [polygon(&vertical), polygon(&horizontal)].concat()
     });
@@ -162,7 +162,7 @@ fn outlines_with_too_many_crossings_are_traced_on_the_grid() {
     assert!(is_traced(sides.iter().copied()));
     let loops = outline_loops(sides.into_iter());
     let area: i64 = loops.iter().map(|line| doubled_area(line) / 2).sum();
-    // The sticks and gaps are finer than the grid, so only the samples count.
+    // The sticks and gaps are finer than the grid, so the area depends on the samples.
     assert!(area > 200_000_000 && area <= 441_000_000, "{area}");
     assert!(loops.iter().all(|line| line.closed && line.points.len() >= 4));
     // A square between two grid steps keeps its size to within a cell.

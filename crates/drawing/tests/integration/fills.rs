@@ -45,7 +45,7 @@ fn area(fills: &[Polyline]) -> f64 {
 #[test]
 fn grays_fill_the_visible_part_of_each_material() {
     let cube = cuboid_mesh([-1.0; 3], [1.0; 3]);
-    // Its image covers a quarter unit at the lower left corner of the cube's front.
+    // Its image covers a quarter of a square unit at the lower left of the cube's front.
     let plate = quad_mesh([[-0.5, -0.5, 3.0], [0.5, -0.5, 3.0], [0.5, 0.5, 3.0], [-0.5, 0.5, 3.0]]);
     let model = colored_model(vec![(cube, [0.8; 3]), (plate, [0.0, 0.0, 0.1])]);
     let page = page(&drawing_scene(model, oblique_view()), FaceFill::Gray);
@@ -64,7 +64,7 @@ fn grays_fill_the_visible_part_of_each_material() {
 }
 
 #[test]
-fn cuts_stay_blank_under_grays() {
+fn cuts_stay_blank_in_gray_fills() {
     let model = colored_model(vec![(cuboid_mesh([-1.0; 3], [1.0; 3]), [0.5; 3])]);
     let cut = Plane::through(Point::new(0.0, 0.0, 0.0), Normal::new(0.0, 0.0, -1.0));
     let scene = TestScene { sections: vec![cut], ..drawing_scene(model, oblique_view()) };

@@ -6,7 +6,7 @@ use hidden_line::EdgeClass;
 use model::{Material, Model, Primitive};
 use std::f64::consts::TAU;
 
-/// Returns a front view through the window.
+/// Returns a drawing of the front view through the window.
 fn draw_front(model: Model, style: &LineStyle) -> Drawing {
     let scene = drawing_scene(model, view_projection(window_projection()));
     let (options, fill) = (style.to_draw_options(), style.to_fill_options());
@@ -126,7 +126,7 @@ fn the_silhouette_style_draws_only_the_outline() {
     // 1.
     let expected = (16.0 - 2.0 + 4.0) * 100.0 * page::MILLIMETERS_PER_PIXEL;
     assert!((length - expected).abs() < 0.01, "{length} {expected}");
-    // The small box, and the sides of the third box in front of the large one.
+    // Contours also include the small box and the sides of the third box in front of the large one.
     let within = length_in(LineStyle::CONTOURS) - expected;
     assert!((within - 8.0 * 100.0 * page::MILLIMETERS_PER_PIXEL).abs() < 0.01, "{within}");
 }

@@ -83,20 +83,22 @@ fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
     Some(match meaning {
         MatrixMeaning::Perspective { frustum: f, .. } => {
             format!(
-                "a perspective: {}, {}",
+                "a perspective projection: {}, {}",
                 window_words(f.window()),
                 depth_words(f.near(), f.far())
             )
         }
         MatrixMeaning::InversePerspective { frustum: f, .. } => {
             let (window, depth) = (window_words(f.window()), depth_words(f.near(), f.far()));
-            format!("the inverse of a perspective: {window}, {depth}")
+            format!("the inverse of a perspective projection: {window}, {depth}")
         }
         MatrixMeaning::ApexMoved { frustum: f, .. } => {
             let (window, depth) = (window_words(f.window()), depth_words(f.near(), f.far()));
             format!("the lesson's perspective with its apex moved (LW-1): {window}, {depth}")
         }
-        MatrixMeaning::ObliqueNear { .. } => "a perspective with an oblique near plane".to_owned(),
+        MatrixMeaning::ObliqueNear { .. } => {
+            "a perspective projection with an oblique near plane".to_owned()
+        }
         MatrixMeaning::Orthographic { volume: o, .. } => {
             format!(
                 "orthographic: {}, {}",
@@ -108,7 +110,9 @@ fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
             let (window, depth) = (window_words(f.window()), depth_words(f.near(), f.far()));
             let world = world_words(meaning);
             let camera = camera_words(camera);
-            format!("a camera and a perspective in one{world}: {camera}, {window}, {depth}")
+            format!(
+                "a camera and a perspective projection in one{world}: {camera}, {window}, {depth}"
+            )
         }
         MatrixMeaning::PerspectiveToPixels {
             size,
@@ -120,8 +124,10 @@ fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
         } => {
             let (window, depth) = (window_words(f.window()), depth_words(f.near(), f.far()));
             let first = match camera {
-                Some(camera) => format!("a camera ({}), a perspective", camera_words(camera)),
-                None => "a perspective".to_owned(),
+                Some(camera) => {
+                    format!("a camera ({}), a perspective projection", camera_words(camera))
+                }
+                None => "a perspective projection".to_owned(),
             };
             let viewport = image_words(*size, "", *y_down, *integer_centers);
             format!("{first} and a viewport in one: {window}, {depth}, {viewport}")
@@ -308,7 +314,7 @@ fn add_parameters(step: Step, meaning: &MatrixMeaning) -> Step {
         MatrixMeaning::ModelTransform { translation, axis, angle_degrees, scale } => step
             .with_item("scale", "scale, applied first", *scale)
             .with_item("axis", "axis of the rotation", *axis)
-            .with_item("angle", "its angle, degrees", *angle_degrees)
+            .with_item("angle", "angle of the rotation, degrees", *angle_degrees)
             .with_item("translation", "translation", *translation),
         MatrixMeaning::NPoint { projection, .. } => match projection.eye().divide() {
             Some(eye) => step.with_item("eye", "eye", <[f64; 3]>::from(eye)),
@@ -413,7 +419,7 @@ fn add_lens(step: Step, lens: &Lens, convention: Convention) -> Step {
 fn add_oblique(step: Step, oblique: &Oblique) -> Step {
     let phi = oblique.phi().to_degrees();
     step.with_item("length", "drawn length of a unit of depth", oblique.length())
-        .with_item("angle", "its angle, degrees, for z toward the viewer", phi)
+        .with_item("angle", "angle of the depth axis, degrees, for z toward the viewer", phi)
         .with_item("projectors", "projectors to plane, degrees", oblique.alpha().to_degrees())
         .with_item("plane", "plane z", oblique.plane_z())
 }

@@ -13,7 +13,7 @@ const OTHER_READINGS: usize = 3;
 /// Explains a 3×3 matrix for column vectors (x, y, w).
 ///
 /// # Errors
-/// If an entry is not a finite number.
+/// Returns an error if an entry is not a finite number.
 pub fn explain_planar_matrix(rows: [[f64; 3]; 3]) -> Result<Explanation, String> {
     check_finite(&rows)?;
     let map = Homography::from_rows(rows);
@@ -51,7 +51,7 @@ pub fn explain_planar_matrix(rows: [[f64; 3]; 3]) -> Result<Explanation, String>
     Ok(Explanation { subject: "A 3 × 3 matrix for column vectors".to_owned(), steps, verdict })
 }
 
-/// Returns the images of the unit square's corners, and the line that maps to infinity.
+/// Returns the step with the images of the unit square's corners.
 fn points_step(map: Homography) -> Step {
     let image = |x: f64, y: f64| match map.transform_point(HPoint2::from_xy(x, y)).divide() {
         Some([x, y]) => format!("({}, {})", format_number(x), format_number(y)),

@@ -51,7 +51,10 @@ fn c3_c84_c101_a_point_passes_model_view_projection_divide_and_viewport_in_this_
     let by_product = scene.view_projection.world_to_clip().transform_point(corner);
     assert!((by_factors.raw() - by_product.raw()).abs().max_element() < 1e-12);
     let [x, y] = pixel_position(&scene, Point::new(1.0, 2.0, 3.0));
-    assert!((x - 160.0).abs() < 1e-9 && (y - 100.0).abs() < 1e-9, "the target is in the center");
+    assert!(
+        (x - 160.0).abs() < 1e-9 && (y - 100.0).abs() < 1e-9,
+        "the target should be in the center"
+    );
 }
 
 #[test]
@@ -103,8 +106,8 @@ fn c35_an_off_axis_ball_is_drawn_as_an_ellipse() {
          image: (size: (1600, 400), background: Color(\"#fff\"), samples: 16))",
     );
     let picture = render_scene(&scene);
-    // The outermost ball: 4.5 to the right and 4 ahead, radius ½; θ off the axis, with a cone of
-    // half-angle α.
+    // The outermost ball: 4.5 to the right and 4 ahead, radius ½. It is seen at the angle θ off the
+    // axis, within a cone of half-angle α.
     let (x, ahead): (f64, f64) = (4.5, 4.0);
     let theta = libm::atan2(x, ahead);
     let alpha = libm::asin(0.5 / (x * x + ahead * ahead).sqrt());

@@ -22,7 +22,7 @@ const NORMAL_INK: Ink = [26, 86, 176];
 /// The color of reversed-depth curves, which are also dashed.
 const REVERSED_INK: Ink = [179, 38, 30];
 
-/// The page in millimeters: A4 landscape, or longer for long tables.
+/// The minimum page size in millimeters: A4 landscape. Long tables make the page longer.
 const PAGE_SIZE: DVec2 = DVec2::new(297.0, 210.0);
 /// The width and height of each chart in millimeters.
 const CHART_SIZE: DVec2 = DVec2::new(150.0, 66.0);
@@ -69,9 +69,9 @@ impl DepthTable {
 
     /// Returns the two charts: depth and resolution against distance.
     ///
-    /// The depth axis is linear and contains [0, 1], or [−1, 1] for OpenGL's range. A tick marks
-    /// the distance 2FN/(F + N), up to which half of the range is used. Normal curves are solid and
-    /// reversed curves are dashed, so that the charts are readable without color.
+    /// The depth axis is linear and contains [0, 1], or [−1, 1] for OpenGL's range. A dashed line
+    /// marks the distance 2FN/(F + N), up to which half of the range is used. Normal curves are
+    /// solid and reversed curves are dashed, so that the charts are readable without color.
     fn build_charts(&self, spacing: Spacing) -> [Chart; 2] {
         let samples = self.sample_rows(spacing);
         let [from, to] = self.distance_range();
@@ -126,8 +126,8 @@ impl DepthTable {
     /// Returns densely sampled rows, evenly spaced on the distance axis.
     ///
     /// D(s) = N (E / N)^(s / samples) on a logarithmic axis, and N + (E − N) s / samples on a
-    /// linear axis. The first and last samples are exactly the planes, without the rounding error
-    /// of `exp`. Distances whose depth cannot be represented are dropped.
+    /// linear axis. The first and last samples are exactly the ends of the range, without the
+    /// rounding error of `exp`. Distances whose depth cannot be represented are dropped.
     fn sample_rows(&self, spacing: Spacing) -> Vec<DepthRow> {
         let [near, end] = self.distance_range();
         let ratio = libm::log(end) - libm::log(near);
@@ -158,9 +158,8 @@ const fn spacing_name(spacing: Spacing) -> &'static str {
 /// resolution becomes arbitrarily fine, so the finest fiftieth is omitted to keep the rest
 /// readable.
 ///
-/// Fixed point has a constant step in depth, so all of its samples count. The last sample is
-/// excluded, because there is no step at the far plane. Sorting makes this O(n log n) in the number
-/// of samples.
+/// Fixed point has a constant step in depth, so its finest steps are kept. The last sample is
+/// always excluded, because there is no step at the far plane. Sorting makes this O(n log n).
 fn step_range(samples: &[DepthRow], format: DepthFormat) -> [f64; 2] {
     let left_out = if format == DepthFormat::Float32 { 50 } else { usize::MAX };
     let before_last = samples.len().saturating_sub(1);

@@ -1,16 +1,16 @@
 //! The depth table: depth after the divide against distance, and depth resolution (C48, C68; ZP-1).
 //!
-//! A perspective keeps lines straight at the expense of depth: half of the range is used for
-//! distances from N to 2FN/(F + N). Stored depth is rounded, and therefore many large distances
-//! share one value. Floating-point numbers are finest near 0. If the far plane has depth 0
-//! (*reversed depth*), the two effects cancel.
+//! A perspective projection keeps lines straight at the expense of depth resolution: half of the
+//! range is used for distances from N to 2FN/(F + N). Stored depth is rounded, and therefore many
+//! large distances share one value. Floating-point numbers are finest near 0. If the far plane has
+//! depth 0 (*reversed depth*), the two effects cancel.
 //!
 //! ```text
 //!  depth(D) = F (D − N) / ((F − N) D)        for the range [0, 1] from near N to far F
 //!  resolution of b-bit fixed point: ΔD ≈ D² (F − N) / (F N) / (2^b − 1)
 //! ```
-//! The smallest resolved step grows with the square of the distance. Doubling N halves it, while F
-//! hardly matters beyond a few hundred N.
+//! The smallest resolved step grows with the square of the distance. Doubling N halves the step,
+//! while F hardly matters beyond a few hundred N.
 
 use super::number_format::format_short;
 use projection::{Convention, DepthCurve, DepthFormat, ProjectionError, chapter};
@@ -18,13 +18,13 @@ use std::fmt::Write as _;
 
 /// The number of rows in a table with default distances.
 ///
-/// Enough to show the shape of the curve, and few enough for a terminal.
+/// They are enough to show the shape of the curve, and few enough for a terminal.
 const DEFAULT_ROWS: u32 = 16;
 
 /// The last distance of a table with an infinite far plane, as a multiple of the near distance.
 const INFINITE_FAR_RATIO: f64 = 1e4;
 
-/// Depth against distance, in normal and reversed depth.
+/// Depth against distance, both normal and reversed.
 ///
 /// The convention is not stored: the two curves contain its depth range in both directions.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -46,21 +46,20 @@ pub struct DepthRow {
     pub distance: f64,
     /// Depth after the divide, in the range of the convention: 0 to 1, or −1 to 1.
     pub depths: [f64; 2],
-    /// Resolution: the smallest step away from the eye that changes the stored depth.
-    ///
-    /// In world units, for a depth rounded to the table's storage format.
+    /// Resolution: the smallest step away from the eye, in world units, that changes the depth in
+    /// the table's storage format.
     pub steps: [f64; 2],
 }
 
 impl DepthTable {
-    /// Creates the table of a perspective between two planes, in a convention's depth range and in
-    /// the same range reversed. `far` may be infinite.
-    ///
-    /// # Errors
-    /// Unless 0 < near < far and the format has 1 to 64 bits.
+    /// Creates the table of a perspective projection between two planes, in a convention's depth
+    /// range and in the same range reversed. `far` may be infinite.
     ///
     /// One row is computed as a test, so that planes too close together for f64 are rejected here
     /// and not halfway through a table.
+    ///
+    /// # Errors
+    /// Returns an error unless 0 < near < far and the format has 1 to 64 bits.
     pub fn new(
         near: f64,
         far: f64,
@@ -94,8 +93,8 @@ impl DepthTable {
         [self.near, end]
     }
 
-    /// Returns sixteen distances from near to far in equal ratios. The inner distances are rounded
-    /// to three digits.
+    /// Returns up to sixteen distances from near to far in equal ratios. The inner distances are
+    /// rounded to three digits.
     ///
     /// Dᵢ = N (E / N)^(i / 15). If the planes are close together, rounding can move a distance past
     /// a plane or onto its neighbor. Such distances are dropped, so there may be fewer than
@@ -118,8 +117,8 @@ impl DepthTable {
     /// Returns the depths and resolutions at a distance.
     ///
     /// # Errors
-    /// If the distance is not positive and finite, or its depth cannot be distinguished from the
-    /// next representable depth.
+    /// Returns an error if the distance is not positive and finite, or if its depth cannot be
+    /// distinguished from the next representable depth.
     pub fn row_at(&self, distance: f64) -> Result<DepthRow, ProjectionError> {
         let step = |curve: DepthCurve| curve.resolution(distance, self.format);
         let steps = [step(self.curves[0])?, step(self.curves[1])?];
@@ -128,9 +127,9 @@ impl DepthTable {
         Ok(DepthRow { distance, depths: [depth(self.curves[0])?, depth(self.curves[1])?], steps })
     }
 
-    /// Returns notes on the whole table: the planes and format, and two distances. Half of the
-    /// range is used up to one. The chapter's P moves the midpoint to the other, N + F − NF/D
-    /// (C48).
+    /// Returns notes on the whole table: the planes and format, and the distance up to which half
+    /// of the range is used. If F is finite, the last note gives the distance N + F − NF/D to which
+    /// the chapter's P moves the midpoint D (C48).
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         let format = match self.format {
@@ -307,7 +306,7 @@ mod tests {
     }
 
     #[test]
-    fn tables_have_readable_and_machine_readable_formats() {
+    fn tables_can_be_written_as_text_markdown_and_csv() {
         let table = table(1.0, 4.0, Convention::WEBGPU, DepthFormat::FixedPoint(8));
         let rows: Vec<DepthRow> = [1.0, 2.0].iter().filter_map(|&d| table.row_at(d).ok()).collect();
         assert_eq!(rows.len(), 2);

@@ -6,9 +6,8 @@
 /// Formats a number with at most `digits` significant digits and no trailing zeros. Very small and
 /// very large numbers get an exponent.
 ///
-/// Decimal notation is used from 1e-4 up to but not including 1e6, and scientific notation
-/// otherwise. Positive infinity, which a far plane may have, is `infinite`. −∞ and NaN print as in
-/// Rust.
+/// Decimal notation is used from 1e-4 to just below 1e6, and scientific notation otherwise.
+/// Positive infinity, as of some far planes, prints as `infinite`. −∞ and NaN print as in Rust.
 pub(super) fn format_short(x: f64, digits: usize) -> String {
     if !x.is_finite() {
         return if x > 0.0 { "infinite".to_owned() } else { format!("{x}") };

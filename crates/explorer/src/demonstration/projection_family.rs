@@ -2,8 +2,8 @@
 //! measurements.
 //!
 //! The measurements come from the matrix, not from the name. They are the lengths and directions of
-//! the axes in a parallel projection (C76, C77) and the vanishing points of a perspective (C80,
-//! C81).
+//! the axes in a parallel projection (C76, C77) and the vanishing points of a perspective
+//! projection (C80, C81).
 //!
 //! ```text
 //!  planar ─┬─ parallel ─┬─ orthographic: multiview, isometric, dimetric, trimetric
@@ -50,11 +50,11 @@ pub struct NamedProjection {
 /// Draws the models in each projection, from its default viewpoint; the scene's camera is ignored.
 /// The number of threads does not change the panels.
 ///
-/// # Errors
-/// If the scene cannot be resolved, is empty, or the picture has no pixels.
-///
 /// The background is opaque white, like paper. Panels are in the order of `members`, and the title
 /// names the models. The scene is resolved and drawn once for each projection.
+///
+/// # Errors
+/// Returns an error if the scene cannot be resolved or is empty, or if the picture has no pixels.
 pub fn projection_panels(
     origin: &Origin,
     file: &SceneFile,
@@ -81,9 +81,9 @@ pub fn projection_panels(
 
 /// Returns the notes of a panel: class, formulas and measurements.
 ///
-/// A parallel projection gets the lengths and directions of the axes; a perspective gets its angle
-/// and vanishing points. A projection is parallel if w does not change along any axis, which can be
-/// read from the matrix even if its decomposition fails.
+/// A parallel projection gets the lengths and directions of the axes; a perspective projection gets
+/// its field of view and vanishing points. A projection is parallel if w does not change along any
+/// axis. This is known even for a matrix that cannot be decomposed.
 fn projection_notes(
     projection: &ProjectionFile,
     view_projection: &ViewProjection,
@@ -133,12 +133,12 @@ fn class_path(class: ProjectionClass) -> String {
     names.join(", ")
 }
 
-/// Returns the class of a projection, from its name or, for perspectives, from the number of
-/// vanishing points.
+/// Returns the class of a projection, from its name or, for perspective projections, from the
+/// number of vanishing points.
 ///
 /// Parallel projections in a scene file already have the name of their class. The class of a
-/// perspective depends on the camera: turning the camera changes a one-point perspective into a
-/// two-point perspective with the same lens.
+/// perspective projection depends on the camera: turning the camera changes a one-point perspective
+/// into a two-point perspective with the same lens.
 fn classify_projection(
     projection: &ProjectionFile,
     map: Projective<World, Clip>,
@@ -209,15 +209,15 @@ fn view_window(kind: &Decomposed) -> Option<ViewWindow> {
     })
 }
 
-/// Returns the length and direction of each axis unit in the picture, counterclockwise from the
-/// right.
+/// Returns the drawn length of each axis unit and its direction, counterclockwise from the right.
 ///
-/// `pixels` is the length of a unit of the picture plane. If the matrix does not determine it, the
-/// longest axis is assumed to be at full scale, as in the plan of a military projection.
+/// `pixels` is the length of a unit of the picture plane. If the matrix does not determine that
+/// length, the longest axis is assumed to be at full scale, as in the plan of a military
+/// projection.
 ///
 /// The image of an axis d is the vector M (d, 0), scaled from NDC to pixels. Its length divided by
 /// the length of a unit is the foreshortening ratio: √(2/3) = 0.816 for isometric, 1 and ½ for the
-/// receding axes of cavalier and cabinet. An axis shorter than 1e-9 is seen end-on.
+/// receding axes of cavalier and cabinet. An axis shorter than 1e-9 counts as seen end-on.
 fn describe_axes(map: Projective<World, Clip>, size: DVec2, pixels: Option<f64>) -> String {
     let images = AXES.map(|(name, axis)| {
         let image = map.transform_direction(axis);
@@ -242,7 +242,7 @@ fn describe_axes(map: Projective<World, Clip>, size: DVec2, pixels: Option<f64>)
     drawn.join(" · ")
 }
 
-/// Returns the vertical field of view of a perspective.
+/// Returns the vertical field of view of a perspective projection.
 ///
 /// The result is atan(top) − atan(bottom), which is also correct for windows off the line of sight.
 fn describe_opening_angle(slopes: Window) -> String {
@@ -278,8 +278,8 @@ mod tests {
     }
 
     /// Factors are √(2/3) in isometric, and √(8)/3 and √(2)/3 in the dimetric projection with 42°
-    /// and 7°. Depth has full and half length in cavalier and cabinet, and military keeps the plan
-    /// undistorted.
+    /// and 7°. Depth has full length in cavalier and half length in cabinet projections; military
+    /// projections keep the plan undistorted.
     #[test]
     fn parallel_projections_foreshorten_axes_as_in_the_textbooks() {
         let cases = [

@@ -35,20 +35,20 @@ pub enum SweepParameter {
     Fov,
     /// Window height of a parallel projection, with a fixed aspect ratio. Small windows magnify.
     Height,
-    /// Aspect ratio of the window. It distorts unless it matches the aspect ratio of the picture.
+    /// Aspect ratio of the window. The picture is distorted unless it has the same aspect ratio.
     Aspect,
-    /// Distance of the near plane with a fixed angle, which only affects clipping.
+    /// Distance of the near plane with a fixed angle. It affects only clipping.
     Near,
-    /// Distance of the far plane, which only affects clipping.
+    /// Distance of the far plane. It affects only clipping.
     Far,
-    /// Distance of the near plane with a fixed window on it (`glFrustum`), which changes the angle.
+    /// Distance of the near plane with a fixed window on it (`glFrustum`), to change the angle.
     Lens,
     /// Shift of the window to the right, in half widths: a lens shift.
     Shift,
     /// Distance of the eye from the center of the models along the line of sight.
     Distance,
-    /// Distance of the eye, with the angle adapted so that the center keeps its size (a dolly
-    /// zoom).
+    /// Distance of the eye, with the angle adapted so that objects at the center keep their size (a
+    /// dolly zoom).
     Dolly,
     /// Rotation of the camera about the vertical axis through the center of the models, in degrees,
     /// counterclockwise seen from above.
@@ -146,7 +146,8 @@ impl Sweep {
     /// Returns the camera and projection for each value, with a note.
     ///
     /// # Errors
-    /// If the scene's projection does not have the parameter, or a value is out of range.
+    /// Returns an error if the scene's projection lacks the parameter or if a value is out of
+    /// range.
     pub fn view_projections(
         &self,
         scene: &Scene,
@@ -160,12 +161,12 @@ impl Sweep {
 
     /// Draws the pictures side by side. The number of threads does not change them.
     ///
-    /// # Errors
-    /// As [`view_projections`](Self::view_projections), or if a picture has no pixels.
-    ///
     /// The panels have the ids `step-1`, `step-2`, … They are drawn one at a time, each with all
     /// threads. One observer is fitted to all steps, so that the view volumes can be compared
     /// between panels.
+    ///
+    /// # Errors
+    /// Fails if [`view_projections`](Self::view_projections) fails or if a picture has no pixels.
     pub fn draw_panels(&self, scene: &Scene, threads: usize) -> Result<Panels, DemonstrationError> {
         let mut scene = scene.clone();
         scene.image.background = [1.0; 4];
@@ -196,9 +197,9 @@ impl Sweep {
 
 /// Draws a picture and, below it, its view volume as seen by an observer from the side.
 ///
-/// The scene is drawn a second time from the observer's viewpoint, with the view volume of its
-/// camera as an overlay. Layer ids are prefixed with `view-` and `volume-`, so that they are unique
-/// on the common page.
+/// The scene is drawn a second time from the observer's viewpoint, with the view volume of the
+/// scene's camera as an overlay. Layer ids are prefixed with `view-` and `volume-`, so that they
+/// are unique on the common page.
 fn add_volume_panel(
     view: Panel,
     scene: &Scene,

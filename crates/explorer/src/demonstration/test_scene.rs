@@ -6,8 +6,8 @@ use std::path::Path;
 
 /// Returns the lessons' house with default settings, at a small size.
 ///
-/// It has 320 × 240 pixels and hidden lines removed, which is fast in a debug build and independent
-/// of materials and light.
+/// The picture has 320 × 240 pixels and hidden lines removed, so that drawing it is fast in a debug
+/// build and independent of materials and light.
 pub(super) fn house_scene() -> (Origin, SceneFile, Scene) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/models/house.glb");
     let (origin, mut file) = Origin::from_model_path(&path);

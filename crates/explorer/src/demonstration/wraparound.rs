@@ -59,7 +59,7 @@ const BOARD_KINDS: [(&str, &str, Ink); 3] = [
 
 /// A board of the floor: the index of its layer and its corners.
 ///
-/// It is in the plane y = 0 and measures 1 × 6 world units.
+/// The board is in the plane y = 0 and measures 1 × 6 world units.
 struct Board {
     /// Index into [`BOARD_KINDS`].
     kind: usize,
@@ -69,11 +69,11 @@ struct Board {
 
 /// Draws the floor three times: from the side, divided without clipping, and clipped first.
 ///
-/// # Errors
-/// Never in practice, because the camera and projection are constants.
-///
 /// The page depends only on the constants in this file. The notes state w and the images of two
 /// pairs of points, and the number of boards left after clipping.
+///
+/// # Errors
+/// Does not fail in practice, because the camera and projection are constants.
 pub fn wraparound_panels() -> Result<Panels, DemonstrationError> {
     let world_to_clip = world_to_clip()?;
     let boards = floor_boards();
@@ -126,8 +126,8 @@ fn floor_boards() -> Vec<Board> {
     boards
 }
 
-/// Draws the scene from the side. The camera looks to the left, so the visible part is left of the
-/// eye.
+/// Draws the scene from the side. The camera looks to the left, so the visible part is to the left
+/// of the eye.
 ///
 /// This is an orthographic view along −x at 3.2 mm per world unit, drawn directly on the page and
 /// not through the pipeline. Dashed lines show the plane of the eye and the near plane; thin lines
@@ -250,7 +250,7 @@ fn boards_panel(
 /// It reuses homogeneous segment clipping with w = 1 and z = 0. The result is `None` if the line
 /// misses the picture.
 fn clip_to_picture([a, b]: [Point<Ndc>; 2]) -> Option<Polyline> {
-    // Already divided, so w is 1 and depth is irrelevant.
+    // The points are already divided, so w is 1, and depth is irrelevant.
     let flat = |p: Point<Ndc>| HPoint::<Clip>::new(p.x(), p.y(), 0.0, 1.0);
     let visible = clip_segment(flat(a), flat(b), &Volume::CHAPTER)?;
     Polyline::through_points(
@@ -325,11 +325,11 @@ mod tests {
         assert!(torn.iter().any(|y| *y > horizon) && torn.iter().any(|y| *y < horizon));
         let behind = stroke_heights(divided, "behind");
         assert!(!behind.is_empty() && behind.iter().all(|y| *y < horizon));
-        // The boards in front are the same in both.
+        // The boards in front are below the horizon in both pictures.
         assert!(stroke_heights(divided, "ahead").iter().all(|y| *y > horizon));
     }
 
-    /// z = ±ε maps to ∓∞: x/w and y/w for w = ∓z, with the cotangent of 30° in x and y.
+    /// Near z = 0, x/w and y/w are large, because w = −z; x and y contain the cotangent of 30°.
     #[test]
     fn notes_match_the_formula() {
         let panels = wraparound_panels().expect("the panels").panels;

@@ -34,7 +34,7 @@ impl AnswerError {
     pub(super) fn unknown_name(name: &str, letters: &[&str]) -> Self {
         let known = letters.join(", ");
         let (en, zh) = if known.is_empty() {
-            ("the answer contains only numbers".to_owned(), "答案只含数字".to_owned())
+            ("the answer may contain only numbers".to_owned(), "答案只含数字".to_owned())
         } else {
             (format!("the symbols are {known}"), format!("可用的字母是 {known}"))
         };
@@ -61,8 +61,7 @@ impl AnswerError {
         )
     }
 
-    /// Reports a product after a quotient, which could be read as a factor or as part of the
-    /// divisor.
+    /// Reports an entry such as `1/n f`, where `f` may multiply the quotient or the divisor.
     pub(super) fn ambiguous_quotient(entry: &str) -> Self {
         Self::new(
             format!("`{entry}` is ambiguous: write `a/(b*c)` or `a/b*c`"),

@@ -3,7 +3,7 @@
 use super::answer_error::AnswerError;
 use super::answer_text::{AnswerShape, split_at_blanks, split_at_top, split_row};
 
-/// A list in parentheses with the text before and after it: `h (a, b, c)`, `(1, 2)/3`.
+/// A list in parentheses with the text before and after it, such as `h (a, b, c)` or `(1, 2)/3`.
 pub(super) struct FactoredList<'a> {
     text: &'a str,
     before: &'a str,
@@ -13,7 +13,7 @@ pub(super) struct FactoredList<'a> {
 
 impl<'a> FactoredList<'a> {
     /// Finds the list in text that contains exactly one list. `count` entries separated by spaces
-    /// form a list.
+    /// also form a list.
     pub(super) fn find(text: &'a str, count: usize) -> Option<Self> {
         if split_at_top(text, is_separator).len() > 1 {
             return None;
@@ -35,8 +35,8 @@ impl<'a> FactoredList<'a> {
         Some(Self { text, before: text[..begin].trim(), list, behind: text[end + 1..].trim() })
     }
 
-    /// Returns the entries, multiplied by the factors before and after the list. `count` entries
-    /// form a list.
+    /// Returns the entries, multiplied by the factors before and after the list. Without
+    /// separators, the list is split at spaces if `count` is greater than 1.
     pub(super) fn entries(&self, count: usize) -> Result<Vec<String>, AnswerError> {
         let entries = split_at_top(self.list, is_separator);
         let entries = match entries.as_slice() {
@@ -115,7 +115,7 @@ pub(super) fn split_rows(text: &str, shape: AnswerShape) -> Result<Vec<Vec<Strin
         AnswerShape::Parts(_) => text,
     };
     let count = shape.row_lengths().into_iter().max().unwrap_or(0);
-    // A factor of the whole matrix. If there is none, the parentheses are already removed.
+    // Applies a factor of the whole matrix. If there is none, `text` has no outer parentheses.
     if let Some(matrix) = FactoredList::find(text, 0)
         && (matrix.list.contains(';') || matrix.list.contains('('))
         && !(matrix.before.is_empty() && matrix.behind.is_empty())
@@ -176,7 +176,7 @@ fn without_matrix_name(text: &str) -> &str {
     }
 }
 
-/// Removes row names, if all rows have names, as in `u = …; v = …; w = …`.
+/// Removes the names of rows if all rows have names, as in `u = …; v = …; w = …`.
 fn without_row_names(rows: Vec<&str>) -> Result<Vec<&str>, AnswerError> {
     let values: Vec<&str> =
         rows.iter().filter_map(|row| Some(row.split_once('=')?.1.trim())).collect();

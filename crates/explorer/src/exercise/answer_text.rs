@@ -28,7 +28,7 @@ impl AnswerShape {
 /// Splits an answer into entries, row by row. The number of entries is not checked.
 ///
 /// # Errors
-/// If there are no entries, the answer is too long, or it contains unknown names.
+/// Returns an error if the answer is empty or too long or if it contains unknown names.
 pub(super) fn split_answer(
     text: &str,
     shape: AnswerShape,
@@ -101,7 +101,7 @@ pub(super) fn split_at_top(text: &str, separates: fn(char) -> bool) -> Vec<&str>
     pieces.map(str::trim).filter(|piece| !piece.is_empty()).collect()
 }
 
-/// Splits a row into entries, at commas or otherwise at spaces.
+/// Splits a row into entries, at commas or, if there are none, at spaces.
 pub(super) fn split_row(row: &str) -> Vec<String> {
     let entries = split_at_top(row, |c| c == ',');
     let entries = if let [only] = entries.as_slice() { split_at_blanks(only) } else { entries };
@@ -120,7 +120,7 @@ pub(super) fn split_at_blanks(row: &str) -> Vec<&str> {
         let (before, after) = (row[..at].trim_end(), row[at..].trim_start());
         let mut next = after.chars();
         let joins = match next.next() {
-            // A sign belongs to the adjacent entry.
+            // A sign without a space after it belongs to the next entry.
             Some('+' | '-') => next.next().is_none_or(char::is_whitespace),
             Some(c) => c == '°' || operator(c),
             None => true,
@@ -167,7 +167,7 @@ fn order_by_name(entries: Vec<&str>, names: &[&str]) -> Result<Vec<String>, Answ
     let unknown = |name: &str| {
         let known = names.join(", ");
         AnswerError::new(
-            format!("enter each of {known} once, such as `{} = …`; `{name}`", names[0]),
+            format!("enter each of {known} once, such as `{} = …`; see `{name}`", names[0]),
             format!("请把 {known} 各给出一次，例如 `{} = …`；`{name}`", names[0]),
         )
     };
@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn values_next_to_a_matrix_are_rejected_by_name() {
+    fn errors_name_the_values_next_to_a_matrix() {
         for text in [
             "Q = [1, 2, 3; 4, 5, 6], c = n*f",
             "1 2 3; 4 5 6; c = n*f",

@@ -18,7 +18,7 @@ pub(super) enum Multiples {
 
 /// The allowed rounding error, relative to the entry.
 pub(super) const EXACT: f64 = 1e-9;
-/// The difference up to which an answer counts as rounded by hand.
+/// The relative error up to which an answer counts as rounded by hand.
 pub(super) const ROUNDED: f64 = 2e-3;
 
 /// Whether two answers have the same number of rows with the same lengths.
@@ -26,10 +26,10 @@ pub(super) fn same_shape(a: &Entries, b: &Entries) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.len() == b.len())
 }
 
-/// Returns the positions (row and column, from 0) where an answer differs from the multiple of the
-/// expected answer with the fewest differences.
+/// Returns the positions (row and column, from 0) where an answer differs from the expected answer,
+/// or from its allowed multiple with the fewest differences.
 ///
-/// Both must have the same shape.
+/// Both answers must have the same shape.
 pub(super) fn differing_places(
     given: &Entries,
     expected: &Entries,
@@ -76,7 +76,7 @@ pub(super) fn rows_of(matrix: DMat4) -> Entries {
     matrix.transpose().to_cols_array_2d().map(Vec::from).to_vec()
 }
 
-/// Returns the rows of a 2D matrix.
+/// Returns the rows of a matrix of the plane.
 pub(super) fn planar_rows_of(matrix: DMat3) -> Entries {
     matrix.transpose().to_cols_array_2d().map(Vec::from).to_vec()
 }
@@ -102,7 +102,7 @@ mod tests {
         assert_eq!(
             places([0.0, 0.0, 0.0], Multiples::All).len(),
             3,
-            "an empty entry is not a point"
+            "the zero vector is not a point"
         );
         assert_eq!(places([3.0, 0.0, -8.0], Multiples::All).len(), 1);
     }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! sum     = product { (+ | -) product }
-//! product = { - } power { (* | /) { - } power | power }       n f = n*f, but no product behind /
+//! product = { - } power { (* | /) { - } power | power }       n f = n*f, but not after /
 //! power   = value [ ^ { - } power | ² | ³ ]
 //! value   = number [°] | letters | function ( sum ) | √ value | ( sum )
 //! ```
@@ -36,7 +36,7 @@ impl Letters<'_> {
         let mut begins: Vec<(&str, f64)> = begins
             .filter_map(|(name, value)| Some((without_name(written, name)?, *value)))
             .collect();
-        // Longest name first, so that z1z2 is not read as z and the rest.
+        // Tries longer names first, so that z1z2 is not read as z followed by 1z2.
         begins.sort_by_key(|(rest, _)| rest.len());
         begins.into_iter().find_map(|(rest, value)| Some(value * self.value(rest)?))
     }
@@ -57,7 +57,7 @@ fn without_name<'a>(written: &'a str, name: &str) -> Option<&'a str> {
 /// Evaluates an expression for these values of its symbols.
 ///
 /// # Errors
-/// If the text is not an expression or has no finite value.
+/// Returns an error if the text is not an expression or has no finite value.
 pub(super) fn evaluate(entry: &str, letters: Letters<'_>) -> Result<f64, AnswerError> {
     let characters: Vec<char> = entry.chars().collect();
     let mut parser = Parser { entry, characters: &characters, at: 0, depth: 0, letters };
@@ -72,12 +72,12 @@ pub(super) fn evaluate(entry: &str, letters: Letters<'_>) -> Result<f64, AnswerE
     let at: Vec<String> = each.map(|(name, value)| format!("{name} = {value}")).collect();
     let at = at.join(", ");
     Err(AnswerError::new(
-        format!("`{entry}` is not a finite number for {at}").trim_end().to_owned(),
+        format!("`{entry}` is not a finite number ({at})").replace(" ()", ""),
         format!("`{entry}` 不是有限数 {at}").trim_end().to_owned(),
     ))
 }
 
-/// The position in an expression that is evaluated while it is parsed.
+/// A parser that evaluates an expression while parsing it.
 struct Parser<'a> {
     entry: &'a str,
     characters: &'a [char],

@@ -50,7 +50,7 @@ fn c57_the_trace_of_a_frustum_has_the_steps_of_its_derivation() {
     };
     let [shear, scale, depth] = ["shear", "scale", "depth"].map(matrix);
     let (x, y, z) = (1.3, 0.4, -3.7);
-    // The center line of the window moves to the axis, and its sides to 45°.
+    // The shear moves the frustum's center line to the axis; the scale moves its sides to 45°.
     let sheared = shear * Point::<View>::new(x, y, z).raw().extend(1.0);
     assert!(close(&[sheared.x], &[x + z * (l + r) / (2.0 * near)]));
     assert!(close(&[sheared.y], &[y + z * (b + t) / (2.0 * near)]));
@@ -63,7 +63,7 @@ fn c57_the_trace_of_a_frustum_has_the_steps_of_its_derivation() {
     let [a, offset] = [-(far + near) / (far - near), -2.0 * far * near / (far - near)];
     assert!(close(&depth.transpose().z_axis.to_array(), &[0.0, 0.0, a, offset]));
     assert!(close(&depth.transpose().w_axis.to_array(), &[0.0, 0.0, -1.0, 0.0]));
-    // Their product is glFrustum (GL-1), written out.
+    // The product of the three is glFrustum (GL-1), written out.
     let gl = [
         [2.0 * near / (r - l), 0.0, (r + l) / (r - l), 0.0],
         [0.0, 2.0 * near / (t - b), (t + b) / (t - b), 0.0],
@@ -92,11 +92,12 @@ fn c66_the_lessons_frustum_is_the_product_of_its_five_steps() {
     assert!(close(&numbers(&explained, "view_to_clip"), eq9.as_flattened()));
     let chain = chain_of(&scene, ApiConventions::OpenGl);
     for (x, y, z) in [(1.3, 0.4, -3.7), (-1.0, -1.0, -2.0), (4.0, 5.0, -6.0)] {
-        // Step 1 moves the apex to the origin, 2 divides by the distance, 3 maps to [−1, 1].
+        // Step 1 moves the apex to the origin, step 2 divides by the distance, and step 3 maps to
+        // [−1, 1].
         let (x1, y1) = (x - f64::midpoint(l, r), y - f64::midpoint(b, t));
         let (x2, y2) = (near * x1 / -z, near * y1 / -z);
         let (x3, y3) = (2.0 * x2 / (r - l), 2.0 * y2 / (t - b));
-        // Steps 4 and 5 compute depth as c1/D + c2, which has reversed z.
+        // Steps 4 and 5 compute depth as c1/D + c2, where D = −z.
         let depth = c1 / -z + c2;
         let clip = chain.world_to_clip().transform_point(Point::new(x, y, z));
         let ndc = clip.divide().expect("ahead");
@@ -104,7 +105,7 @@ fn c66_the_lessons_frustum_is_the_product_of_its_five_steps() {
     }
 }
 
-/// The leaves of the classification tree, by their names in scene files.
+/// The leaves of the classification tree, with their names in scene files.
 const LEAVES: [(ProjectionClass, &str); 11] = [
     (ProjectionClass::Multiview, "Multiview(Front)"),
     (ProjectionClass::Isometric, "Isometric"),
@@ -129,8 +130,8 @@ fn axis_images(projection: &str) -> [HPoint<homog::Clip>; 3] {
     [Vector::X, Vector::Y, Vector::Z].map(|axis| map.transform_direction(axis))
 }
 
-/// Returns the drawn length of each axis unit, and Gauss's sum of the squares of their images as
-/// complex numbers, which is 0 only for an orthographic projection.
+/// Returns the drawn length of a unit on each axis, and Gauss's sum of the squares of the axis
+/// images as complex numbers. The sum is 0 only for an orthographic projection.
 fn drawn_lengths(images: [HPoint<homog::Clip>; 3]) -> ([f64; 3], f64) {
     let drawn = images.map(|image| DVec2::new(image.x(), image.y()));
     let square = |c: DVec2| DVec2::new(c.x * c.x - c.y * c.y, 2.0 * c.x * c.y);

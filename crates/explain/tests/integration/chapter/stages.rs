@@ -1,4 +1,4 @@
-//! Checks the stages of the pipeline one by one, and a pixel's ray against the picture.
+//! Checks the stages of the pipeline one by one, and the rays of pixels against a picture.
 
 use super::{pixel_position, render_scene, resolve_text};
 use explain::{
@@ -15,7 +15,7 @@ pub(super) fn chain_of(scene: &Scene, conventions: ApiConventions) -> TransformC
     TransformChain::new(&scene.view_projection, size, conventions).expect("a viewport")
 }
 
-/// Returns the numbers in an item.
+/// Returns the numbers in the item with this id.
 pub(super) fn numbers(explanation: &Explanation, id: &str) -> Vec<f64> {
     let mut items = explanation.steps.iter().flat_map(|step| &step.items);
     match &items.find(|item| item.id == id).expect(id).value {
@@ -32,7 +32,7 @@ pub(super) fn close(a: &[f64], b: &[f64]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12 * size)
 }
 
-/// Whether the ray hits the crate, enlarged by `margin` on all sides: the intervals between
+/// Whether the ray hits the crate, enlarged by `margin` on all sides: whether its intervals between
 /// opposite sides overlap.
 fn meets_crate(origin: [f64; 3], direction: [f64; 3], margin: f64) -> bool {
     let [low, high] = [[-0.5, 0.0, -0.5], [0.5, 1.0, 0.5]];
@@ -58,7 +58,7 @@ fn c1_pixel_rays_hit_what_the_forward_map_draws() {
         ));
         let picture = render_scene(&scene);
         let viewport = Viewport::image_for(90, 60, ClipRange::CHAPTER).expect("a viewport");
-        let to_world = scene.view_projection.world_to_clip().inverse().expect("a computer's one");
+        let to_world = scene.view_projection.world_to_clip().inverse().expect("an invertible map");
         let unprojector = viewport.unprojector(to_world);
         let mut covered = 0;
         for (x, y) in (0..60).flat_map(|y| (0..90).map(move |x| (x, y))) {
@@ -69,7 +69,7 @@ fn c1_pixel_rays_hit_what_the_forward_map_draws() {
             let gap = (back_x - center[0]).abs().max((back_y - center[1]).abs());
             assert!(
                 gap < 1e-9,
-                "{projection}: points on the ray project to {gap} pixels from the pixel"
+                "{projection}: a point on the ray projects {gap} pixels from the pixel center"
             );
             let (origin, direction): ([f64; 3], [f64; 3]) = (
                 [ray.origin.x(), ray.origin.y(), ray.origin.z()],
@@ -77,7 +77,7 @@ fn c1_pixel_rays_hit_what_the_forward_map_draws() {
             );
             let is_covered = picture.pixel(x, y).expect("a pixel")[3] > 0;
             covered += usize::from(is_covered);
-            // Corners are snapped to 1/256 pixel, so the border may differ within a pixel's width.
+            // Corners are snapped to 1/256 pixel, so coverage may differ near the border.
             if meets_crate(origin, direction, -0.004) {
                 assert!(is_covered, "{projection}: ({x}, {y}) is empty");
             }
@@ -113,7 +113,7 @@ fn c54_clipping_comes_between_the_two_steps_of_projecting() {
     // (1.25, 0.625, −2) is at these fractions of the window [−1, 3] × [−1, 2], and at depth −1.
     let (x, y) = (2.0 * 2.25 / 4.0 - 1.0, 2.0 * 1.625 / 3.0 - 1.0);
     assert!(close(&numbers(&explained, "ndc_end"), &[x, y, -1.0]));
-    // If divided first, b would be upside down in the picture, as if it were ahead: −N x/z is −1
+    // If b were divided without clipping, it would be reflected, as if it were ahead: −N x/z is −1
     // and −N y/z is −1/2, in the window [−1, 3] × [−1, 2].
     let behind = chain.world_to_clip().transform_point(Point::new(2.0, 1.0, 4.0));
     let wrapped = behind.divide().expect("w is not 0");
@@ -136,20 +136,20 @@ fn c103_each_stage_starts_from_the_result_of_the_previous_stage() {
     assert_eq!(ids, ["model", "camera", "projection", "outcodes", "divide", "viewport"]);
     let file = scene.models[0].model.meshes[0].primitives[0].positions[0].map(f64::from);
     let [x, y, z] = <[f64; 3]>::try_from(&numbers(&explained, "mesh")[..]).expect("a point");
-    assert_eq!([x, y, z], file, "the vertex as the file has it");
+    assert_eq!([x, y, z], file, "the vertex should be as in the file");
     // Scaled by 2, rotated by 90° about y (x to −z, z to x), and translated by (1, 2, 3).
     let world = [2.0 * z + 1.0, 2.0 * y + 2.0, -2.0 * x + 3.0];
     assert!(close(&numbers(&explained, "world"), &world));
     // The eye at (1, 3, 11) looks along −z, x to the right.
     let view = [world[0] - 1.0, world[1] - 3.0, world[2] - 11.0];
     assert!(close(&numbers(&explained, "view"), &view));
-    // For 90°, 3 : 2, N = 1 and F = 21, w = D and z = (F+N)/(F−N) D − 2FN/(F−N).
+    // For fovy = 90°, aspect 3 : 2, N = 1 and F = 21, w = D and z = (F+N)/(F−N) D − 2FN/(F−N).
     let distance = -view[2];
     let clip = [view[0] / 1.5, view[1], 22.0 / 20.0 * distance - 42.0 / 20.0, distance];
     assert!(close(&numbers(&explained, "clip"), &clip));
     let ndc = [clip[0] / distance, clip[1] / distance, clip[2] / distance];
     assert!(close(&numbers(&explained, "ndc"), &ndc));
-    // OpenGL counts rows from the bottom, and depth from 0 to 1.
+    // OpenGL counts rows from the bottom and stores depth from 0 to 1.
     let screen = [(ndc[0] + 1.0) * 150.0, (ndc[1] + 1.0) * 100.0, f64::midpoint(1.0, ndc[2])];
     assert!(close(&numbers(&explained, "screen"), &screen));
 }

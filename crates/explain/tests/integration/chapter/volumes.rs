@@ -16,7 +16,7 @@ fn c88_a_scenes_frustum_becomes_the_box_and_nearer_stays_nearer() {
     let map = scene.view_projection.world_to_clip();
     let ndc =
         |x: f64, y: f64, z: f64| map.transform_point(Point::new(x, y, z)).divide().expect("ahead");
-    // The corners of the window on z = −2, and three times as large on z = −6; near is at +1.
+    // The corners of the window on z = −2, and of its enlargement by 3 on z = −6; near is at +1.
     for (scale, z, depth) in [(1.0, -2.0, 1.0), (3.0, -6.0, -1.0)] {
         for (x, u) in [(-1.0, -1.0), (3.0, 1.0)] {
             for (y, v) in [(-1.0, -1.0), (2.0, 1.0)] {
@@ -36,7 +36,7 @@ fn c88_a_scenes_frustum_becomes_the_box_and_nearer_stays_nearer() {
     let ordered = pairs.filter(|(p, q)| p.2 > q.2 + 1e-9);
     let mut count = 0;
     for ((x, y, z), (x2, y2, z2)) in ordered {
-        assert!(ndc(*x, *y, *z).z() > ndc(*x2, *y2, *z2).z(), "{z} before {z2}");
+        assert!(ndc(*x, *y, *z).z() > ndc(*x2, *y2, *z2).z(), "{z} should be nearer than {z2}");
         count += 1;
     }
     assert!(count > 1000);
@@ -50,7 +50,7 @@ fn c98_the_mexican_hat_covers_the_index_grid_and_has_its_heights() {
     let scene = resolve_text("Scene(models: [(path: \"mexican_hat.glb\")])");
     let positions = &scene.models[0].model.meshes[0].primitives[0].positions;
     let grid = PointGrid::new(49, 49).expect("a grid");
-    // Files are quantized: a step of the grid is 1/24.
+    // Positions in files are quantized: a step of the grid is 1/24.
     let index = |x: f64| libm::round((x + 1.0) * 24.0) as i64;
     let mut seen = BTreeSet::new();
     let mut peak = f64::MIN;

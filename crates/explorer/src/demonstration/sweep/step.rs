@@ -1,8 +1,9 @@
 //! One step of a sweep: the scene's camera and projection with one parameter changed.
 //!
 //! The scene's projection is first decomposed into a frustum or an orthographic box, and then one
-//! of its numbers is replaced. Parameters that a projection lacks (the height of a perspective, the
-//! angle of a parallel projection) are rejected with a suggestion to vary a different parameter.
+//! of its numbers is replaced. Parameters that a projection lacks (the height of a perspective
+//! projection, the angle of a parallel projection) are rejected with a suggestion to vary a
+//! different parameter.
 
 use super::super::DemonstrationError;
 use super::super::number_format::format_short;
@@ -17,7 +18,7 @@ use scene::{DepthSpan, Scene};
 
 /// The scene's view, decomposed into camera and parameters.
 ///
-/// Computed once per sweep, so that the vertices of all models are not collected in each step.
+/// It is computed once per sweep, so that the vertices of all models are collected only once.
 pub(super) struct SweepBase {
     /// The scene's camera.
     camera: Camera,
@@ -44,7 +45,7 @@ impl BaseProjection {
     /// Returns the reason why the projection lacks a parameter, or `None` if it has the parameter.
     ///
     /// A projection with its eye at infinity has no angle and no distance. The window height of a
-    /// perspective depends on the plane on which it is measured.
+    /// perspective projection depends on the plane on which it is measured.
     fn reason_unsupported(self, vary: SweepParameter) -> Option<&'static str> {
         let is_of_perspective = matches!(
             vary,
@@ -54,11 +55,11 @@ impl BaseProjection {
                 | SweepParameter::Dolly
         );
         match self {
-            Self::Parallel(_) if is_of_perspective => {
-                Some("the scene's projection is parallel; use a perspective, or vary the height")
-            }
+            Self::Parallel(_) if is_of_perspective => Some(
+                "the scene's projection is parallel; use a perspective projection, or vary the height",
+            ),
             Self::Perspective(_) if vary == SweepParameter::Height => Some(
-                "the scene's projection is a perspective; use an orthographic projection, or vary the fov",
+                "the scene has a perspective projection; use an orthographic projection, or vary the fov",
             ),
             _ => None,
         }
@@ -69,7 +70,7 @@ impl SweepBase {
     /// Decomposes the scene's view.
     ///
     /// # Errors
-    /// If the scene's projection does not have the parameter.
+    /// Returns an error if the scene's projection does not have the parameter.
     pub(super) fn new(scene: &Scene, vary: SweepParameter) -> Result<Self, DemonstrationError> {
         let unsuited =
             |reason: &str| DemonstrationError::UnsupportedParameter { vary, reason: reason.into() };
@@ -107,7 +108,8 @@ impl SweepBase {
     /// | distance, dolly, angle | the camera | fitted to the models |
     ///
     /// # Errors
-    /// If the value is out of range, or the camera or frustum rejects it (for example near ≥ far).
+    /// Returns an error if the value is out of range or if the camera or frustum rejects it (for
+    /// example near ≥ far).
     pub(super) fn view_at(
         &self,
         vary: SweepParameter,
@@ -225,7 +227,7 @@ impl SweepBase {
             _ => (volume.near(), volume.far()),
         };
         if near >= far {
-            // The matrix would accept this and look backward through an inverted volume.
+            // A matrix with these planes would be valid, but it would look backward.
             let [near, far] = [near, far].map(|number| format_short(number, 6));
             return Err(format!("`far` ({far}) must be beyond `near` ({near})"));
         }

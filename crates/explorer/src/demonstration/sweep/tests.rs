@@ -1,4 +1,4 @@
-//! Each parameter has the effect stated in the lessons and no other.
+//! Tests that each parameter has the effect stated in the lessons and no other.
 
 use super::*;
 use crate::demonstration::test_scene::house_scene;
@@ -11,7 +11,7 @@ fn sweep_house(
     steps: u32,
 ) -> Vec<(ViewProjection, String)> {
     let (_, _, scene) = house_scene();
-    Sweep { parameter, from, to, steps, volumes: false }.view_projections(&scene).expect("shots")
+    Sweep { parameter, from, to, steps, volumes: false }.view_projections(&scene).expect("views")
 }
 
 fn house_view() -> (Scene, ViewProjection, Point<World>) {

@@ -17,7 +17,7 @@ pub(super) static CAMERA_ABOVE: Exercise = Exercise {
     number: 10,
     title: words("A camera above", "俯视的相机"),
     question: words(
-        "The eye is at e = (0, 1, 0), the gaze is g = (0, −1, 0), the view-up vector is t = (1, 1, 0). With w = −g/‖g‖, u = (t × w)/‖t × w‖ and v = w × u, write the matrix M_cam from world to camera coordinates.",
+        "The eye is at e = (0, 1, 0), the gaze is g = (0, −1, 0), and the view-up vector is t = (1, 1, 0). With w = −g/‖g‖, u = (t × w)/‖t × w‖ and v = w × u, write the matrix M_cam from world to camera coordinates.",
         "视点 e = (0, 1, 0)，视线方向 g = (0, −1, 0)，观察向上向量 t = (1, 1, 0)。取 w = −g/‖g‖，u = (t × w)/‖t × w‖，v = w × u，写出从世界坐标到观察坐标的矩阵 M_cam。",
     ),
     hints: &[
@@ -124,7 +124,7 @@ pub(super) static CAMERA_COORDINATES: Exercise = Exercise {
     number: 13,
     title: words("Camera coordinates", "观察坐标"),
     question: words(
-        "The eye is at (2, 0, 0), the gaze is (−1, 0, 0), the view-up vector is (0, 1, 0); the camera looks along −z of its coordinates, with x to the right and y up. What are the camera coordinates of the world-space point (−1, 2, −4)?",
+        "The eye is at (2, 0, 0), the gaze is (−1, 0, 0), and the view-up vector is (0, 1, 0). The camera looks along −z of its coordinates, with x to the right and y up. What are the camera coordinates of the world-space point (−1, 2, −4)?",
         "视点在 (2, 0, 0)，视线方向为 (−1, 0, 0)，观察向上向量为 (0, 1, 0)；相机沿自身坐标系的 −z 方向看，x 向右，y 向上。世界坐标系的点 (−1, 2, −4) 的观察坐标是什么？",
     ),
     hints: &[

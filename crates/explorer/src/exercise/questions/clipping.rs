@@ -17,7 +17,7 @@ pub(super) static CLIPPED_SEGMENT: Exercise = Exercise {
     ),
     hints: &[
         words(
-            "Only two planes clip it: w + x ≥ 0 on the left and w − x ≥ 0 on the right.",
+            "Only two planes clip the segment: w + x = 0 on the left and w − x = 0 on the right.",
             "只有两个平面切到它：左侧 w + x ≥ 0，右侧 w − x ≥ 0。",
         ),
         words(
@@ -138,7 +138,7 @@ pub(super) static OUTCODE: Exercise = Exercise {
         mistake(
             "bits-from-one",
             Wrong::Answer("36"),
-            "the bits are shifted by one position: left is 1, the first power of 2",
+            "the bits are shifted by one position: left is 1, which is 2 to the power of 0",
             "各位错开了一位：左是 1，即 2 的零次幂",
         ),
         mistake(

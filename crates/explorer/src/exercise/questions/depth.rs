@@ -11,7 +11,7 @@ pub(super) static DEPTH_ZERO: Exercise = Exercise {
     number: 16,
     title: words("Where depth is 0", "深度为 0 处"),
     question: words(
-        "A perspective in OpenGL has its near plane at distance N = 2 and its far plane at distance F = 40. Their depths z_ndc are −1 and +1. At which distance D from the eye is z_ndc = 0?",
+        "A perspective projection in OpenGL has its near plane at distance N = 2 and its far plane at distance F = 40. The depths z_ndc of these planes are −1 and +1. At which distance D from the eye is z_ndc = 0?",
         "OpenGL 的透视投影，近平面距离 N = 2，远平面距离 F = 40；它们的深度 z_ndc 为 −1 和 +1。到视点的距离 D 为多少时 z_ndc = 0？",
     ),
     hints: &[
@@ -82,7 +82,7 @@ pub(super) static REVERSED_DEPTH: Exercise = Exercise {
     number: 17,
     title: words("Reversed depth", "反向深度"),
     question: words(
-        "A perspective with reversed depth has depth 1 at its near plane, N = 1, and depth 0 at its far plane, F = 5. What is the depth at distance 5/2?",
+        "A perspective projection with reversed depth has depth 1 at its near plane, N = 1, and depth 0 at its far plane, F = 5. What is the depth at distance 5/2?",
         "采用反向深度的透视投影，在近平面 N = 1 处深度为 1，在远平面 F = 5 处深度为 0。距离 5/2 处的深度是多少？",
     ),
     hints: &[
@@ -103,13 +103,13 @@ pub(super) static REVERSED_DEPTH: Exercise = Exercise {
         mistake(
             "linear",
             Wrong::Computed(|_| depth(Convention::WEBGPU.reversed(), false)),
-            "this is linear in the distance, as in a parallel projection: a perspective divides by D",
+            "this is linear in the distance, as in a parallel projection: a perspective projection divides by D",
             "这与距离成线性关系，如同平行投影：透视投影要除以 D",
         ),
         mistake(
             "linear-and-not-reversed",
             Wrong::Computed(|_| depth(Convention::WEBGPU, false)),
-            "this is linear with the near plane at 0, but a perspective divides by D, and reversed depth is 1 at the near plane",
+            "this is linear with the near plane at 0, but a perspective projection divides by D, and reversed depth is 1 at the near plane",
             "这是线性的，而且近平面为 0：透视投影要除以 D，反向深度在近平面为 1",
         ),
         mistake(

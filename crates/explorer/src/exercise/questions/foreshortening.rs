@@ -20,7 +20,7 @@ pub(super) static IMAGE_PARAMETER: Exercise = Exercise {
             "像是 (r + t (R − r))/(w_r + t (w_R − w_r))；把它与 (1 − s) r/w_r + s R/w_R 比较。",
         ),
         words(
-            "Compare only the factors of R, which is s/w_R on one side.",
+            "Compare only the factors of R: on one side, the factor is s/w_R.",
             "只比较 R 的系数：一边是 s/w_R。",
         ),
     ],

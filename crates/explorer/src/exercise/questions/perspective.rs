@@ -42,7 +42,7 @@ pub(super) static THIRD_ROW_OF_P: Exercise = Exercise {
         mistake(
             "both-signs",
             Wrong::Negated,
-            "both signs are reversed: this third row belongs to the bottom row (0 0 −1 0)",
+            "both signs are reversed: this third row goes with the bottom row (0 0 −1 0)",
             "两个符号都反了：这样的第三行要配最后一行 (0 0 −1 0)",
         ),
         mistake(
@@ -72,7 +72,7 @@ pub(super) static THIRD_ROW_OF_P: Exercise = Exercise {
         mistake(
             "m-per",
             Wrong::Answer("(n+f)/(n-f), -2*n*f/(n-f)"),
-            "this is the third row of M_per = M_orth P: it takes n and f to +1 and −1, and P keeps them",
+            "this is the third row of M_per = M_orth P: it takes n and f to +1 and −1, but P keeps them",
             "这是 M_per = M_orth P 的第三行：它把 n 和 f 映为 +1 和 −1，而 P 保持它们不变",
         ),
         mistake(
@@ -88,7 +88,7 @@ pub(super) static THIRD_ROW_OF_P: Exercise = Exercise {
                 "-(n+f)/(n-f), 2*n*f/(n-f)",
                 "-(n+f)/(f-n), -2*n*f/(f-n)",
             ]),
-            "this resembles the third row of a perspective in OpenGL, which takes near and far to −1 and +1, but P keeps z = n and z = f",
+            "this resembles the third row of a perspective projection in OpenGL, which takes near and far to −1 and +1, but P keeps z = n and z = f",
             "这像 OpenGL 透视矩阵的第三行，它把近平面和远平面映为 −1 和 +1：P 应保持 z = n 和 z = f 不变",
         ),
     ],
@@ -164,7 +164,7 @@ pub(super) static INVERSE_OF_P: Exercise = Exercise {
     number: 6,
     title: words("The inverse of P", "P 的逆矩阵"),
     question: words(
-        "P has the rows (n 0 0 0), (0 n 0 0), (0 0 n+f −f n), (0 0 1 0). Write its inverse. For homogeneous points, any multiple of it is the same map.",
+        "P has the rows (n 0 0 0), (0 n 0 0), (0 0 n+f −f n), (0 0 1 0). Write its inverse. For homogeneous points, any multiple of the inverse is the same map.",
         "P 的各行是 (n 0 0 0)、(0 n 0 0)、(0 0 n+f −f n)、(0 0 1 0)。写出它的逆矩阵；作为齐次点的变换，它可以差一个因子。",
     ),
     hints: &[

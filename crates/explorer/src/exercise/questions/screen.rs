@@ -9,7 +9,7 @@ use homog::{ClipRange, PixelCenters, PixelConvention, Point, YAxis};
 use raster::{Frame, Opacity, Samples, ScreenVertex};
 use viewport::Viewport;
 
-/// Returns the position of (1/4, 3/10) in an image of 200 × 100 pixels.
+/// Returns the position of the NDC point (1/4, 3/10) in an image of 200 × 100 pixels.
 fn position(y: YAxis, centers: PixelCenters) -> Option<Entries> {
     let viewport = Viewport::image_for(200, 100, ClipRange::CHAPTER)
         .ok()?
@@ -64,7 +64,7 @@ pub(super) static PIXEL_POSITION: Exercise = Exercise {
         mistake(
             "zero-to-one",
             Wrong::Answer("50, 30"),
-            "treated as coordinates from 0 to 1, but they run from −1 to 1",
+            "the coordinates were treated as running from 0 to 1, but they run from −1 to 1",
             "当成了 0 到 1 的坐标：范围是 −1 到 1",
         ),
         mistake(
@@ -144,7 +144,7 @@ pub(super) static TOP_LEFT_RULE: Exercise = Exercise {
         mistake(
             "nearly-closed",
             Wrong::Answer("14"),
-            "centers on the right edge were counted, and only one center of the closed triangle was not: no center with i + j = 4 belongs to it",
+            "all centers of the closed triangle except one were counted, but no center with i + j = 4 belongs to the triangle",
             "右侧边上的中心算上了，只比闭三角形少一个：i + j = 4 的中心都不属于它",
         ),
     ],
