@@ -33,8 +33,8 @@ pub fn check_file(path: &Path, options: &ImportOptions) -> CheckReport {
         if has_gltf_rules(path, &bytes) {
             check_content(&bytes, &resolver(bytes.len())?, &findings);
         }
-        // A separate resolver: the bytes read by the validation do not count against the loader's
-        // limits.
+        // The loader gets a separate resolver, because bytes read by the validation must not count
+        // against its limits.
         import_model(path, &bytes, &resolver(bytes.len())?, options)
     });
     build_report(path, result, findings)

@@ -74,7 +74,7 @@ const UNIT_QUATERNION_TOLERANCE: f64 = 0.00769;
 impl ElementRules {
     /// Adds a rule for an accessor's elements, unless it already has this rule or too many rules.
     ///
-    /// `pointer` is the member that sets the rule; violations are reported there.
+    /// `pointer` refers to the member that sets the rule; violations are reported there.
     pub(super) fn add(&mut self, accessor: usize, demand: ElementRule, pointer: &str) {
         let list = self.by_accessor.entry(accessor).or_default();
         if list.len() < MAX_RULES && list.iter().all(|(known, _)| *known != demand) {
@@ -109,7 +109,7 @@ pub(super) fn check_data(
 
 /// The number of violations of one rule, and the element and value of the first.
 ///
-/// One diagnostic with a count replaces what could be millions.
+/// One diagnostic with a count replaces potentially millions.
 #[derive(Clone, Default, Debug)]
 struct Tally {
     /// The number of violations.

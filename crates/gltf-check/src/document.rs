@@ -1,4 +1,4 @@
-//! The document under validation: its raw JSON, the diagnostics so far, and the referenced objects.
+//! The document under validation: its raw JSON, the diagnostics so far, and which objects are used.
 //!
 //! The accessors in this module return `None` for members that are missing or have the wrong type:
 //! the schema walk has already reported them.
@@ -98,7 +98,7 @@ pub(super) fn number_array<const N: usize>(value: &Value, key: &str) -> Option<[
     numbers?.try_into().ok()
 }
 
-/// Returns the extension object with this name inside an object.
+/// Returns the extension with this name in an object.
 pub(super) fn extension_object<'a>(value: &'a Value, name: &str) -> Option<&'a Value> {
     value.get("extensions")?.get(name)
 }

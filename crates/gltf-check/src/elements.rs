@@ -39,7 +39,7 @@ impl<'a> AccessorElements<'a> {
         self.base.is_none() && self.replaced.is_empty()
     }
 
-    /// Calls `see` with the index of each element and its components.
+    /// Calls `see` with the index and the components of each element.
     ///
     /// Components are passed as stored in the file; [`dequantize`](Self::dequantize) converts
     /// normalized integers. The sorted replacements are merged with the elements in one linear

@@ -20,9 +20,9 @@ use super::layout::{AccessorLayout, ComponentType, ElementType, SCALAR, VEC2, VE
 /// A format: the element type, the component type, and whether integers are normalized.
 type AttributeFormat = (ElementType, ComponentType, bool);
 
-/// The attribute semantic, parsed from the attribute's name.
+/// An attribute semantic, parsed from the attribute's name.
 ///
-/// Borrows the name from the document.
+/// It borrows the name from the document.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Semantic<'a> {
     /// POSITION, NORMAL or TANGENT.

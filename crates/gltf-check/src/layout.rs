@@ -108,8 +108,7 @@ impl ComponentType {
         }
     }
 
-    /// Reads the component at the start of the bytes. Callers must pass enough bytes; otherwise
-    /// returns 0.
+    /// Reads the component at the start of the bytes, or returns 0 if there are too few bytes.
     pub(super) fn read_number(self, bytes: &[u8]) -> f64 {
         let one = || bytes.first().copied().unwrap_or(0);
         let two = || bytes.first_chunk().copied().unwrap_or_default();

@@ -11,8 +11,8 @@
 //!  loader ─load_outcome─► diagnostics
 //! ```
 //!
-//! It works on the raw JSON, in which members may be missing or have any type. The rules follow
-//! glTF 2.0, with the codes and severities of the Khronos glTF validator. The
+//! Validation works on the raw JSON, in which members may be missing or have any type. The rules
+//! follow glTF 2.0, with the codes and severities of the Khronos glTF validator. The
 //! [limits](import::Limits) apply as they do for loading: time and memory are bounded by the size
 //! of the files, not by the sizes they declare.
 

@@ -344,8 +344,8 @@ impl<'a> PrimitiveChecker<'a, '_> {
         }
     }
 
-    /// Validates a morph target: its attributes can be displaced, exist in the base mesh, and have
-    /// the same number of elements.
+    /// Validates that the attributes of a morph target can be displaced, exist in the base mesh,
+    /// and match its number of elements.
     fn check_morph_target(
         &self,
         at: usize,
@@ -376,7 +376,7 @@ impl<'a> PrimitiveChecker<'a, '_> {
                     self.report(code, &member, message);
                 }
                 Some(count) if *count != integer_member(json, "count") => {
-                    let message = "the number of elements differs from the base mesh";
+                    let message = "the base mesh has a different number of elements";
                     let code = &codes::MESH_PRIMITIVE_MORPH_TARGET_INVALID_ATTRIBUTE_COUNT;
                     self.report(code, &member, message);
                 }

@@ -14,11 +14,12 @@ use serde_json::{Map, Value};
 
 /// Validates all skins, and records rules for the elements of their accessors.
 ///
-/// [`check_skinned_meshes`] validates the joint weights of vertices later, because they need both a
-/// mesh and a skin.
+/// [`check_skinned_meshes`] validates the joint weights of vertices later, because that requires
+/// both a mesh and a skin.
 ///
 /// Invalid indices in `joints` are skipped, because the schema walk has reported them. They still
-/// count toward the number of inverse bind matrices, which correspond to joints by position.
+/// count toward the required number of inverse bind matrices, which correspond to joints by
+/// position.
 pub(super) fn check_skins(
     document: &CheckedDocument<'_>,
     tree: &NodeTree,
@@ -35,7 +36,7 @@ pub(super) fn check_skins(
     }
 }
 
-/// Validates that the joints have a common root, and that `skeleton` is their common ancestor.
+/// Validates that the joints have a common root, and that `skeleton` is a common ancestor.
 ///
 /// Each check takes constant time per joint, because the tree stores the root and the traversal
 /// interval of each node. Walking up from each joint would take quadratic time for a long chain.
@@ -163,7 +164,7 @@ impl InfluenceChecker<'_> {
     /// vertex sum to 1 over all sets.
     ///
     /// Sets are read up to the first that is missing or cannot be decoded. The four kinds of errors
-    /// are counted per set, so that each kind and attribute gets one diagnostic.
+    /// are counted per set, so that each kind gets one diagnostic per attribute.
     fn check_influences(&self, named: &Map<String, Value>) {
         let mut sets = Vec::new();
         while let (true, Some(joints), Some(weights)) = (
