@@ -147,7 +147,7 @@ impl Cluster {
         let axis = axis / cosine;
         let [least, greatest] = self.bounds.map(|corner| DVec3::from_array(corner.map(f64::from)));
         let (eye, w) = (viewer.raw().truncate(), viewer.w());
-        // The vector from the center of the box. In parallel projection w is 0, and this is the
+        // The vector from the center of the box. In a parallel projection, w is 0, and this is the
         // direction to the viewer.
         let to_viewer = eye - (least + greatest) * (0.5 * w);
         let radius = (greatest - least).length() * (0.5 * w.abs());

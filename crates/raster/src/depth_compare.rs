@@ -58,7 +58,7 @@ impl DepthCompare {
             Self::Greater | Self::Less => depth.simd_gt(there),
             Self::GreaterEqual | Self::LessEqual => depth.simd_ge(there),
             Self::Equal => depth.simd_eq(there),
-            // Depths are finite.
+            // Always true, because depths are never NaN.
             Self::Always => depth.simd_eq(depth),
         }
     }

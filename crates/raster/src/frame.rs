@@ -252,7 +252,7 @@ impl Frame {
             self.triangles.remove_empty_chunks(first);
             return;
         }
-        // With one thread, fill chunk after chunk.
+        // With one thread, fill chunk by chunk.
         for run in runs {
             let mut rest = run.clone();
             while !rest.is_empty() {
@@ -314,7 +314,7 @@ impl Frame {
 
     /// Assembles one whole triangle and appends it, unless it is degenerate or covers no sample.
     fn push_unclipped(&mut self, vertices: [ScreenVertex; 3], id: u32, opacity: Opacity) {
-        // The triangle is outside the region or between samples.
+        // Without tiles, the triangle is outside the region or between samples.
         let Some(tiles) = self.sample_bounds().touched_tiles(vertices) else { return };
         let area = signed_area(vertices);
         let vertices = oriented_depths(self.compare.negates(), vertices);
@@ -451,7 +451,7 @@ fn assemble_triangle(
     Some(ScreenTriangle { vertices: normalize_inv_w(vertices), id, source, opacity })
 }
 
-/// Tests whether a triangle's bounds contain a sample of the frame, and which tiles they touch.
+/// Tests whether a triangle's bounds contain a sample of the frame, and finds the tiles they touch.
 ///
 /// It is conservative: a bounding rectangle may contain a sample that the triangle does not cover.
 #[derive(Clone, Copy)]
@@ -471,8 +471,7 @@ impl SampleBounds {
         let x = [p.x.min(q.x).min(r.x), p.x.max(q.x).max(r.x)];
         let y = [p.y.min(q.y).min(r.y), p.y.max(q.y).max(r.y)];
         let (width, height) = (x[1].wrapping_sub(x[0]), y[1].wrapping_sub(y[0]));
-        // A box at least as wide and tall as a pixel contains every sample, of this pixel or of a
-        // neighbor.
+        // A box at least as wide and tall as a pixel contains every sample of the pattern.
         let is_large = (width >= SUBPIXELS - 1) & (height >= SUBPIXELS - 1);
         if is_large || self.holds_sample([x[0], y[0]], [width, height]) {
             self.grid.tiles_in_bounds(x, y)

@@ -20,7 +20,7 @@ pub enum Samples {
 }
 
 // Offsets from the center of the pixel in 1/16 pixel. No two samples of a pattern share a row or a
-// column, so nearly horizontal and vertical edges get as many steps as there are samples.
+// column, so nearly horizontal and nearly vertical edges get as many steps as there are samples.
 const ONE: [(i32, i32); 1] = [(0, 0)];
 const FOUR: [(i32, i32); 4] = [(-2, -6), (6, -2), (-6, 2), (2, 6)];
 const EIGHT: [(i32, i32); 8] =

@@ -80,7 +80,7 @@ impl TileBins {
     pub(crate) fn append_tile_bin(&self, column: u32, row: u32, bin: &mut Vec<u32>) {
         let tile = self.grid.tile_index(column, row);
         for BinGroup { bin_starts, triangles, .. } in &self.groups[..self.used] {
-            // Group after group, which is submission order.
+            // Group by group, which is submission order.
             let (start, end) = (bin_starts[tile] as usize, bin_starts[tile + 1] as usize);
             bin.extend_from_slice(&triangles[start..end]);
         }

@@ -281,8 +281,8 @@ impl<S: Surface> TileResolve<'_, S> {
     /// Shades the first samples of a run with edges, and gathers the triangles of the other
     /// samples.
     ///
-    /// Most pixels of a run with edges still show the first sample's triangle at most samples, so
-    /// this one vector of eight does most of the work.
+    /// Most pixels of a run with edges still show the first sample's triangle at most of their
+    /// samples, so this one vector of eight does most of the work.
     #[inline(always)]
     fn begin_edge_pixels(&self, run: &PixelRun<'_>, edges: &mut EdgePixels) {
         let mut planes = [[NO_TRIANGLE; LANES]; 16];

@@ -253,7 +253,7 @@ fn pixel_bounds(extent: [Ints; 4], tile: TileRect, offset_range: (i32, i32)) -> 
 /// Returns the difference between the coordinates of each edge's ends: start − end, or end − start
 /// if `forward`.
 ///
-/// With y backward and x forward these are A and B of the edge function, as in
+/// With y backward and x forward, these are A and B of the edge function, as in
 /// [`EdgeFunction`](crate::edge_function::EdgeFunction).
 #[inline(always)]
 fn edge_differences(c: &[Ints; 3], forward: bool) -> [Ints; 3] {
