@@ -45,7 +45,7 @@ pub struct Explorer {
     volume: Pane,
 }
 
-/// A pane with its pictures and its last scene.
+/// The pictures of a pane and its last scene.
 #[derive(Debug, Default)]
 struct Pane {
     picture: PanePicture,
@@ -90,8 +90,8 @@ impl Explorer {
     /// Answers a request: a query string with the keys listed in the README.
     ///
     /// # Errors
-    /// If a key is unknown, repeated or malformed, a model is missing or broken, or the scene is
-    /// invalid. The explorer is unchanged.
+    /// If a key is unknown, repeated or malformed, if a model is missing or broken, or if the scene
+    /// is invalid. The explorer is then unchanged.
     pub fn answer(&mut self, query: &str) -> Result<Answer, ExplorerError> {
         self.answer_unless_canceled(query, &CancelToken::default())
     }
@@ -100,7 +100,7 @@ impl Explorer {
     /// drawings and model loading run to completion first.
     ///
     /// # Errors
-    /// As for `answer`, and `cannot_render` if the picture is canceled.
+    /// The errors of `answer`, and `cannot_render` if the picture is canceled.
     pub fn answer_unless_canceled(
         &mut self,
         query: &str,
@@ -143,7 +143,7 @@ impl Explorer {
                 format!("// {}{}\n{text}", lesson.title.en, lesson.remark)
             }
         };
-        // The text of a scene file is not changed, including size, samples and style.
+        // The user's scene file keeps its text, so the key also needs size, samples and style.
         let key = format!("{size:?} {samples} {:?} {text}", state.style);
         let loaded = self.store.resolve(key, &text, &file);
         let loaded = loaded.map_err(|error| error.about_model(own))?;
@@ -244,7 +244,7 @@ impl Explorer {
         let is_world = *question == Question::World;
         let orbit = if is_world { state.orbit() } else { state.volume_orbit() };
         let observer = Observer { orbit, size: *size, samples: *samples };
-        // The picture of the state has a different aspect ratio than the pane.
+        // The main picture's aspect ratio may differ from the pane's.
         let (text, loaded) = self.load(state, DEFAULT_SIZE, 4)?;
         let key = format!("{observer:?} {} {text}", state.to_link());
         let known = if is_world { &self.world } else { &self.volume }.known_scene(&key);
@@ -271,7 +271,7 @@ impl Explorer {
     }
 }
 
-/// Returns the point of the state: the point under the lesson's mouse, or the pinned point.
+/// Returns the point under the lesson's mouse, or else the pinned point, with its line of sight.
 fn pointer(state: &LessonState, loaded: &LoadedScene) -> Pointer {
     let view = &loaded.views()[0].view_projection;
     match (state.lesson.pointer)(&state.values(DEFAULT_SIZE)) {

@@ -69,7 +69,7 @@ mod tests {
     use import::percent_encode;
 
     #[test]
-    fn pairs_are_decoded_and_can_be_taken_once() {
+    fn pairs_are_decoded_and_can_be_taken_only_once() {
         let mut query = Query::parse("#v=1&model=a%20b+c%E4%B8%AD.glb").expect("a query");
         assert_eq!(query.take("model").as_deref(), Some("a b c中.glb"));
         assert_eq!((query.take("model"), query.first_key()), (None, Some("v")));

@@ -1,4 +1,4 @@
-//! Lessons from *Learn WebGL* on stereo, viewports, the mouse and depth.
+//! Lessons from *Learn WebGL* on stereo, viewports, picking and depth.
 
 use super::effects::{distortion, planes_only_clip};
 use super::{ALL_PANES, HOUSE};
@@ -59,7 +59,7 @@ fn stereo_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
     let Some([nearest, farthest]) = facts.model_range else { return Vec::new() };
     let [eyes, convergence] = ["eyes", "convergence"].map(|key| values.number(key));
     // On the plane of convergence, the right eye's image of a point at distance D is e (1 − c / D)
-    // farther to the right.
+    // to the right of the left eye's image.
     let parallax = |distance: f64| eyes * (1.0 - convergence / distance);
     let sentence_for = |distance: f64, what: [&str; 2]| {
         let (shift, text) = (parallax(distance), decimals(distance, 2));
@@ -129,7 +129,7 @@ pub(super) static VIEWPORT: Lesson = Lesson {
 };
 
 /// Returns the rectangle in fractions of the picture, from the lower left corner, clamped to the
-/// borders.
+/// picture.
 fn viewport_rectangle(values: &Values<'_>) -> [f64; 4] {
     let [x, y, width, height] = ["x", "y", "width", "height"].map(|key| values.number(key) / 100.0);
     [x, y, width.min(1.0 - x), height.min(1.0 - y)]
