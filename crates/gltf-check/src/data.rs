@@ -41,7 +41,7 @@ pub(super) enum ElementRule {
     Indices { vertices: u64, triangles: bool },
     /// Keyframe times in seconds: not negative, strictly increasing.
     Times,
-    /// Unit quaternions; for cubic splines only the value between the two tangents.
+    /// Unit quaternions; for cubic splines, only the value between the two tangents.
     Quaternions { spline: bool },
     /// Affine matrices in column-major order: the last row, components 3, 7, 11 and 15, is 0, 0, 0,
     /// 1.
@@ -58,7 +58,7 @@ pub(super) struct ElementRules {
 
 /// The maximum number of rules for one accessor; each costs a comparison per element.
 ///
-/// In ordinary files an accessor has one or two rules. Without a maximum, a small file in which
+/// In ordinary files, an accessor has one or two rules. Without a maximum, a small file in which
 /// thousands of primitives index one accessor, each with a different number of vertices, would take
 /// quadratic time.
 const MAX_RULES: usize = 16;

@@ -116,8 +116,8 @@ pub(super) fn check_variants(document: &CheckedDocument<'_>) {
 
 /// Validates the parameters of cameras.
 ///
-/// To define a projection, `zfar` must be greater than `znear`, magnifications must not be zero,
-/// and the field of view must be less than half a turn.
+/// A camera defines a projection only if `zfar` is greater than `znear`, no magnification is zero,
+/// and the field of view is less than half a turn.
 ///
 /// The object named by `type` must be present. Angles are in radians.
 pub(super) fn check_cameras(document: &CheckedDocument<'_>) {

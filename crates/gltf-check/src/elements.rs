@@ -14,7 +14,7 @@ pub(super) struct AccessorElements<'a> {
     pub(super) layout: AccessorLayout,
     /// The bytes of the elements and their stride; `None` if all are zero.
     base: Option<(&'a [u8], usize)>,
-    /// Pairs of an element and the sparse value that replaces it, sorted by element.
+    /// Pairs of indices: an element and the sparse value that replaces it, sorted by element.
     replaced: Vec<(u32, u32)>,
     /// The bytes of the sparse values, tightly packed.
     values: &'a [u8],

@@ -1,8 +1,8 @@
 //! Validates glTF files and reports every violation of the specification, not only the first fatal
-//! error. For other formats it reports the loader's diagnostics.
+//! error. For other formats, it reports the loader's diagnostics.
 //!
 //! Loading stops at the first error that prevents drawing. Validation continues: it compares the
-//! JSON with the schema, resolves every reference and reads every accessor element. Finally it
+//! JSON with the schema, resolves every reference and reads every accessor element. Finally, it
 //! loads the file, so that the report includes the loader's diagnostics.
 //!
 //! ```text

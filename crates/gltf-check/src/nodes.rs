@@ -263,7 +263,7 @@ fn traverse_tree(
         }
     }
     for at in (0..count).filter(|&at| is_in_loop(&tree, at)) {
-        let message = format_args!("node {at} is part of a cycle");
+        let message = format_args!("node {at} is in or below a cycle");
         document.diagnostics.add(&codes::NODE_LOOP, format_args!("/nodes/{at}/children"), message);
     }
     tree

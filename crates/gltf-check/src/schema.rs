@@ -28,7 +28,7 @@ pub(super) struct ObjectSchema {
 
 /// The schema of a member.
 ///
-/// Default values are not part of the schema: an absent member is always valid.
+/// Default values are not part of the schema, because they never affect validity.
 #[derive(Debug)]
 pub(super) struct MemberSchema {
     /// The name of the member.

@@ -5,7 +5,7 @@
 //! Khronos validator, including its distinction between members and array items.
 //!
 //! The walk is a recursive descent. [`SchemaWalker::check_value`] dispatches on the kind of a
-//! value; for objects and arrays the walk descends with one more token on the JSON pointer:
+//! value; for objects and arrays, the walk descends with one more token on the JSON pointer:
 //!
 //! ```text
 //!  check_object ──► check_value ──► check_number, check_index, …   leaves
