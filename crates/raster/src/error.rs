@@ -21,8 +21,8 @@ pub enum RasterError {
         /// The requested height in pixels.
         height: u32,
     },
-    /// A depth buffer does not match the frame, or the number of its depths does not match its
-    /// size.
+    /// The number of depths in a buffer does not match its size, or the buffer does not match the
+    /// frame.
     #[error("a depth buffer with {found} samples does not match a frame with {expected}")]
     DepthCount {
         /// The expected number of depths.

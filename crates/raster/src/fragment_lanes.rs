@@ -275,7 +275,7 @@ impl VertexLanes {
         let mut lanes = Self::ZERO;
         let (cx, cy) = (pixel_center(x), pixel_center(y));
         for (k, vertex) in triangle.vertices.iter().enumerate() {
-            // Along the row the offset decreases by one pixel, or 256 steps, per lane.
+            // Along the row, the offset decreases by one pixel, or 256 steps, per lane.
             let first = f64::from(vertex.x - cx);
             for (lane, dx) in lanes.dx[k].iter_mut().enumerate() {
                 *dx = first - f64::from(lane as i32 * SUBPIXELS);

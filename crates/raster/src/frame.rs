@@ -35,7 +35,7 @@ const PARALLEL_TRIANGLES: usize = 8 * CHUNK_TRIANGLES;
 ///
 /// Add primitives with [`add_triangle`](Self::add_triangle), [`add_mesh`](Self::add_mesh),
 /// [`add_line`](Self::add_line) and [`add_point`](Self::add_point), then [`draw`](Self::draw). At
-/// equal depth the primitive added first wins, for any number of threads.
+/// equal depth, the primitive added first wins, for any number of threads.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// The pixels that the frame shows, in the coordinates of the whole picture.
@@ -198,7 +198,7 @@ impl Frame {
 
     /// Adds a whole triangle of either winding.
     ///
-    /// No winding is culled. To cull back faces, check [`signed_area`] first or add a mesh.
+    /// Nothing is culled by winding. To cull back faces, check [`signed_area`] first or add a mesh.
     ///
     /// Degenerate triangles and triangles between samples are dropped, because they cover no
     /// sample.
@@ -235,8 +235,8 @@ impl Frame {
         let (bounds, compare) = (self.sample_bounds(), self.compare);
         let count: usize = runs.iter().map(ExactSizeIterator::len).sum();
         if self.threads > 1 && count >= PARALLEL_TRIANGLES {
-            // Chunk n gets the part of the runs in the n-th 4096 triangles of the mesh, so the
-            // order of chunks is the order of triangles for any number of threads.
+            // Chunk n gets the part of the runs in the n-th group of 4096 triangles of the mesh, so
+            // the order of chunks is the order of triangles for any number of threads.
             let first = self.triangles.chunks_in_use();
             let chunk_count = mesh.triangles.len().div_ceil(CHUNK_TRIANGLES);
             let chunks = self.triangles.append_chunks(chunk_count).iter_mut();

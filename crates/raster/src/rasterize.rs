@@ -213,7 +213,7 @@ impl SamplePlane {
 
     /// Depth-tests and writes eight samples of a row, starting at array index `first`.
     ///
-    /// The test is strict: at equal depth the stored triangle, which was submitted earlier, wins.
+    /// The test is strict: at equal depth, the stored triangle, which was submitted earlier, wins.
     #[inline(always)]
     fn depth_test_row<S: Simd>(
         &mut self,
@@ -253,7 +253,7 @@ impl SamplePlane {
     ) {
         let functions = &lanes.functions;
         for block in blocks_in_bounds(functions) {
-            // Beyond the visible region the bound is +∞, so nothing is drawn there.
+            // Beyond the visible region, the bound is +∞, so nothing is drawn there.
             let farthest = self.block_farthest[block.index];
             let is_hidden = if compare == DepthCompare::Always {
                 farthest == f32::INFINITY

@@ -67,8 +67,8 @@ impl SimdLevel {
         kernel.run()
     }
 
-    /// Runs a kernel that has no SSE2 copy. On x86 this requires AVX2; without it, the method
-    /// returns `None`. On other processors the kernel always runs.
+    /// Runs a kernel that has no SSE2 copy. On x86, this requires AVX2; without it, the method
+    /// returns `None`. On other processors, the kernel always runs.
     ///
     /// Use it for kernels so large that a second copy is not worthwhile for the few processors
     /// without AVX2. If the result is `None`, callers continue fragment by fragment and get the

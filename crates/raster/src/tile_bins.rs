@@ -8,7 +8,7 @@
 //!
 //! Triangles are binned in groups. Each group has its own bins and can be sorted by its own thread
 //! without locks. The bin of a tile is the concatenation of its bins in all groups. For any number
-//! of threads, this is submission order, which breaks depth ties.
+//! of threads, it is in submission order, which breaks depth ties.
 //!
 //! Binning makes two passes over the triangles of a group. Its time is linear in the number of
 //! triangles, tiles and entries, because triangles are never compared.

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! The result is a visibility buffer, which stores the index of the nearest opaque triangle for
-//! each sample, but no color. Shading comes later, once per pixel, so hidden surfaces cost nothing.
+//! each sample, but no color. Shading comes later, once per pixel, and skips hidden surfaces.
 
 use crate::fragment_lanes::LANES;
 use crate::micro_triangles::MicroTriangles;

@@ -2,7 +2,7 @@
 //! tile.
 //!
 //! Edge functions are exact in 64 bits ([`EdgeFunction`]), but vectors of 32-bit integers have
-//! twice as many lanes. Within a tile the samples of one plane are whole pixels apart, so all of
+//! twice as many lanes. Within a tile, the samples of one plane are whole pixels apart, so all of
 //! them have the same value of E modulo 256, and E ≥ 0 holds if and only if ⌊E/256⌋ ≥ 0. The
 //! quotient changes by integers from pixel to pixel. Near the tile, it fits in 32 bits; farther
 //! away, it is clamped to ±2³⁰. The change across a tile is smaller than that, so the sign, which

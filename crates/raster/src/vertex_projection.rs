@@ -205,8 +205,8 @@ fn split_coordinates(points: &[HPoint<Clip>; SNAP_LANES]) -> [F64x8; 4] {
 /// Divides eight points by w, applies the viewport transform (a matrix as rows) and snaps the
 /// results.
 ///
-/// A lane is `None` if its point cannot be drawn: if it is outside the guard band, its w is not
-/// positive and finite, or its depth is beyond ±2²⁰. All lanes are computed to the end, without
+/// A lane is `None` if its point cannot be drawn: if it is outside the guard band, if its w is not
+/// positive and finite, or if its depth is beyond ±2²⁰. All lanes are computed to the end, without
 /// branches.
 #[inline(always)]
 fn divide_and_snap(

@@ -87,7 +87,7 @@ pub(crate) struct TriangleLanes<S: Simd> {
 }
 
 impl<S: Simd> TriangleLanes<S> {
-    /// Spreads the functions of a triangle over eight lanes, shared by all planes.
+    /// Spreads the functions of a triangle over eight lanes. All planes share the result.
     #[inline(always)]
     pub(crate) fn new(simd: S, functions: &TriangleFunctions) -> Self {
         let TriangleFunctions { a, dx, min_depth, max_depth, .. } = *functions;
