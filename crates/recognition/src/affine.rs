@@ -84,8 +84,8 @@ fn read_diagonal(
     push(MatrixMeaning::Windowing { scale, offset }, base + 2 * digits + mirrored);
 }
 
-/// Adds the reading as a translation, rotation and scale of the axes: perpendicular columns, not
-/// all of length 1.
+/// Adds the reading as a translation, rotation and scale of the axes, if the columns are
+/// perpendicular and not all of length 1.
 fn read_model_transform(unit: &Entries<4>, push: &mut impl FnMut(MatrixMeaning, u32)) {
     let columns = [0, 1, 2].map(|j| [0, 1, 2].map(|i| unit[i][j]));
     let lengths = columns.map(|[x, y, z]| (x * x + y * y + z * z).sqrt());

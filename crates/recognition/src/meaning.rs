@@ -184,7 +184,7 @@ pub enum MatrixMeaning {
         /// True if the height is dropped.
         onto_plane: bool,
     },
-    /// A one-, two- or three-point perspective (ONE-1, TWO-1, THREE-1).
+    /// A one-, two- or three-point perspective projection (ONE-1, TWO-1, THREE-1).
     NPoint {
         /// The terms p, q and r.
         projection: NPoint,
