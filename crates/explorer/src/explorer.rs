@@ -27,7 +27,7 @@ pub struct Answer {
     /// The media type of the bytes, such as `image/svg+xml`. Pixels are `application/octet-stream`:
     /// sRGB with straight alpha, four bytes each, rows from the top.
     pub content_type: &'static str,
-    /// The content.
+    /// The answer in this format.
     pub bytes: Vec<u8>,
 }
 
@@ -72,7 +72,7 @@ impl Explorer {
     /// to it.
     ///
     /// # Errors
-    /// If the name is empty, absolute, or points outside the folder of the files.
+    /// If the name is empty or absolute, or points outside the folder of the files.
     pub fn add_file(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), ExplorerError> {
         self.store.add_file(name, bytes)?;
         // Cached pictures may show the replaced file.
@@ -97,7 +97,7 @@ impl Explorer {
     }
 
     /// Answers a request as [`answer`](Self::answer) does, unless another thread cancels it. Line
-    /// drawings and model loading run to completion first.
+    /// drawing and model loading are not interrupted.
     ///
     /// # Errors
     /// The errors of `answer`, and `cannot_render` if the picture is canceled.

@@ -63,7 +63,7 @@ pub(crate) enum VolumeStage {
 pub(crate) const RIDGE: [f64; 3] = [0.0, 4.38, 3.15];
 
 impl Lesson {
-    /// Creates a lesson with the settings that most lessons share.
+    /// A lesson with the settings that most lessons share.
     pub(crate) const USUAL: Self = Self {
         id: "",
         source: Source::LearnWebGl,

@@ -44,7 +44,7 @@ pub(crate) struct LoadedModels {
     pub(crate) triangles: WorldTriangles,
 }
 
-/// The added files and the models and scenes loaded from them, with the latest last.
+/// The added files, and the models and scenes loaded from them, latest last.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ModelStore {
     folder: MemoryFolder,

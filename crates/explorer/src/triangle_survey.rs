@@ -38,7 +38,7 @@ pub(crate) struct WorldTriangles {
 struct Part {
     /// The number of triangles up to the end of this primitive.
     end: usize,
-    /// The transform of its node and model.
+    /// The transform of the primitive's node and model.
     mesh_to_world: Affine<ModelSpace, World>,
 }
 

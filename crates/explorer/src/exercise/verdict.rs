@@ -28,7 +28,7 @@ pub enum Verdict {
 /// A wrong entry.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Difference {
-    /// The row or part, from 0.
+    /// The index of the row or part, from 0.
     pub row: usize,
     /// The position in the row, from 0.
     pub column: usize,

@@ -131,7 +131,7 @@ pub(super) static MIDPOINT_DEPTH: Lesson = Lesson {
         let [middle, image] = [middle, image].map(|z| decimals(z, 3));
         vec![sentence(
             format!(
-                "The midpoint z = {middle} maps to {image}. In the canonical view volume, where near is 1 and far is −1, that is {depth} and not 0."
+                "The midpoint z = {middle} maps to {image}. In the canonical view volume, where near is 1 and far is −1, its depth is {depth}, not 0."
             ),
             format!(
                 "中点 z = {middle} 映为 {image}；在近平面为 1、远平面为 −1 的规范视见体中，深度是 {depth}，而不是 0。"

@@ -219,7 +219,7 @@ pub(super) static DEPTH_TABLE: Lesson = Lesson {
     items: &["C67", "C68"],
     title: words("Depth after the divide", "透视除法之后的深度"),
     statement: words(
-        "Depth is not linear in distance: z = c₁/D + c₂ with c₁ = 2FN/(N − F), c₂ = (F + N)/(F − N). Half of its range is used for distances from N to 2FN/(F + N). Moving the near plane out helps; moving the far plane in hardly makes a difference.",
+        "Depth is not linear in distance: z = c₁/D + c₂ with c₁ = 2FN/(N − F), c₂ = (F + N)/(F − N). Half of the depth range is used for distances from N to 2FN/(F + N). Moving the near plane out helps; moving the far plane in hardly makes a difference.",
         "深度与距离不是线性关系：z = c₁/D + c₂，c₁ = 2FN/(N − F)，c₂ = (F + N)/(F − N)。一半的深度范围用在 N 到 2FN/(F + N) 的距离上。把近平面移远有用；把远平面移近几乎无用。",
     ),
     parameters: &[

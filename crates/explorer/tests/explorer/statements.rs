@@ -18,7 +18,7 @@ fn numbers(values: &Json) -> Vec<f64> {
     values.iter().map(|value| value.as_f64().expect("a number")).collect()
 }
 
-/// C64: for a fixed window the angle is 2 atan((t − b) / 2n), and far changes only the clipping.
+/// C64: for a fixed window, the angle is 2 atan((t − b) / 2n), and far changes only the clipping.
 #[test]
 fn near_changes_the_angle_of_a_frustum_and_far_only_clips() {
     let mut explorer = explorer_with_models();
