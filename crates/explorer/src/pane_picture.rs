@@ -47,8 +47,8 @@ impl PanePicture {
 
     /// Renders some rows of a picture, with the same bytes as in the whole picture.
     ///
-    /// A picture of surfaces is rendered band by band. A picture with lines or overlays is rendered
-    /// once as a whole, for all bands.
+    /// A picture of surfaces is rendered band by band. Any other picture, for example with lines,
+    /// is rendered once as a whole, for all bands.
     ///
     /// # Errors
     /// If the picture cannot be rendered.

@@ -66,8 +66,8 @@ impl<'a> Semantic<'a> {
     /// `in_target` selects the displacements of morph targets: their tangents have three
     /// components, and signed integers are allowed for texture coordinates and colors.
     ///
-    /// `quantized` is set if the file uses KHR_mesh_quantization. The extension adds formats to
-    /// those of core glTF and never replaces them.
+    /// `quantized` is set if the file uses KHR_mesh_quantization. The extension adds to the formats
+    /// of core glTF and never replaces them.
     pub(super) fn allowed_formats(
         self,
         in_target: bool,

@@ -86,7 +86,7 @@ impl SamplePlane {
     ///
     /// All eight blocks are classified and bounded by vector instructions; then only touched blocks
     /// are visited, in the bit order of a mask. Before the samples of a block are written, its
-    /// bounds are raised to depths that will hold for them.
+    /// bounds are raised to fit them.
     #[inline(always)]
     fn rasterize_block_row<S: Simd>(
         &mut self,

@@ -152,7 +152,7 @@ fn lens() -> Projective<View, homog::Clip> {
     ])
 }
 
-/// Regression test: a floor under the eye covered no pixel, because the near plane cuts it.
+/// Regression test: a floor under the eye, cut by the near plane, covered no pixel (finding 6.4).
 #[test]
 fn a_floor_under_the_eye_covers_the_lower_half() {
     let positions = [[-500.0, -1.0, 9.0], [500.0, -1.0, 9.0], [0.0, -1.0, -99.0_f32]];
