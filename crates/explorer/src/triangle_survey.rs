@@ -14,7 +14,7 @@ const MAX_COUNTED: usize = 300_000;
 /// The number of cells along the longest side of the first vertex-merging grid.
 const FIRST_GRID: f64 = 96.0;
 
-/// The distance up to which a point counts as on a triangle, as a fraction of the triangle's size.
+/// The distance up to which a point counts as part of a triangle, as a fraction of its size.
 const NEXT_TO: f64 = 1e-3;
 
 /// A triangle in world space.

@@ -214,7 +214,7 @@ impl AccessorChecker<'_> {
         let diagnostics = self.document.diagnostics;
         let falls = indices.array_windows().filter(|[a, b]: &&[u32; 2]| a >= b).count();
         if falls > 0 {
-            let message = format_args!("the indices are not strictly increasing at {falls} places");
+            let message = format_args!("indices that do not exceed their predecessors: {falls}");
             diagnostics.add(&codes::ACCESSOR_SPARSE_INDICES_NON_INCREASING, pointer, message);
         }
         let outside = indices.iter().filter(|&&index| u64::from(index) >= layout.count).count();

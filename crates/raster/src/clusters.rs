@@ -169,7 +169,7 @@ fn union_bounds([low, high]: [[f32; 3]; 2], other: &[[f32; 3]; 2]) -> [[f32; 3];
 
 #[inline(always)]
 fn min_coordinates(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    // Written this way, each comparison is a single instruction; `f32::min` takes several to handle
+    // In this form, each comparison is a single instruction; `f32::min` takes several to handle
     // NaN.
     [0, 1, 2].map(|k| if a[k] < b[k] { a[k] } else { b[k] })
 }

@@ -16,7 +16,7 @@ pub(super) static TEAR: Lesson = Lesson {
     items: &["C36", "C54"],
     title: words("Clip before the divide", "先裁剪，后做透视除法"),
     statement: words(
-        "Behind the eye, w is negative. The divide by this w makes a point appear upside down and in front of the eye, and a triangle with corners on both sides is torn through infinity. So clip first, while w is still a coordinate.",
+        "Behind the eye, w is negative. The divide by this w makes a point appear upside down and in front of the eye, and a triangle with corners on both sides of the eye is torn through infinity. So clip first, while w is still a coordinate.",
         "视点之后 w 为负。除以它，点会上下颠倒，出现在前方；两侧都有顶点的三角形会被撕裂到无穷远。所以先裁剪，这时 w 还是一个坐标。",
     ),
     models: &[FLOOR],

@@ -18,7 +18,7 @@ pub(super) static MULTIVIEW: Lesson = Lesson {
     items: &["C75"],
     title: words("Multiview projection", "三视图"),
     statement: words(
-        "Each view projects orthographically onto a principal plane: the front view drops z (XOY), the side view drops x (YOZ), and the top view drops y (ZOX). Faces parallel to the plane keep their true shape, but no single view shows everything.",
+        "Each view projects orthographically onto a principal plane: the front view drops z (XOY), the side view drops x (YOZ), and the top view drops y (ZOX). Faces parallel to its plane keep their true shape, but no single view shows everything.",
         "每个视图都正交投影到一个坐标平面：主视图投影到 XOY 面，去掉 z；侧视图投影到 YOZ 面，去掉 x；俯视图投影到 ZOX 面，去掉 y。平行于投影平面的面保持真实形状；单个视图不能表示整个物体。",
     ),
     parameters: &[choice(

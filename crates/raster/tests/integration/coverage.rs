@@ -97,7 +97,7 @@ proptest! {
     }
 }
 
-/// Computes √(x² + y²) for numbers whose squares neither overflow nor underflow.
+/// The hypotenuse √(x² + y²) of numbers whose squares neither overflow nor underflow.
 trait Hypot {
     fn hypot_exact(self, other: f64) -> f64;
 }

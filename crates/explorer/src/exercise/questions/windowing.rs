@@ -50,7 +50,7 @@ pub(super) static ROWS_FROM_THE_TOP: Exercise = Exercise {
         mistake(
             "offset-of-y-negated",
             Wrong::Places(&[(1, 3, "-(ny-1)/2")]),
-            "you negated the offset of y along with its scale: the center of the image stays at (ny − 1)/2",
+            "you negated the offset of y along with its scale, but the center of the image stays at (ny − 1)/2",
             "y 的偏移随比例一起变了号：图像的中央仍在 (ny − 1)/2",
         ),
         mistake(
@@ -178,7 +178,7 @@ pub(super) static WINDOW_TO_VIEWPORT: Exercise = Exercise {
     ),
     hints: &[
         words(
-            "There are three steps: move the window's lower left corner to the origin, scale, and move to the viewport's corner.",
+            "There are three steps: move the window's lower left corner to the origin, scale, and move it to the viewport's corner.",
             "分三步：把窗口左下角移到原点，缩放，再移到视口的左下角。",
         ),
         words(
