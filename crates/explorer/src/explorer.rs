@@ -27,7 +27,7 @@ pub struct Answer {
     /// The media type of the bytes, such as `image/svg+xml`. Pixels are `application/octet-stream`:
     /// sRGB with straight alpha, four bytes each, rows from the top.
     pub content_type: &'static str,
-    /// The content.
+    /// The answer in this format.
     pub bytes: Vec<u8>,
 }
 
@@ -45,7 +45,7 @@ pub struct Explorer {
     volume: Pane,
 }
 
-/// A pane with its pictures and its last scene.
+/// The pictures of a pane and its last scene.
 #[derive(Debug, Default)]
 struct Pane {
     picture: PanePicture,
@@ -72,7 +72,7 @@ impl Explorer {
     /// to it.
     ///
     /// # Errors
-    /// If the name is empty, absolute, or points outside the folder of the files.
+    /// If the name is empty or absolute, or points outside the folder of the files.
     pub fn add_file(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), ExplorerError> {
         self.store.add_file(name, bytes)?;
         // Cached pictures may show the replaced file.
@@ -90,17 +90,17 @@ impl Explorer {
     /// Answers a request: a query string with the keys listed in the README.
     ///
     /// # Errors
-    /// If a key is unknown, repeated or malformed, a model is missing or broken, or the scene is
-    /// invalid. The explorer is unchanged.
+    /// If a key is unknown, repeated or malformed, if a model is missing or broken, or if the scene
+    /// is invalid. The explorer is then unchanged.
     pub fn answer(&mut self, query: &str) -> Result<Answer, ExplorerError> {
         self.answer_unless_canceled(query, &CancelToken::default())
     }
 
     /// Answers a request as [`answer`](Self::answer) does, unless another thread cancels it. Line
-    /// drawings and model loading run to completion first.
+    /// drawing and model loading are not interrupted.
     ///
     /// # Errors
-    /// As for `answer`, and `cannot_render` if the picture is canceled.
+    /// The errors of `answer`, and `cannot_render` if the picture is canceled.
     pub fn answer_unless_canceled(
         &mut self,
         query: &str,
@@ -143,7 +143,7 @@ impl Explorer {
                 format!("// {}{}\n{text}", lesson.title.en, lesson.remark)
             }
         };
-        // The text of a scene file is not changed, including size, samples and style.
+        // The user's scene file keeps its text, so the key also needs size, samples and style.
         let key = format!("{size:?} {samples} {:?} {text}", state.style);
         let loaded = self.store.resolve(key, &text, &file);
         let loaded = loaded.map_err(|error| error.about_model(own))?;
@@ -244,7 +244,7 @@ impl Explorer {
         let is_world = *question == Question::World;
         let orbit = if is_world { state.orbit() } else { state.volume_orbit() };
         let observer = Observer { orbit, size: *size, samples: *samples };
-        // The picture of the state has a different aspect ratio than the pane.
+        // The main picture's aspect ratio may differ from the pane's.
         let (text, loaded) = self.load(state, DEFAULT_SIZE, 4)?;
         let key = format!("{observer:?} {} {text}", state.to_link());
         let known = if is_world { &self.world } else { &self.volume }.known_scene(&key);
@@ -271,7 +271,7 @@ impl Explorer {
     }
 }
 
-/// Returns the point of the state: the point under the lesson's mouse, or the pinned point.
+/// Returns the point under the lesson's mouse, or else the pinned point, with its line of sight.
 fn pointer(state: &LessonState, loaded: &LoadedScene) -> Pointer {
     let view = &loaded.views()[0].view_projection;
     match (state.lesson.pointer)(&state.values(DEFAULT_SIZE)) {

@@ -25,7 +25,7 @@ pub(crate) struct Facts {
     pub(crate) window: Option<[f64; 4]>,
     /// The distances of the near and far planes along the gaze.
     pub(crate) planes: [Option<f64>; 2],
-    /// The minimum and maximum distance of the models along the gaze.
+    /// The minimum and maximum distances of the models along the gaze.
     pub(crate) model_range: Option<[f64; 2]>,
     /// The scene and its models.
     pub(crate) loaded: LoadedScene,
@@ -40,7 +40,7 @@ impl Facts {
         Self { survey, model_range: model_range(&view.view_projection, triangles), ..view }
     }
 
-    /// Computes the facts of the first view only, without counting triangles.
+    /// Computes the facts of a scene's first view except for the survey and the model range.
     pub(crate) fn without_survey(loaded: &LoadedScene) -> Self {
         let scene = loaded.views()[0];
         let view_projection = scene.view_projection;
@@ -84,8 +84,8 @@ impl Facts {
         f64::from(self.size[0]) / f64::from(self.size[1])
     }
 
-    /// Returns the NDC depth of a distance along the gaze in the pipeline's canonical volume, where
-    /// the near plane is at 1.
+    /// Returns the NDC depth at a distance along the gaze. In the pipeline's canonical volume, the
+    /// near plane is at 1.
     pub(crate) fn depth_at(&self, distance: f64) -> Option<f64> {
         let point = Point::<View>::new(0.0, 0.0, -distance);
         Some(self.view_projection.view_to_clip.transform_point(point).divide()?.z())
@@ -130,7 +130,7 @@ impl Facts {
     }
 }
 
-/// Returns the minimum and maximum distance along the gaze.
+/// Returns the minimum and maximum distances of the corners along the gaze.
 fn model_range(view: &ViewProjection, triangles: &[[Point<World>; 3]]) -> Option<[f64; 2]> {
     let world_to_view = view.camera.world_to_view();
     let distances =

@@ -1,4 +1,4 @@
-//! Lessons: a statement, parameters, and the scene built from them.
+//! Lessons: statements, parameters, and the scenes built from the parameters.
 
 use crate::facts::Facts;
 use crate::lesson_scene::LessonScene;
@@ -13,7 +13,7 @@ use scene_file::SceneFile;
 pub(crate) struct Lesson {
     /// The identifier in links.
     pub(crate) id: &'static str,
-    /// The source.
+    /// The text that the lesson follows, if any.
     pub(crate) source: Source,
     /// The items of the source inventory that the lesson covers.
     pub(crate) items: &'static [&'static str],
@@ -35,9 +35,9 @@ pub(crate) struct Lesson {
     pub(crate) describe: fn(&Values<'_>) -> LessonScene,
     /// A remark for readers of the scene file, placed after its title.
     pub(crate) remark: &'static str,
-    /// The first viewport that shows the model.
+    /// The index of the first viewport that shows the model.
     pub(crate) first_view: usize,
-    /// Returns the consequences of the values, except for clipping.
+    /// Describes the consequences of the values, except for clipping.
     pub(crate) consequences: fn(&Values<'_>, &Facts) -> Vec<Sentence>,
     /// The world-space point that is pinned initially, if it depends on the values.
     pub(crate) point: fn(&Values<'_>) -> Option<[f64; 3]>,
@@ -53,9 +53,9 @@ pub(crate) struct Lesson {
 pub(crate) enum VolumeStage {
     /// In the canonical view volume, clipped and then divided by w.
     Divided,
-    /// Divided by w without clipping, and therefore torn where w changes its sign.
+    /// Divided by w without clipping, and therefore torn where w changes sign.
     Torn,
-    /// In view space, after this number of affine factors of a frustum: shear, scale (VV-2).
+    /// In view space, after this many of the frustum's affine factors: shear, then scale (VV-2).
     Factors(usize),
 }
 
@@ -63,7 +63,7 @@ pub(crate) enum VolumeStage {
 pub(crate) const RIDGE: [f64; 3] = [0.0, 4.38, 3.15];
 
 impl Lesson {
-    /// Creates a lesson with the settings that most lessons share.
+    /// A lesson with the settings that most lessons share.
     pub(crate) const USUAL: Self = Self {
         id: "",
         source: Source::LearnWebGl,
@@ -85,7 +85,7 @@ impl Lesson {
         pointer: |_| None,
     };
 
-    /// Whether the user's own scene file is drawn unchanged, without a description.
+    /// Whether the lesson draws the user's own scene file unchanged and does not call `describe`.
     pub(crate) fn draws_own_file(&self) -> bool {
         self.id == "scene"
     }
@@ -120,7 +120,7 @@ impl Source {
 pub(crate) struct Parameter {
     pub(crate) key: &'static str,
     pub(crate) label: Words,
-    /// The unit: `°`, or empty for scene units and plain ratios.
+    /// The unit: `°`, `%`, or empty for scene units and plain ratios.
     pub(crate) unit: &'static str,
     pub(crate) domain: Domain,
 }
@@ -145,7 +145,7 @@ pub(crate) struct Choice {
     pub(crate) label: Words,
 }
 
-/// The parameters for a window on the near plane and for the near and far planes.
+/// The parameters for the sides of a window on the near plane.
 pub(crate) const WINDOW: [&str; 4] = ["left", "right", "bottom", "top"];
 pub(crate) const PLANES: [&str; 2] = ["near", "far"];
 
@@ -216,7 +216,7 @@ impl Values<'_> {
         keys.map(|key| scene_number(self.number(key)))
     }
 
-    /// Returns the choice of a parameter.
+    /// Returns the chosen value of a parameter.
     pub(crate) fn choice(&self, key: &str) -> &'static str {
         let value = self.value(key);
         debug_assert!(

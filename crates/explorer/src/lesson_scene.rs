@@ -14,7 +14,7 @@ const BACKGROUND: Color = Color([0xee, 0xf2, 0xf5]);
 /// The scene of a lesson, or an error for a number that scenes do not allow.
 pub(crate) type LessonScene = Result<SceneFile, InvalidNumber>;
 
-/// Returns a model in the lessons' light.
+/// Returns a scene with one model in the lessons' lighting.
 pub(crate) fn model_scene(path: &str, camera: CameraFile) -> LessonScene {
     let mut scene = SceneFile::new([ModelFile::new(path)]);
     scene.camera = camera;
@@ -25,14 +25,14 @@ pub(crate) fn model_scene(path: &str, camera: CameraFile) -> LessonScene {
     Ok(scene)
 }
 
-/// Returns the house as seen in most lessons.
+/// Returns a scene with the house as most lessons show it.
 pub(crate) fn house_scene(projection: ProjectionFile) -> LessonScene {
     let camera = CameraFile::look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]);
     model_scene(HOUSE, camera.with_projection(projection))
 }
 
-/// Returns a camera that frames the model with a margin in percent, from an azimuth and an
-/// elevation in degrees, or otherwise from the default direction of the projection.
+/// Returns a camera that frames the model with a margin in percent. It looks from an azimuth and an
+/// elevation in degrees or, for `None`, from the projection's default direction.
 pub(crate) fn framed(
     projection: ProjectionFile,
     padding_percent: f64,

@@ -12,7 +12,7 @@ use import::percent_encode;
 /// The version of the query keys.
 const VERSION: &str = "1";
 
-/// The initial direction to the canonical view volume: azimuth and elevation in degrees.
+/// The initial azimuth and elevation of the `volume` pane, in degrees.
 const VOLUME_ORBIT: [f64; 2] = [35.0, 25.0];
 
 /// The styles available for lessons, as named in scene files.
@@ -59,8 +59,8 @@ impl LessonState {
     /// Reads the state from the keys of a query and removes them.
     ///
     /// # Errors
-    /// If the version is unsupported, the lesson or style is unknown, or a value is malformed or
-    /// out of range.
+    /// If the version is unsupported, if the lesson or style is unknown, or if a value is malformed
+    /// or out of range.
     pub(crate) fn take_from(query: &mut Query) -> Result<Self, ExplorerError> {
         check_version(query.take("v"))?;
         let language = take_language(query)?;
@@ -88,8 +88,8 @@ impl LessonState {
         Self { parameters, style: None, ..self.clone() }
     }
 
-    /// Returns the pinned point in world space: the chosen point, otherwise the lesson's default,
-    /// or a corner of the user's own model.
+    /// Returns the pinned point in world space: the chosen point, or else the lesson's default,
+    /// which is a corner for the user's own model.
     pub(crate) fn pin(&self, loaded: &LoadedScene) -> [f64; 3] {
         let of_lesson = || (self.lesson.point)(&self.values(DEFAULT_SIZE));
         let of_model = || {

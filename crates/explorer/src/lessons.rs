@@ -44,7 +44,7 @@ pub(crate) static LESSONS: [&Lesson; 23] = [
 /// The model that most lessons show. It is 4.75 m high, and its front is at z = 2.8.
 pub(crate) const HOUSE: &str = "models/house.glb";
 
-/// The panes of a lesson about one perspective.
+/// The panes of a lesson with a perspective divide.
 pub(crate) const ALL_PANES: &[&str] = &["picture", "world", "volume", "matrix", "journey", "depth"];
 /// The panes of a lesson without a perspective divide.
 pub(crate) const PARALLEL_PANES: &[&str] = &["picture", "world", "volume", "matrix", "journey"];

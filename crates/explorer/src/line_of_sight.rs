@@ -7,7 +7,7 @@ use homog::{HPoint, Point, World};
 /// The part of a line of sight between the near and far planes.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct LineOfSight {
-    /// The ends on the near and far planes.
+    /// The endpoints on the near and far planes.
     pub(crate) ends: [Point<World>; 2],
 }
 

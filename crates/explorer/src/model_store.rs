@@ -9,9 +9,9 @@ use pipeline::{Origin, Scene, SceneFile, Textures};
 use scene_file::file::{ModelFile, StyleFile};
 use std::sync::Arc;
 
-/// The number of cached model sets: for the current and the previous lesson.
+/// The number of cached model sets, enough for the current and the previous lesson.
 const KEPT_SETS: usize = 2;
-/// The number of cached scenes: for the state and the defaults, each coarse and fine.
+/// The number of cached scenes, enough for a state at several picture sizes and for its defaults.
 const KEPT_SCENES: usize = 6;
 
 /// A resolved scene with its models.
@@ -19,7 +19,7 @@ const KEPT_SCENES: usize = 6;
 pub(crate) struct LoadedScene {
     pub(crate) scene: Arc<Scene>,
     pub(crate) models: Arc<LoadedModels>,
-    /// The first viewport that shows the model.
+    /// The index of the first viewport that shows the model.
     pub(crate) first_view: usize,
 }
 
@@ -44,7 +44,7 @@ pub(crate) struct LoadedModels {
     pub(crate) triangles: WorldTriangles,
 }
 
-/// The added files and the models and scenes loaded from them, with the latest last.
+/// The added files, and the models and scenes loaded from them, latest last.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ModelStore {
     folder: MemoryFolder,
@@ -83,7 +83,7 @@ impl ModelStore {
     /// the scene.
     ///
     /// # Errors
-    /// If the scene is invalid, or a model cannot be loaded.
+    /// If the scene is invalid or a model cannot be loaded.
     pub(crate) fn resolve(
         &mut self,
         key: String,

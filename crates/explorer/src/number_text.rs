@@ -1,6 +1,6 @@
 //! Number formatting in scene files and sentences.
 
-/// Formats a number as a person would write it in a scene file: rounded to six decimals.
+/// Rounds a number to six decimals, as a person would write it in a scene file.
 pub(crate) fn scene_number(value: f64) -> f64 {
     // Readers expect 0, not −0.
     libm::round(value * 1e6) / 1e6 + 0.0
@@ -12,7 +12,7 @@ pub(crate) fn decimals(value: f64, count: i32) -> String {
     format!("{}", libm::round(value * scale) / scale + 0.0)
 }
 
-/// Returns a number of triangles in English words.
+/// Returns a number of triangles with its English noun.
 pub(crate) fn count_triangles(count: usize) -> String {
     files::counted(count, "triangle", "triangles")
 }

@@ -47,8 +47,8 @@ impl PanePicture {
 
     /// Renders some rows of a picture, with the same bytes as in the whole picture.
     ///
-    /// Surfaces are rendered band by band. Lines and overlays are drawn once, with the whole
-    /// picture, for all bands.
+    /// A picture of surfaces is rendered band by band. Any other picture, for example with lines,
+    /// is rendered once as a whole, for all bands.
     ///
     /// # Errors
     /// If the picture cannot be rendered.
@@ -84,7 +84,7 @@ fn renders_in_bands(scene: &Scene) -> bool {
         && scene.occlusion_radius.is_none()
 }
 
-/// Returns the number of threads of the machine, which does not affect any answer.
+/// Returns the number of threads to render with, which does not affect any answer.
 pub(crate) fn thread_count() -> usize {
     std::thread::available_parallelism().map_or(1, Into::into)
 }

@@ -17,7 +17,7 @@ use shade::color::srgb_to_linear_table;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The sRGB colors of triangles that are inside, clipped and outside, and of the line of sight.
+/// The sRGB colors of inside, clipped and outside triangles, and of the line of sight.
 pub(crate) const COLORS: [(&str, [u8; 3]); 4] = [
     ("inside", [122, 166, 218]),
     ("clipped", [230, 159, 0]),
@@ -43,7 +43,7 @@ pub(crate) struct Observer {
 /// The geometry of a pane.
 #[derive(Debug, Default)]
 pub(crate) struct PaneGeometry {
-    /// The triangles that are inside, clipped and outside.
+    /// The inside, clipped and outside triangles.
     triangles: [Vec<[[f32; 3]; 3]>; 3],
     /// The endpoints of the lines, by color.
     lines: [Vec<[[f32; 3]; 2]>; 4],
@@ -69,7 +69,7 @@ impl PaneGeometry {
     /// Returns the scene, framed around points.
     ///
     /// # Errors
-    /// If there are no points, or a point is not finite.
+    /// If there are no points, or if a point is not finite.
     pub(crate) fn into_scene(
         self,
         observer: Observer,
@@ -174,7 +174,7 @@ pub(crate) fn camera_at_origin() -> Result<Camera, ExplorerError> {
         .map_err(|error| ExplorerError::new("invalid_scene", error.to_string(), "reset the view"))
 }
 
-/// Returns text next to a point, `offset` pixels away.
+/// Returns a text label offset from a point by `[x, y]` pixels.
 pub(crate) fn label_at(at: Point<World>, text: &str, [x, y]: [f64; 2]) -> Overlay {
     let (ink, height) = (palette::INK, 12.0);
     let offset = DVec2::new(x, y);

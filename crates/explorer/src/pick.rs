@@ -25,7 +25,7 @@ pub(crate) fn pick_json(
         Some(inset) => (&inset.scene, [x - inset.rect.x, y - inset.rect.y]),
         None => (scene, [x, y]),
     };
-    // Lines would hide the surfaces that the request is about.
+    // A line style draws no surfaces, but the request is about a surface.
     let mut surfaces = scene.clone();
     if !scene.style.draws_surfaces() {
         surfaces.style = Style::Flat;

@@ -16,8 +16,8 @@ impl Query {
     /// Parses a query string, with or without a leading `#` or `?`.
     ///
     /// # Errors
-    /// If a pair lacks `=`, percent-encoding is broken, a key is repeated, or the query is too
-    /// long.
+    /// If a pair lacks `=`, if percent-encoding is broken, if a key is repeated, or if the query is
+    /// too long.
     pub(crate) fn parse(text: &str) -> Result<Self, ExplorerError> {
         if text.len() > MAX_QUERY_BYTES {
             let message = format!("the request has {} bytes", text.len());
@@ -69,7 +69,7 @@ mod tests {
     use import::percent_encode;
 
     #[test]
-    fn pairs_are_decoded_and_can_be_taken_once() {
+    fn pairs_are_decoded_and_can_be_taken_only_once() {
         let mut query = Query::parse("#v=1&model=a%20b+c%E4%B8%AD.glb").expect("a query");
         assert_eq!(query.take("model").as_deref(), Some("a b c中.glb"));
         assert_eq!((query.take("model"), query.first_key()), (None, Some("v")));

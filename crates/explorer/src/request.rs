@@ -5,7 +5,7 @@ use crate::lesson_state::LessonState;
 use crate::query::Query;
 use scene_file::closest_name;
 
-/// The default picture size. The lessons are designed for this shape.
+/// The default picture size. The lessons are designed for its aspect ratio.
 pub(crate) const DEFAULT_SIZE: [u32; 2] = [640, 400];
 
 /// The maximum side of a picture in pixels.
@@ -72,7 +72,7 @@ impl Request {
     /// Parses a request.
     ///
     /// # Errors
-    /// If a key is unknown, a value is malformed, or a band of a PNG is requested.
+    /// If a key is unknown, if a value is malformed, or if a band of a PNG is requested.
     pub(crate) fn parse(text: &str) -> Result<Self, ExplorerError> {
         let mut query = Query::parse(text)?;
         let question = find_question(query.take("what").as_deref())?;

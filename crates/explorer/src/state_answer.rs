@@ -72,7 +72,7 @@ fn value_json(value: ParameterValue) -> Json {
     }
 }
 
-/// Returns the command that renders the same picture in the folder with the models.
+/// Returns the command that renders the same picture when run in the folder with the models.
 fn command(request: &Request, text: &str) -> String {
     let Request { state, size: [width, height], samples, .. } = request;
     match &state.model {
@@ -99,7 +99,7 @@ fn journey_json(
     let ndc = clip.divide();
     let screen =
         chain.project_to_screen(clip).map(|screen| in_picture(screen, loaded, conventions));
-    // Without triangles, for example in a point cloud, only the placement in the scene is known.
+    // Without triangles, as in a point cloud, only the model's placement in the scene is known.
     let placed = || Some(loaded.scene.models.first()?.model_to_world);
     let mesh_to_world = loaded.models.triangles.mesh_to_world_at(pin).or_else(placed);
     let world_to_mesh = mesh_to_world.and_then(Affine::inverse);
@@ -117,8 +117,8 @@ fn journey_json(
     json
 }
 
-/// Converts screen coordinates of the first view to the whole picture, because a viewport has an
-/// offset.
+/// Converts screen coordinates of the first view to coordinates of the whole picture by adding the
+/// viewport's offset.
 fn in_picture(
     screen: Point<Screen>,
     loaded: &LoadedScene,
@@ -176,7 +176,7 @@ fn clipping_sentences(facts: &Facts) -> Vec<Sentence> {
     sentences
 }
 
-/// Returns the total numbers of clipped and outside triangles if the numbers of the planes overlap.
+/// Returns the total numbers of clipped and outside triangles if some count for several planes.
 fn overlap_sentence(facts: &Facts) -> Option<Sentence> {
     let survey = facts.survey;
     let totals = [(survey.clipped, survey.clipped_by), (survey.outside, survey.outside_of)];

@@ -9,12 +9,12 @@ use std::collections::BTreeMap;
 
 /// The maximum number of triangles drawn in the panes next to the main picture.
 const MAX_DRAWN: usize = 10_000;
-/// The maximum number of triangles that are classified individually.
+/// The maximum number of triangles for which every triangle is classified.
 const MAX_COUNTED: usize = 300_000;
 /// The number of cells along the longest side of the first vertex-merging grid.
 const FIRST_GRID: f64 = 96.0;
 
-/// The distance at which a point still belongs to a triangle, as a fraction of the triangle's size.
+/// The distance up to which a point counts as part of a triangle, as a fraction of its size.
 const NEXT_TO: f64 = 1e-3;
 
 /// A triangle in world space.
@@ -27,7 +27,7 @@ pub(crate) struct WorldTriangles {
     pub(crate) count: usize,
     /// The classified triangles: all of them, or only the drawn triangles of very large models.
     pub(crate) counted: Vec<WorldTriangle>,
-    /// A smaller set for drawing; `None` if the full set is small.
+    /// A smaller set for drawing; `None` if the classified triangles are drawn.
     reduced: Option<Vec<WorldTriangle>>,
     /// The primitives in the order of their triangles.
     parts: Vec<Part>,
@@ -38,7 +38,7 @@ pub(crate) struct WorldTriangles {
 struct Part {
     /// The number of triangles up to the end of this primitive.
     end: usize,
-    /// The transform of its node and model.
+    /// The transform of the primitive's node and model.
     mesh_to_world: Affine<ModelSpace, World>,
 }
 
@@ -63,8 +63,8 @@ impl WorldTriangles {
         self.drawn().len() < self.count
     }
 
-    /// Returns the transform of the primitive whose surface contains a point, or otherwise of the
-    /// first primitive; `None` without triangles.
+    /// Returns the transform of the primitive whose surface contains a point, or of the first
+    /// primitive if none does; `None` without triangles.
     pub(crate) fn mesh_to_world_at(
         &self,
         point: Point<World>,
@@ -74,7 +74,7 @@ impl WorldTriangles {
         };
         let hits = self.counted.iter().enumerate().filter_map(near);
         let at = hits.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, at)| at);
-        // A simplified model does not say to which primitive a triangle belongs.
+        // A simplified model does not record which primitive a triangle belongs to.
         let at = at.filter(|_| self.counted.len() == self.count);
         let part = self.parts.iter().find(|part| part.end > at.unwrap_or(0))?;
         Some(part.mesh_to_world)
@@ -86,7 +86,7 @@ impl WorldTriangles {
     }
 }
 
-/// Returns the distance of a point from the plane of a triangle if the point is next to it.
+/// Returns the distance between a point and a triangle's plane if the point is on the triangle.
 fn distance_on_triangle(triangle: &WorldTriangle, point: Point<World>) -> Option<f64> {
     let [a, b, c] = *triangle;
     let (ab, ac, ap) = (b - a, c - a, point - a);
@@ -95,7 +95,7 @@ fn distance_on_triangle(triangle: &WorldTriangle, point: Point<World>) -> Option
     let distance = ap.dot(normal).abs() / size;
     let [u, v] = [ap.cross(ac), ab.cross(ap)].map(|part| part.dot(normal) / (size * size));
     let is_inside = u >= -NEXT_TO && v >= -NEXT_TO && u + v <= 1.0 + NEXT_TO;
-    // Pixels are picked with the precision of the depth buffer.
+    // Picked points are only as precise as the depth buffer.
     let is_near = distance <= NEXT_TO * libm::sqrt(size);
     (is_inside && is_near).then_some(distance)
 }
@@ -116,8 +116,8 @@ fn list_parts(models: &[ModelInstance]) -> Vec<Part> {
     parts
 }
 
-/// Visits the triangles of models. A list of all triangles of a large model would not fit in the
-/// memory of a page.
+/// Visits the triangles of models. A list of all triangles of a large model would not fit in a
+/// page's memory.
 fn visit_triangles(models: &[ModelInstance], visit: &mut dyn FnMut(WorldTriangle)) {
     for placed in models {
         for instance in placed.model.mesh_instances() {
@@ -199,16 +199,16 @@ pub(crate) enum Containment {
     Outside,
 }
 
-/// How many triangles are inside, clipped and outside, and the planes responsible.
+/// How many triangles are inside, clipped and outside, in total and by plane.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub(crate) struct Survey {
     pub(crate) inside: usize,
     pub(crate) clipped: usize,
     pub(crate) outside: usize,
-    /// The clipped triangles for each of the planes left, right, bottom, top, near and far. A
+    /// The number of triangles that each plane clips: left, right, bottom, top, near and far. A
     /// triangle may count for several planes.
     pub(crate) clipped_by: [usize; 6],
-    /// The triangles entirely outside each plane, in the same order.
+    /// The number of triangles entirely outside each plane, in the same order.
     pub(crate) outside_of: [usize; 6],
     /// The number of triangles with a corner behind the eye.
     pub(crate) behind_eye: usize,
@@ -276,7 +276,7 @@ mod tests {
     use std::fmt::Write as _;
     use std::sync::Arc;
 
-    /// Returns a grid of `side` × `side` squares on the unit square, in OBJ format.
+    /// Returns a grid of `side` × `side` squares on the unit square, loaded from OBJ.
     fn grid(side: usize) -> ModelInstance {
         let mut obj = String::new();
         let row = side + 1;
@@ -316,7 +316,7 @@ mod tests {
     }
 
     #[test]
-    fn large_models_are_drawn_simplified_with_the_same_area() {
+    fn simplified_large_models_keep_their_area() {
         let triangles = WorldTriangles::new(&[grid(150)]);
         assert_eq!((triangles.count, triangles.counted.len()), (45_000, 45_000));
         assert!(triangles.is_reduced() && triangles.drawn().len() <= MAX_DRAWN);

@@ -16,8 +16,8 @@ use homog::{Affine, Clip, HPoint, Point, Projective, View, World};
 use pipeline::Scene;
 use projection::{Convention, Frustum, ViewVolume};
 
-/// The limit up to which torn triangles are drawn, in half sides of the view volume, because the
-/// range of single precision is finite.
+/// The largest coordinate at which torn triangles are drawn, in half sides of the view volume. It
+/// is far below the limit of single precision.
 const TORN_LIMIT: f64 = 1e6;
 
 /// Returns the scene of the pane at a stage of the pipeline.
@@ -68,14 +68,14 @@ fn canonical_scene(
     Ok(scene)
 }
 
-/// Adds a clip-space triangle divided by w: its clipped part or the whole triangle.
+/// Adds a clip-space triangle, divided by w either after clipping or as a whole.
 fn add_divided(geometry: &mut PaneGeometry, corners: [HPoint<Clip>; 3], stage: VolumeStage) {
     let (containment, _) = classify(corners);
     if stage == VolumeStage::Torn {
         let divided = corners.map(|corner| corner.divide().map(<[f64; 3]>::from));
         let [Some(a), Some(b), Some(c)] = divided else { return };
         let is_far = [a, b, c].as_flattened().iter().any(|c| c.abs() > TORN_LIMIT);
-        // The triangle is partly behind the eye, so a divide without clipping tears it.
+        // A divide without clipping tears a triangle that is partly behind the eye.
         match corners.iter().any(|corner| corner.w() <= 0.0) {
             true if is_far => {}
             true => geometry.add_edges(Containment::Clipped, [a, b, c]),
@@ -91,8 +91,7 @@ fn add_divided(geometry: &mut PaneGeometry, corners: [HPoint<Clip>; 3], stage: V
     }
 }
 
-/// Returns the scene of view space after some of the affine factors of a frustum, with its view
-/// volume.
+/// Returns the scene of view space and the view volume after some of the frustum's affine factors.
 fn factor_scene(facts: &Facts, count: usize, observer: Observer) -> Result<Scene, ExplorerError> {
     let view = facts.view_projection;
     let to_stage = affine_factors(facts, count).unwrap_or(Affine::IDENTITY);

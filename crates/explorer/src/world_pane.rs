@@ -20,8 +20,8 @@ use projection::{Convention, ViewVolume};
 
 /// The maximum number of view volumes drawn, which is enough for all viewports of a sheet.
 const MAX_VOLUMES: usize = 4;
-/// The depth of the framed part of a view volume, as a multiple of the distance to the farthest
-/// model point.
+/// The maximum depth of the framed part of a view volume, as a multiple of the distance to the
+/// farthest model point.
 const MAX_FRAMED_DEPTH: f64 = 1.6;
 
 /// The highlighted point in the world and the line of sight through it.
@@ -156,8 +156,8 @@ mod tests {
         triangles.iter().map(area).sum()
     }
 
-    /// The parts of a triangle that passes the eye add up to the whole, and the inner parts are in
-    /// the volume.
+    /// The parts of a triangle that extends behind the eye add up to the whole, and the inner parts
+    /// are in the volume.
     #[test]
     fn parts_of_a_split_triangle_add_up_to_the_whole() {
         let camera = Camera::look_to(Point::ORIGIN, -Vector::Z, Vector::Y).expect("a camera");

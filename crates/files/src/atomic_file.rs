@@ -1,4 +1,4 @@
-//! Writes output files atomically: to a temporary file next to the target, which is then renamed.
+//! Writes output files atomically: a temporary file next to the target is written, then renamed.
 //!
 //! A failed run leaves the old file unchanged, and no reader ever sees an incomplete file.
 
@@ -49,8 +49,8 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     file.finish()
 }
 
-/// A temporary file next to its target, which it replaces when finished. Dropping it earlier
-/// removes it.
+/// A temporary file that replaces the target next to it when finished. Dropping this value earlier
+/// removes the file.
 #[derive(Debug)]
 pub struct AtomicFile {
     /// The file to replace when the temporary file is finished.

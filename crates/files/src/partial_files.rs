@@ -46,13 +46,13 @@ pub(crate) fn create(target: &Path) -> io::Result<(PathBuf, File)> {
     Ok((path, file))
 }
 
-/// Creates a temporary file that [`remove_partial_files`] removes until it is
+/// Creates a temporary file that [`remove_partial_files`] removes unless it has been
 /// [forgotten](forget_partial_file).
 ///
 /// # Errors
 /// See [`File::create`].
 pub fn create_partial_file(path: &Path) -> io::Result<File> {
-    // The lock is held while the file is created, so that a signal cannot leave the file behind.
+    // The list stays locked during the creation, so that a signal cannot leave the file behind.
     let mut own = lock(&OWN);
     let file = File::create(path)?;
     own.insert(path.to_owned());
@@ -86,7 +86,7 @@ pub(crate) fn remove(path: &Path) {
 pub fn remove_partial_files(end: impl FnOnce()) {
     let own = lock(&OWN);
     for path in own.iter() {
-        // It may have just been renamed.
+        // The file may have just been renamed.
         let _ = std::fs::remove_file(path);
     }
     end();
@@ -107,7 +107,7 @@ fn remove_abandoned(folder: &Path, target: &OsStr) {
     files.retain(|file| target != file.target.as_str());
 }
 
-/// Returns a folder's temporary files that existed before this process.
+/// Returns the temporary files of other processes in a folder.
 fn foreign_files(folder: &Path) -> Vec<ForeignFile> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     entries.filter_map(|entry| ForeignFile::from_name(entry.file_name())).collect()
@@ -144,7 +144,7 @@ fn is_dead(process: u32) -> bool {
     Path::new("/proc/self").exists() && !Path::new("/proc").join(process.to_string()).exists()
 }
 
-/// Locks a mutex. Its content is valid even if another thread panicked.
+/// Locks a mutex, whose content is valid even if another thread panicked.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

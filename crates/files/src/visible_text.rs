@@ -46,7 +46,7 @@ pub fn visible_path(path: impl AsRef<Path>) -> String {
 /// The maximum number of characters in an excerpt. Part names can have any length.
 const MAX_EXCERPT: usize = 60;
 
-/// Returns the beginning of a string for a message. Invisible characters, such as control
+/// Returns the beginning of a string for a message. Invisible characters, including control
 /// characters and characters that change the text direction, are written as codes such as
 /// `\u{202e}`.
 ///

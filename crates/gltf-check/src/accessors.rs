@@ -9,10 +9,10 @@ use serde_json::Value;
 
 /// Validates the layout of all accessors.
 ///
-/// Only the declarations are compared here; [`data`](super::data) reads the elements.
+/// Only the declarations and the sparse indices are checked here; [`data`](super::data) reads the
+/// elements.
 ///
-/// `min` and `max` are checked even if the layout is incomplete, because they depend only on the
-/// element type.
+/// An accessor whose layout is incomplete is skipped, because the schema walk has reported it.
 pub(super) fn check_accessors(
     document: &CheckedDocument<'_>,
     store: &BufferStore<'_>,
@@ -29,8 +29,6 @@ pub(super) fn check_accessors(
 }
 
 /// The context for validating one accessor.
-///
-/// It is borrowed for one iteration of the loop over all accessors.
 struct AccessorChecker<'a> {
     document: &'a CheckedDocument<'a>,
     store: &'a BufferStore<'a>,
@@ -41,8 +39,8 @@ struct AccessorChecker<'a> {
 
 /// A range of bytes in a buffer view, containing components of `size` bytes.
 ///
-/// For an accessor it extends from the first byte of the first element to the last byte of the last
-/// element, without the padding after it.
+/// For an accessor, it extends from the first byte of the first element to the last byte of the
+/// last element, without any padding after that.
 struct ByteRange {
     /// The start of the range, in bytes from the start of the buffer view.
     offset: u64,
@@ -157,7 +155,7 @@ impl AccessorChecker<'_> {
     /// Validates the indices or values of a sparse accessor: `count` elements of `length` bytes,
     /// with components of `size` bytes.
     ///
-    /// Both are tightly packed: their buffer view must not have a `byteStride`.
+    /// Both are tightly packed: their buffer views must not have a `byteStride`.
     fn check_sparse_part(
         &self,
         part: &Value,
@@ -180,8 +178,8 @@ impl AccessorChecker<'_> {
 
     /// Validates that a range of bytes is aligned to its component size and inside its buffer view.
     ///
-    /// Both the offset in the view and the offset in the buffer must be aligned; each error has a
-    /// separate code (glTF 2.0 §3.6.2.4). The sums saturate, so that offsets near the largest
+    /// Both the offset in the view and the offset in the buffer must be aligned; each violation has
+    /// a separate code (glTF 2.0 §3.6.2.4). The sums saturate, so that offsets near the largest
     /// integer cannot wrap around to a small, valid-looking value.
     fn check_byte_range(&self, view: usize, stretch: &ByteRange, pointer: &str) {
         let diagnostics = self.document.diagnostics;
@@ -210,13 +208,13 @@ impl AccessorChecker<'_> {
     /// Validates that the sparse indices are strictly increasing and less than the accessor's
     /// count.
     ///
-    /// No other data is read here, because the elements cannot be read without valid indices.
+    /// Other data is read later, because the elements can be read only if these indices are valid.
     fn check_sparse_indices(&self, sparse: &Value, layout: AccessorLayout, pointer: &str) {
         let Some(indices) = self.store.sparse_indices(sparse) else { return };
         let diagnostics = self.document.diagnostics;
         let falls = indices.array_windows().filter(|[a, b]: &&[u32; 2]| a >= b).count();
         if falls > 0 {
-            let message = format_args!("the indices are not strictly increasing ({falls} times)");
+            let message = format_args!("indices that do not exceed their predecessors: {falls}");
             diagnostics.add(&codes::ACCESSOR_SPARSE_INDICES_NON_INCREASING, pointer, message);
         }
         let outside = indices.iter().filter(|&&index| u64::from(index) >= layout.count).count();

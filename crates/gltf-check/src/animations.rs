@@ -113,7 +113,7 @@ impl<'a> AnimationChecker<'a, '_> {
     }
 
     /// Validates that keyframe times are float scalars with bounds, and that a cubic spline has at
-    /// least two.
+    /// least two keyframes.
     ///
     /// `min` and `max` are required here, because players derive the duration of an animation from
     /// them without reading the data. A cubic spline with one keyframe has no segment to
@@ -146,8 +146,8 @@ impl<'a> AnimationChecker<'a, '_> {
     /// `known` contains the targets of the preceding channels, as pairs of node and path.
     ///
     /// With two channels for one property, the result would depend on the order of evaluation.
-    /// Checking the values requires the path, so it is skipped for pointers, whose type the loader
-    /// resolves.
+    /// The values for a JSON pointer are not checked here, because only the loader resolves their
+    /// type.
     fn check_channel(
         &mut self,
         number: usize,
@@ -200,13 +200,13 @@ impl<'a> AnimationChecker<'a, '_> {
     fn check_pointer_target(&self, target: &Value, path: &str, member: &str) {
         if path != "pointer" {
             let message = format_args!(
-                "with KHR_animation_pointer the path must be \"pointer\", not {path:?}"
+                "with KHR_animation_pointer, the path must be \"pointer\", not {path:?}"
             );
             let code = &codes::KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_PATH;
             self.report(code, &format!("{member}/target/path"), message);
         }
         if target.get("node").is_some() {
-            let message = "with KHR_animation_pointer the target must not have a node";
+            let message = "with KHR_animation_pointer, the target must not have a node";
             let code = &codes::KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_NODE;
             self.report(code, &format!("{member}/target/node"), message);
         }

@@ -33,8 +33,8 @@ pub fn check_file(path: &Path, options: &ImportOptions) -> CheckReport {
         if has_gltf_rules(path, &bytes) {
             check_content(&bytes, &resolver(bytes.len())?, &findings);
         }
-        // A separate resolver: the bytes read by the validation do not count against the loader's
-        // limits.
+        // The loader gets a separate resolver, because bytes read by the validation must not count
+        // against its limits.
         import_model(path, &bytes, &resolver(bytes.len())?, options)
     });
     build_report(path, result, findings)
@@ -58,13 +58,13 @@ pub fn check_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> CheckRe
     build_report(path, result, findings)
 }
 
-/// Returns whether to validate the file against the glTF specification. For other formats only the
+/// Returns whether to validate the file against the glTF specification. For other formats, only the
 /// loader's diagnostics are reported.
 fn has_gltf_rules(path: &Path, bytes: &[u8]) -> bool {
     FileFormat::recognize(path, bytes) == Ok(FileFormat::Gltf)
 }
 
-/// Completes the report with the loader's diagnostics and the counts.
+/// Builds the report from the findings, the loader's diagnostics and the counts.
 fn build_report(
     path: &Path,
     result: Result<model::Model, Diagnostic>,
@@ -107,7 +107,7 @@ fn check_content(bytes: &[u8], resolver: &UriResolver<'_>, findings: &Diagnostic
 /// Runs all checks on a parsed document.
 ///
 /// The order matters. The schema walk runs first, because it reports missing and mistyped members,
-/// which later checks skip. Element data is read once all of its rules are known. Unused objects
+/// which later checks skip. Element data is read after all of its rules are known. Unused objects
 /// are found last.
 fn check_document(
     document: &CheckedDocument<'_>,

@@ -1,8 +1,8 @@
 //! Diagnostic codes with their names, severities and help texts.
 //!
 //! Names and severities match the Khronos glTF validator 2.0 (its `ISSUES.md`) for every issue that
-//! it defines; its severities "information" and "hint" are notes here. The last few codes of each
-//! severity are our own: they report how the loader treats the file.
+//! it defines; its severities "information" and "hint" are notes here. The other codes are our own:
+//! they report how the loader treats the file.
 
 use model::Severity;
 

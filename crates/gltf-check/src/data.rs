@@ -41,7 +41,7 @@ pub(super) enum ElementRule {
     Indices { vertices: u64, triangles: bool },
     /// Keyframe times in seconds: not negative, strictly increasing.
     Times,
-    /// Unit quaternions; for cubic splines only the value between the two tangents.
+    /// Unit quaternions; for cubic splines, only the value between the two tangents.
     Quaternions { spline: bool },
     /// Affine matrices in column-major order: the last row, components 3, 7, 11 and 15, is 0, 0, 0,
     /// 1.
@@ -58,7 +58,7 @@ pub(super) struct ElementRules {
 
 /// The maximum number of rules for one accessor; each costs a comparison per element.
 ///
-/// In ordinary files an accessor has one or two rules. Without a maximum, a small file in which
+/// In ordinary files, an accessor has one or two rules. Without a maximum, a small file in which
 /// thousands of primitives index one accessor, each with a different number of vertices, would take
 /// quadratic time.
 const MAX_RULES: usize = 16;
@@ -74,7 +74,7 @@ const UNIT_QUATERNION_TOLERANCE: f64 = 0.00769;
 impl ElementRules {
     /// Adds a rule for an accessor's elements, unless it already has this rule or too many rules.
     ///
-    /// `pointer` is the member that sets the rule; violations are reported there.
+    /// `pointer` refers to the member that sets the rule; violations are reported there.
     pub(super) fn add(&mut self, accessor: usize, demand: ElementRule, pointer: &str) {
         let list = self.by_accessor.entry(accessor).or_default();
         if list.len() < MAX_RULES && list.iter().all(|(known, _)| *known != demand) {
@@ -109,7 +109,7 @@ pub(super) fn check_data(
 
 /// The number of violations of one rule, and the element and value of the first.
 ///
-/// One diagnostic with a count replaces what could be millions.
+/// One diagnostic with a count replaces potentially millions.
 #[derive(Clone, Default, Debug)]
 struct Tally {
     /// The number of violations.

@@ -1,4 +1,4 @@
-//! Collects diagnostics without duplicates, bounded even for a file with millions of defects.
+//! Collects a limited number of diagnostics without duplicates, even for millions of defects.
 
 use super::codes::DiagnosticCode;
 use model::{Diagnostic, Severity};
@@ -38,7 +38,8 @@ struct SeverityList {
 }
 
 impl Diagnostics {
-    /// Adds a diagnostic with the help text of its code. If the list is full, it is not formatted.
+    /// Adds a diagnostic with the help text of its code. If the list is full, the diagnostic is
+    /// only counted.
     pub(super) fn add(&self, code: &DiagnosticCode, pointer: impl Display, message: impl Display) {
         self.add_with_help(code, pointer, message, code.remedy);
     }

@@ -1,7 +1,7 @@
-//! The document under validation: its raw JSON, the diagnostics so far, and the referenced objects.
+//! The document under validation: its raw JSON, the diagnostics so far, and which objects are used.
 //!
-//! The accessors in this module return `None` for members that are missing or have the wrong type:
-//! the schema walk has already reported them.
+//! The functions in this module treat members of the wrong type as missing, because the schema walk
+//! has already reported them.
 
 use super::diagnostics::Diagnostics;
 use super::schema::Collection;
@@ -22,7 +22,7 @@ pub(super) struct CheckedDocument<'a> {
 }
 
 impl<'a> CheckedDocument<'a> {
-    /// Creates a document before any validation.
+    /// Prepares a document for validation.
     pub(super) fn new(root: &'a Value, diagnostics: &'a Diagnostics) -> Self {
         let count = |(_, pointer, _): (Collection, &str, bool)| {
             root.pointer(pointer).and_then(Value::as_array).map_or(0, Vec::len)
@@ -98,7 +98,7 @@ pub(super) fn number_array<const N: usize>(value: &Value, key: &str) -> Option<[
     numbers?.try_into().ok()
 }
 
-/// Returns the extension object with this name inside an object.
+/// Returns the extension with this name in an object.
 pub(super) fn extension_object<'a>(value: &'a Value, name: &str) -> Option<&'a Value> {
     value.get("extensions")?.get(name)
 }

@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 /// Validates the declared glTF version and the minimum version.
 ///
 /// An unsupported major version stops the validation, because its schema is unknown; a later minor
-/// version is only a warning, because minor versions are compatible (glTF 2.0 §3.2).
+/// version causes only a warning, because minor versions are compatible (glTF 2.0 §3.2).
 ///
 /// Versions are compared as pairs of integers, because 2.10 is later than 2.9.
 pub(super) fn check_asset(document: &CheckedDocument<'_>) {
@@ -116,8 +116,8 @@ pub(super) fn check_variants(document: &CheckedDocument<'_>) {
 
 /// Validates the parameters of cameras.
 ///
-/// To define a projection, `zfar` must be greater than `znear`, magnifications must not be zero,
-/// and the field of view must be less than a half turn.
+/// A camera defines a projection only if `zfar` is greater than `znear`, no magnification is zero,
+/// and the field of view is less than half a turn.
 ///
 /// The object named by `type` must be present. Angles are in radians.
 pub(super) fn check_cameras(document: &CheckedDocument<'_>) {
@@ -168,8 +168,8 @@ pub(super) fn check_cameras(document: &CheckedDocument<'_>) {
 
 /// Reports objects that nothing refers to.
 ///
-/// Files with unsupported extensions are skipped, because these may refer to anything. Nodes and
-/// scenes are never reported, because a viewer may select them.
+/// Files with unsupported extensions are skipped, because such extensions may refer to anything.
+/// Nodes and scenes are never reported, because a viewer may select them.
 ///
 /// Unused objects are valid but increase the download time, so they get notes.
 pub(super) fn check_unused(document: &CheckedDocument<'_>) {

@@ -14,7 +14,7 @@ pub(super) struct AccessorElements<'a> {
     pub(super) layout: AccessorLayout,
     /// The bytes of the elements and their stride; `None` if all are zero.
     base: Option<(&'a [u8], usize)>,
-    /// Pairs of an element and the sparse value that replaces it, sorted by element.
+    /// Pairs of indices: an element and the sparse value that replaces it, sorted by element.
     replaced: Vec<(u32, u32)>,
     /// The bytes of the sparse values, tightly packed.
     values: &'a [u8],
@@ -39,7 +39,7 @@ impl<'a> AccessorElements<'a> {
         self.base.is_none() && self.replaced.is_empty()
     }
 
-    /// Calls `see` with the index of each element and its components.
+    /// Calls `see` with the index and the components of each element.
     ///
     /// Components are passed as stored in the file; [`dequantize`](Self::dequantize) converts
     /// normalized integers. The sorted replacements are merged with the elements in one linear

@@ -20,9 +20,9 @@ use super::layout::{AccessorLayout, ComponentType, ElementType, SCALAR, VEC2, VE
 /// A format: the element type, the component type, and whether integers are normalized.
 type AttributeFormat = (ElementType, ComponentType, bool);
 
-/// The attribute semantic, parsed from the attribute's name.
+/// An attribute semantic, parsed from the attribute's name.
 ///
-/// Borrows the name from the document.
+/// It borrows the name from the document.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Semantic<'a> {
     /// POSITION, NORMAL or TANGENT.
@@ -66,8 +66,8 @@ impl<'a> Semantic<'a> {
     /// `in_target` selects the displacements of morph targets: their tangents have three
     /// components, and signed integers are allowed for texture coordinates and colors.
     ///
-    /// `quantized` is set if the file uses KHR_mesh_quantization. The extension adds formats to
-    /// those of core glTF and never replaces them.
+    /// `quantized` is set if the file uses KHR_mesh_quantization. The extension adds to the formats
+    /// of core glTF and never replaces them.
     pub(super) fn allowed_formats(
         self,
         in_target: bool,

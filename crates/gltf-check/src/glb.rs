@@ -79,10 +79,10 @@ impl ContainerReader<'_> {
 
     /// Validates the 12-byte header: the version, and the declared length against the file size.
     ///
-    /// An unsupported version ends the validation, because its chunks may be laid out differently.
+    /// An unsupported version ends the validation, because the chunks may be laid out differently.
     /// Extra bytes after the declared end cause a warning and are ignored. If a file is shorter
-    /// than declared, the available part is read. The minimum valid length, 20, is a file header
-    /// and an empty chunk.
+    /// than declared, the available part is read. The minimum length is 20: the file header and the
+    /// header of an empty chunk.
     fn check_header(&mut self) {
         let actual = self.bytes.len();
         let (Some(version), Some(length)) = (self.read_u32(4), self.read_u32(8)) else {

@@ -92,8 +92,8 @@ impl ImageChecker<'_> {
     /// The declared `mimeType` and the type of a data URI must match the bytes. Formats other than
     /// PNG and JPEG require their extension.
     ///
-    /// An image in a buffer view needs a `mimeType` (glTF 2.0 §3.8.3); for a URI it is optional. If
-    /// the bytes cannot be read, the declared type is returned, so that textures are still
+    /// An image in a buffer view needs a `mimeType` (glTF 2.0 §3.8.3); for a URI, it is optional.
+    /// If the bytes cannot be read, the declared type is returned, so that textures are still
     /// validated.
     fn check_image(&self, image: &Value) -> Option<String> {
         let diagnostics = self.document.diagnostics;

@@ -14,8 +14,8 @@ use serde_json::Value;
 
 /// The layout that an accessor declares.
 ///
-/// It is a copy of the accessor's members, which have passed the schema checks, and does not refer
-/// to the buffer.
+/// It copies the accessor's members, once they are known to be valid, and does not refer to the
+/// buffer.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct AccessorLayout {
     /// The type of each component (`componentType`).
@@ -108,8 +108,7 @@ impl ComponentType {
         }
     }
 
-    /// Reads the component at the start of the bytes. Callers must pass enough bytes; otherwise
-    /// returns 0.
+    /// Reads the component at the start of the bytes, or returns 0 if there are too few bytes.
     pub(super) fn read_number(self, bytes: &[u8]) -> f64 {
         let one = || bytes.first().copied().unwrap_or(0);
         let two = || bytes.first_chunk().copied().unwrap_or_default();
@@ -177,7 +176,7 @@ impl ElementType {
 }
 
 impl AccessorLayout {
-    /// Returns the layout of an accessor, if its type, component type and count are valid.
+    /// Returns the layout of an accessor, if its type, component type, count and offset are valid.
     ///
     /// Otherwise returns `None`: the schema walk has reported the member, and there is no layout to
     /// check.
@@ -215,8 +214,8 @@ impl AccessorLayout {
 
     /// Returns the distance between elements in bytes if the buffer view has no `byteStride`.
     ///
-    /// For vectors this is the size of an element; for matrices it includes the padding of the last
-    /// column.
+    /// For vectors, this is the size of an element; for matrices, it includes the padding of the
+    /// last column.
     pub(super) fn packed_stride(&self) -> usize {
         self.element_type.columns * self.column_stride()
     }

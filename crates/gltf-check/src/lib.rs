@@ -1,8 +1,8 @@
 //! Validates glTF files and reports every violation of the specification, not only the first fatal
-//! error. For other formats it reports the loader's diagnostics.
+//! error. For other formats, it reports the loader's diagnostics.
 //!
 //! Loading stops at the first error that prevents drawing. Validation continues: it compares the
-//! JSON with the schema, resolves every reference and reads every accessor element. Finally it
+//! JSON with the schema, resolves every reference and reads every accessor element. Finally, it
 //! loads the file, so that the report includes the loader's diagnostics.
 //!
 //! ```text
@@ -11,8 +11,8 @@
 //!  loader ─load_outcome─► diagnostics
 //! ```
 //!
-//! It works on the raw JSON, in which members may be missing or have any type. The rules follow
-//! glTF 2.0, with the codes and severities of the Khronos glTF validator. The
+//! Validation works on the raw JSON, in which members may be missing or have any type. The rules
+//! follow glTF 2.0, with the codes and severities of the Khronos glTF validator. The
 //! [limits](import::Limits) apply as they do for loading: time and memory are bounded by the size
 //! of the files, not by the sizes they declare.
 

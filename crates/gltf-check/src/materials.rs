@@ -39,8 +39,8 @@ pub(super) fn check_materials(document: &CheckedDocument<'_>) {
 
 /// Validates a punctual light: a spot light needs a `spot` with ordered cone angles.
 ///
-/// Missing angles default to 0 and π/4. With equal angles the falloff between them, which divides
-/// by their difference, is undefined.
+/// Missing angles default to 0 and π/4. With equal angles, the falloff is undefined, because its
+/// formula divides by their difference.
 fn check_light(document: &CheckedDocument<'_>, at: usize, light: &Value) {
     let pointer = format!("/extensions/KHR_lights_punctual/lights/{at}");
     let is_spot = light.get("type").and_then(Value::as_str) == Some("spot");

@@ -77,8 +77,7 @@ struct PrimitiveChecker<'a, 'd> {
     pointer: String,
 }
 
-/// The attributes of a primitive whose accessors exist: the name, and the accessor's index and
-/// JSON.
+/// A primitive's attributes with existing accessors, as names and the accessors' indices and JSON.
 type ResolvedAttributes<'a> = Vec<(&'a str, usize, &'a Value)>;
 
 /// The number of elements of each attribute of a primitive.
@@ -98,8 +97,8 @@ impl<'a> PrimitiveChecker<'a, '_> {
     /// Validates attributes, indices, mode, material requirements and morph targets, in this order.
     ///
     /// The order follows the dependencies: the attributes determine the number of vertices, which
-    /// limits the indices. The number of indices, or of vertices without indices, must fit the
-    /// mode.
+    /// limits the indices. The number of indices, or of vertices if there are no indices, must fit
+    /// the mode.
     fn check_primitive(&mut self) {
         let Some(named) = object_members(self.primitive, "attributes") else {
             self.check_indices(None);
@@ -344,8 +343,8 @@ impl<'a> PrimitiveChecker<'a, '_> {
         }
     }
 
-    /// Validates a morph target: its attributes can be displaced, exist in the base mesh, and have
-    /// the same number of elements.
+    /// Validates that the attributes of a morph target can be displaced, exist in the base mesh,
+    /// and match its number of elements.
     fn check_morph_target(
         &self,
         at: usize,
@@ -376,7 +375,7 @@ impl<'a> PrimitiveChecker<'a, '_> {
                     self.report(code, &member, message);
                 }
                 Some(count) if *count != integer_member(json, "count") => {
-                    let message = "the number of elements differs from the base mesh";
+                    let message = "the base mesh has a different number of elements";
                     let code = &codes::MESH_PRIMITIVE_MORPH_TARGET_INVALID_ATTRIBUTE_COUNT;
                     self.report(code, &member, message);
                 }

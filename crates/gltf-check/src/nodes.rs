@@ -24,7 +24,7 @@ use serde_json::Value;
 pub(super) struct NodeTree {
     /// The parent of each node, or the first if there are several.
     pub(super) parents: Vec<Option<usize>>,
-    /// The root of the tree that contains each node; `None` for nodes in a cycle.
+    /// The root of the tree that contains each node; `None` for nodes in or below a cycle.
     pub(super) roots: Vec<Option<usize>>,
     /// The entry and exit times of each node in a depth-first traversal. The interval of a
     /// descendant is inside its ancestor's interval.
@@ -34,7 +34,7 @@ pub(super) struct NodeTree {
 impl NodeTree {
     /// Returns in constant time whether a node is the other node or one of its descendants.
     ///
-    /// A node in a cycle counts as below every node, because the cycle itself has been reported.
+    /// A node in or below a cycle counts as below every node, because the cycle has been reported.
     pub(super) fn is_at_or_below(&self, node: usize, other: usize) -> bool {
         let (Some(inner), Some(outer)) =
             (self.visit_intervals.get(node), self.visit_intervals.get(other))
@@ -120,9 +120,9 @@ const ROTATION_ROUNDING: f64 = 5e-4;
 
 /// Returns whether a matrix is a product of translation, rotation and scale.
 ///
-/// Its columns are then perpendicular, and its last row is 0, 0, 0, 1. The tolerance is relative to
-/// the column lengths, so it does not depend on the scale; 0.005 is an angle of about 0.3°. A
-/// column of length 0 has no direction and is rejected.
+/// The columns of such a matrix are perpendicular, and its last row is 0, 0, 0, 1. The tolerance is
+/// relative to the column lengths, so it does not depend on the scale; 0.005 is an angle of about
+/// 0.3°. A column of length 0 has no direction and is rejected.
 fn is_decomposable(matrix: &DMat4) -> bool {
     let columns = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(glam::DVec4::truncate);
     let [x, y, z] = columns;
@@ -202,8 +202,8 @@ fn check_mesh_use(document: &CheckedDocument<'_>, at: usize, node: &Value, shape
 /// If a node has several parents, the first is used, so that the rest of the validation can rely on
 /// a forest.
 ///
-/// Such a child is reported at every later parent. The schema walk has reported indices that are
-/// out of range; they are skipped.
+/// A node with several parents is reported at every parent after the first. The schema walk has
+/// reported indices that are out of range; they are skipped.
 fn build_tree(document: &CheckedDocument<'_>) -> NodeTree {
     let nodes = document.root_array("nodes");
     let mut parents: Vec<Option<usize>> = vec![None; nodes.len()];
@@ -229,8 +229,8 @@ fn build_tree(document: &CheckedDocument<'_>) -> NodeTree {
 
 /// Traverses the hierarchy depth first from every root, without recursion.
 ///
-/// This numbers the nodes for [`NodeTree::is_at_or_below`], and finds cycles, whose nodes are not
-/// reached.
+/// This numbers the nodes for [`NodeTree::is_at_or_below`], and finds cycles, whose nodes the
+/// traversal does not reach.
 ///
 /// Hostile files may nest nodes a million levels deep, so the stack of open nodes is on the heap. A
 /// cycle has no root, and its nodes retain the empty interval. The time is linear in the number of
@@ -263,7 +263,7 @@ fn traverse_tree(
         }
     }
     for at in (0..count).filter(|&at| is_in_loop(&tree, at)) {
-        let message = format_args!("node {at} is part of a cycle");
+        let message = format_args!("node {at} is in or below a cycle");
         document.diagnostics.add(&codes::NODE_LOOP, format_args!("/nodes/{at}/children"), message);
     }
     tree

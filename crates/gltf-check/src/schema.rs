@@ -28,7 +28,7 @@ pub(super) struct ObjectSchema {
 
 /// The schema of a member.
 ///
-/// Default values are not part of the schema: an absent member is always valid.
+/// Default values are not part of the schema, because they never affect validity.
 #[derive(Debug)]
 pub(super) struct MemberSchema {
     /// The name of the member.
@@ -67,11 +67,11 @@ pub(super) enum ValueKind {
     Text,
     /// A string of the form `2.0`.
     Version,
-    /// One of these strings; any other string is only a warning.
+    /// One of these strings; any other string gets only a warning.
     EnumString(&'static [&'static str]),
     /// An integer in an inclusive range.
     Integer(u64, u64),
-    /// One of these integers; any other integer is only a warning.
+    /// One of these integers; any other integer gets only a warning.
     EnumInteger(&'static [u64]),
     /// A number in a range.
     Number(NumberRange),
@@ -126,7 +126,7 @@ const POSITIVE: NumberRange = NumberRange { min: 0.0, exclusive_min: true, ..ANY
 
 /// A collection of objects that indices refer to.
 ///
-/// The discriminants are indices into [`Collection::ALL`] and the flags of used objects.
+/// The discriminants are indices into [`Collection::ALL`] and into the flags of used objects.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Collection {
     Accessors,

@@ -5,7 +5,7 @@
 //! Khronos validator, including its distinction between members and array items.
 //!
 //! The walk is a recursive descent. [`SchemaWalker::check_value`] dispatches on the kind of a
-//! value; for objects and arrays the walk descends with one more token on the JSON pointer:
+//! value; for objects and arrays, the walk descends with one more token on the JSON pointer:
 //!
 //! ```text
 //!  check_object ──► check_value ──► check_number, check_index, …   leaves
@@ -39,8 +39,8 @@ pub(super) fn check_schema(document: &CheckedDocument<'_>) {
 
 /// The state of the walk: the document and the JSON pointer of the current value.
 ///
-/// One buffer holds the pointer for the whole walk: tokens are appended on the way down and
-/// truncated on the way up, so a value without a defect requires no allocation.
+/// One buffer holds the pointer for the whole walk: tokens are appended on the way down and removed
+/// on the way up, so a value without a defect requires no allocation.
 struct SchemaWalker<'a> {
     /// The document, which records references and diagnostics.
     document: &'a CheckedDocument<'a>,
@@ -74,7 +74,7 @@ impl SchemaWalker<'_> {
         self.pointer.truncate(length);
     }
 
-    /// Validates an object: known members by kind, required members, unknown members, extensions.
+    /// Validates an object: known, required and unknown members, and extensions.
     ///
     /// The first loop follows the schema and finds missing members; the second follows the file and
     /// finds unknown members. `extras` may contain anything (glTF 2.0 §5.16) and is not entered.
@@ -139,8 +139,8 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// Validates the `extensions` of an object, which must be an object with one member per
-    /// extension (glTF 2.0 §3.12).
+    /// Validates the member `extensions`, which must be an object with one member per extension
+    /// (glTF 2.0 §3.12).
     fn check_extensions(&mut self, value: &Value, parent: &ObjectSchema) {
         let Value::Object(extensions) = value else {
             return self.report_type_mismatch(value, "an object");
@@ -223,7 +223,7 @@ impl SchemaWalker<'_> {
 
     /// Validates a string against a fixed list of values.
     ///
-    /// A string that is not in the list is only a warning, because an extension may define more
+    /// A string that is not in the list gets only a warning, because an extension may define more
     /// values.
     fn check_enum_string(&self, value: &Value, words: &[&str]) {
         match value.as_str() {
@@ -420,8 +420,8 @@ impl SchemaWalker<'_> {
         if items.is_empty() {
             return self.report(&codes::EMPTY_ENTITY, "the array is empty");
         }
-        // The Khronos validator reports items of top-level arrays like members, and items of inner
-        // arrays with another code.
+        // The Khronos validator reports mistyped items of top-level arrays like members, and
+        // mistyped items of inner arrays with another code.
         let at_top = self.pointer.rfind('/') == Some(0);
         for (at, item) in items.iter().enumerate() {
             self.descend(&at.to_string(), |walker| match item {

@@ -14,11 +14,12 @@ use serde_json::{Map, Value};
 
 /// Validates all skins, and records rules for the elements of their accessors.
 ///
-/// [`check_skinned_meshes`] validates the joint weights of vertices later, because they need both a
-/// mesh and a skin.
+/// [`check_skinned_meshes`] validates the joint weights of vertices later, because that requires
+/// both a mesh and a skin.
 ///
 /// Invalid indices in `joints` are skipped, because the schema walk has reported them. They still
-/// count toward the number of inverse bind matrices, which correspond to joints by position.
+/// count toward the required number of inverse bind matrices, which correspond to joints by
+/// position.
 pub(super) fn check_skins(
     document: &CheckedDocument<'_>,
     tree: &NodeTree,
@@ -35,7 +36,7 @@ pub(super) fn check_skins(
     }
 }
 
-/// Validates that the joints have a common root, and that `skeleton` is their common ancestor.
+/// Validates that the joints have a common root, and that `skeleton` is a common ancestor.
 ///
 /// Each check takes constant time per joint, because the tree stores the root and the traversal
 /// interval of each node. Walking up from each joint would take quadratic time for a long chain.
@@ -107,7 +108,7 @@ fn check_inverse_bind_matrices(
 /// The cost is linear in the number of vertices times the number of sets. A mesh without a skinned
 /// node is skipped, because its joint indices refer to nothing.
 pub(super) fn check_skinned_meshes(document: &CheckedDocument<'_>, store: &BufferStore<'_>) {
-    // A mesh may be used with several skins; its joint indices must fit the smallest.
+    // A mesh may be used with several skins; its joint indices must fit the smallest skin.
     let mut fewest_joints: Vec<Option<usize>> = vec![None; document.root_array("meshes").len()];
     let skins = document.root_array("skins");
     for node in document.root_array("nodes") {
@@ -162,8 +163,8 @@ impl InfluenceChecker<'_> {
     /// Validates all sets of joints and weights of a primitive together, because the weights of a
     /// vertex sum to 1 over all sets.
     ///
-    /// Sets are read up to the first that is missing or cannot be decoded. The four kinds of errors
-    /// are counted per set, so that each kind and attribute gets one diagnostic.
+    /// Sets are read up to the first missing one. The four kinds of errors are counted per set, so
+    /// that each kind gets one diagnostic per attribute.
     fn check_influences(&self, named: &Map<String, Value>) {
         let mut sets = Vec::new();
         while let (true, Some(joints), Some(weights)) = (
@@ -214,8 +215,8 @@ impl InfluenceChecker<'_> {
 
     /// Decodes the four components of every vertex.
     ///
-    /// Returns `None` if the accessor is invalid, which has been reported; the primitive is then
-    /// not validated.
+    /// Returns `None` if the accessor is invalid, which has been reported, or has no buffer view;
+    /// the primitive is then not validated.
     fn read_vec4s(&self, accessor: &Value) -> Option<Vec<[f32; 4]>> {
         let at = usize::try_from(as_whole_number(accessor)?).ok()?;
         let accessor = self.document.root_array("accessors").get(at)?;

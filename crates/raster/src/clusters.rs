@@ -147,7 +147,7 @@ impl Cluster {
         let axis = axis / cosine;
         let [least, greatest] = self.bounds.map(|corner| DVec3::from_array(corner.map(f64::from)));
         let (eye, w) = (viewer.raw().truncate(), viewer.w());
-        // The vector from the center of the box. In parallel projection w is 0, and this is the
+        // The vector from the center of the box. In a parallel projection, w is 0, and this is the
         // direction to the viewer.
         let to_viewer = eye - (least + greatest) * (0.5 * w);
         let radius = (greatest - least).length() * (0.5 * w.abs());
@@ -169,7 +169,7 @@ fn union_bounds([low, high]: [[f32; 3]; 2], other: &[[f32; 3]; 2]) -> [[f32; 3];
 
 #[inline(always)]
 fn min_coordinates(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    // Written this way, each comparison is a single instruction; `f32::min` takes several to handle
+    // In this form, each comparison is a single instruction; `f32::min` takes several to handle
     // NaN.
     [0, 1, 2].map(|k| if a[k] < b[k] { a[k] } else { b[k] })
 }

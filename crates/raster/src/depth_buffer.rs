@@ -22,7 +22,7 @@ use homog::PixelRect;
 /// let mut frame = Frame::new(8, 4, Samples::One)?;
 /// frame.add_triangle(triangle, 0, Opacity::Opaque);
 ///
-/// // Depth without color.
+/// // Only the depth matters, so the surface has no color.
 /// let nothing = surface_fn(|_| [0.0; 4]);
 /// let depth: DepthBuffer = frame.depth_buffer(&nothing, 2);
 /// assert_eq!(depth.depth(2, 1), 0.5);
@@ -70,8 +70,7 @@ impl DepthBuffer {
         &self.depths[..self.region.area()]
     }
 
-    /// Returns the depth at the first sample of a pixel, or the depth of an empty pixel outside the
-    /// buffer.
+    /// Returns the depth at the first sample of a pixel, or −∞ if the pixel is outside the buffer.
     #[must_use]
     pub fn depth(&self, x: u32, y: u32) -> f32 {
         let is_inside = x < self.region.width && y < self.region.height;

@@ -16,14 +16,14 @@ use fearless_simd::{Simd, f32x8, mask32x8};
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 #[non_exhaustive]
 pub enum DepthCompare {
-    /// Nearer fragments pass. At equal depth the primitive added first wins.
+    /// Nearer fragments pass. At equal depth, the primitive added first wins.
     #[default]
     Greater,
-    /// Like `Greater`, but at equal depth the primitive added last wins. Use it for decals.
+    /// Like `Greater`, but at equal depth, the primitive added last wins. Use it for decals.
     GreaterEqual,
     /// Farther fragments pass. Use it for back faces, or if depth is 0 at the near plane.
     Less,
-    /// Like `Less`, but at equal depth the primitive added last wins.
+    /// Like `Less`, but at equal depth, the primitive added last wins.
     LessEqual,
     /// Fragments at exactly the stored depth pass. Use it for a second pass over a [depth
     /// buffer](crate::Frame::with_depth_buffer) of the same primitives.
@@ -58,7 +58,7 @@ impl DepthCompare {
             Self::Greater | Self::Less => depth.simd_gt(there),
             Self::GreaterEqual | Self::LessEqual => depth.simd_ge(there),
             Self::Equal => depth.simd_eq(there),
-            // Depths are finite.
+            // Always true, because depths are never NaN.
             Self::Always => depth.simd_eq(depth),
         }
     }

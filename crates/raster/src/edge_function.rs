@@ -8,7 +8,7 @@
 //!     v0────v1               (horizontal, with the inside below it on the screen).
 //! ```
 //! Two triangles that share an edge see it from opposite sides, so exactly one of them owns the
-//! samples on it. There is no gap, and no pixel is drawn twice. All of this is integer arithmetic
+//! samples on it. There is no gap, and no sample is drawn twice. All of this is integer arithmetic
 //! on snapped vertices; a tolerance would only move the gaps.
 
 use crate::ScreenVertex;

@@ -6,8 +6,9 @@
 //!         B   C         triangles of other samples, gathered along the row, shaded eight at a time
 //! ```
 //!
-//! Each triangle is shaded once per pixel, weighted by its number of samples. Colors are summed
-//! channel by channel, so the means of eight pixels are computed and encoded at once.
+//! Each triangle is shaded once per pixel, and its color is weighted by its number of samples.
+//! Colors are summed channel by channel, so the means of eight pixels are computed and encoded at
+//! once.
 
 use crate::Samples;
 use crate::fragment_lanes::{F32x8, LANES};
@@ -102,8 +103,8 @@ impl EdgePixels {
         }
     }
 
-    /// Returns the mean colors over the samples block by block: the index of each block and its
-    /// eight colors.
+    /// Returns the mean colors of the pixels, block by block: the index of each block and its eight
+    /// colors.
     #[inline(always)]
     pub(crate) fn mean_colors(
         &self,

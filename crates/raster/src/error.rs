@@ -21,12 +21,13 @@ pub enum RasterError {
         /// The requested height in pixels.
         height: u32,
     },
-    /// A depth buffer and a frame have different sample counts.
+    /// The number of depths in a buffer does not match its size, or the buffer does not match the
+    /// frame.
     #[error("a depth buffer with {found} samples does not match a frame with {expected}")]
     DepthCount {
-        /// The number of samples in the frame.
+        /// The expected number of depths.
         expected: usize,
-        /// The number of samples in the buffer.
+        /// The number of depths in the buffer.
         found: usize,
     },
 }

@@ -45,7 +45,7 @@ impl<'a> Fragment<'a> {
         x: u32,
         y: u32,
     ) -> Self {
-        // At a silhouette the center may be outside although a sample is covered. Clamping the
+        // At a silhouette, the center may be outside although a sample is covered. Clamping the
         // areas keeps attributes within the triangle (centroid sampling would cost a search).
         let areas = barycentric_areas(triangle.vertices, pixel_center(x), pixel_center(y))
             .map(|area| area.max(0.0));

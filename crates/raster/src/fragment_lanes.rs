@@ -1,5 +1,5 @@
-//! Eight fragments at once, one per vector lane. The results are bit-identical to [`Fragment`] and
-//! several times as fast.
+//! Eight fragments at once, one per vector lane. The results are bit-identical to [`Fragment`], but
+//! are computed several times as fast.
 //!
 //! Everything here is a plain loop over eight lanes, inlined into a function compiled for the
 //! processor's vector instructions ([`SimdLevel::run_kernel`](crate::SimdLevel::run_kernel)). Loops
@@ -195,7 +195,7 @@ impl WeightLanes<'_> {
 /// Converts weights of the screen triangles' vertices to weights of the source primitives'
 /// vertices.
 ///
-/// Assembly may have swapped two vertices or clipped the primitive; shading is unaffected.
+/// Assembly may have swapped two vertices or clipped the primitive; this hides both from shading.
 #[inline(always)]
 fn to_source_weights(
     is_single: bool,
@@ -275,7 +275,7 @@ impl VertexLanes {
         let mut lanes = Self::ZERO;
         let (cx, cy) = (pixel_center(x), pixel_center(y));
         for (k, vertex) in triangle.vertices.iter().enumerate() {
-            // Along the row the offset decreases by one pixel, or 256 steps, per lane.
+            // Along the row, the offset decreases by one pixel, or 256 steps, per lane.
             let first = f64::from(vertex.x - cx);
             for (lane, dx) in lanes.dx[k].iter_mut().enumerate() {
                 *dx = first - f64::from(lane as i32 * SUBPIXELS);

@@ -35,7 +35,7 @@ const PARALLEL_TRIANGLES: usize = 8 * CHUNK_TRIANGLES;
 ///
 /// Add primitives with [`add_triangle`](Self::add_triangle), [`add_mesh`](Self::add_mesh),
 /// [`add_line`](Self::add_line) and [`add_point`](Self::add_point), then [`draw`](Self::draw). At
-/// equal depth the primitive added first wins, for any number of threads.
+/// equal depth, the primitive added first wins, for any number of threads.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// The pixels that the frame shows, in the coordinates of the whole picture.
@@ -198,7 +198,7 @@ impl Frame {
 
     /// Adds a whole triangle of either winding.
     ///
-    /// No winding is culled. To cull back faces, check [`signed_area`] first or add a mesh.
+    /// Nothing is culled by winding. To cull back faces, check [`signed_area`] first or add a mesh.
     ///
     /// Degenerate triangles and triangles between samples are dropped, because they cover no
     /// sample.
@@ -235,8 +235,8 @@ impl Frame {
         let (bounds, compare) = (self.sample_bounds(), self.compare);
         let count: usize = runs.iter().map(ExactSizeIterator::len).sum();
         if self.threads > 1 && count >= PARALLEL_TRIANGLES {
-            // Chunk n gets the part of the runs in the n-th 4096 triangles of the mesh, so the
-            // order of chunks is the order of triangles for any number of threads.
+            // Chunk n gets the part of the runs in the n-th group of 4096 triangles of the mesh, so
+            // the order of chunks is the order of triangles for any number of threads.
             let first = self.triangles.chunks_in_use();
             let chunk_count = mesh.triangles.len().div_ceil(CHUNK_TRIANGLES);
             let chunks = self.triangles.append_chunks(chunk_count).iter_mut();
@@ -252,7 +252,7 @@ impl Frame {
             self.triangles.remove_empty_chunks(first);
             return;
         }
-        // With one thread, fill chunk after chunk.
+        // With one thread, fill chunk by chunk.
         for run in runs {
             let mut rest = run.clone();
             while !rest.is_empty() {
@@ -314,7 +314,7 @@ impl Frame {
 
     /// Assembles one whole triangle and appends it, unless it is degenerate or covers no sample.
     fn push_unclipped(&mut self, vertices: [ScreenVertex; 3], id: u32, opacity: Opacity) {
-        // The triangle is outside the region or between samples.
+        // Without tiles, the triangle is outside the region or between samples.
         let Some(tiles) = self.sample_bounds().touched_tiles(vertices) else { return };
         let area = signed_area(vertices);
         let vertices = oriented_depths(self.compare.negates(), vertices);
@@ -451,7 +451,7 @@ fn assemble_triangle(
     Some(ScreenTriangle { vertices: normalize_inv_w(vertices), id, source, opacity })
 }
 
-/// Tests whether a triangle's bounds contain a sample of the frame, and which tiles they touch.
+/// Tests whether a triangle's bounds contain a sample of the frame, and finds the tiles they touch.
 ///
 /// It is conservative: a bounding rectangle may contain a sample that the triangle does not cover.
 #[derive(Clone, Copy)]
@@ -471,8 +471,7 @@ impl SampleBounds {
         let x = [p.x.min(q.x).min(r.x), p.x.max(q.x).max(r.x)];
         let y = [p.y.min(q.y).min(r.y), p.y.max(q.y).max(r.y)];
         let (width, height) = (x[1].wrapping_sub(x[0]), y[1].wrapping_sub(y[0]));
-        // A box at least as wide and tall as a pixel contains every sample, of this pixel or of a
-        // neighbor.
+        // A box at least as wide and tall as a pixel contains every sample of the pattern.
         let is_large = (width >= SUBPIXELS - 1) & (height >= SUBPIXELS - 1);
         if is_large || self.holds_sample([x[0], y[0]], [width, height]) {
             self.grid.tiles_in_bounds(x, y)

@@ -22,10 +22,10 @@ impl Frame {
     /// `target`: rows from the top, `width` × `height` values. Uses up to `threads` threads.
     ///
     /// The front fragment is the nearest fragment that covers the first sample of the pixel, which
-    /// is its center if there is only one sample. Translucent primitives count, and so do masked
-    /// primitives where they pass the alpha test. At equal depth, the translucent primitive
-    /// submitted last wins, because it is drawn over the others; among opaque primitives, the one
-    /// submitted first wins.
+    /// is at the pixel's center if there is only one sample. Translucent primitives count, and so
+    /// do masked primitives where they pass the alpha test. At equal depth, the translucent
+    /// primitive submitted last wins, because it is drawn over the others; among opaque primitives,
+    /// the one submitted first wins.
     pub fn map_front_fragments<S: Surface, P: Copy + Send>(
         &self,
         surface: &S,
@@ -48,8 +48,8 @@ impl Frame {
     /// Counts the translucent fragments that cover the first sample of each pixel and pass the
     /// alpha test.
     ///
-    /// In a frame whose primitives are all translucent this is the overdraw: every fragment counts,
-    /// even if it is hidden.
+    /// In a frame whose primitives are all translucent, this is the overdraw: every fragment
+    /// counts, even if it is hidden.
     pub fn count_overdraw<S: Surface>(&self, surface: &S, threads: usize, target: &mut [u32]) {
         self.for_each_pixel(surface, threads, target, |pixel, target| {
             let [x, y] = pixel.image_position;

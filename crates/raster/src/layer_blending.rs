@@ -139,7 +139,7 @@ impl<S: Surface> TileResolve<'_, S> {
 
     /// Returns the color of a pixel: the mean of its samples.
     ///
-    /// Without layers this is the plain multisample resolve, weighted by sample counts.
+    /// Without layers, this is the plain multisample resolve, weighted by sample counts.
     #[inline(always)]
     fn blend_pixel(
         &self,

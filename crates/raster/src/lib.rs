@@ -30,9 +30,9 @@
 //! # Conventions
 //!
 //! Pixel (i, j) covers [i, i+1) × [j, j+1), with its center at +½ and y down. Depth is 1 at the
-//! near plane and 0 at the far plane; the larger depth wins. At equal depth the primitive submitted
-//! first wins. The picture is bit-identical for any number of threads, any SIMD level and any
-//! division into regions.
+//! near plane and 0 at the far plane; the larger depth wins. At equal depth, the primitive
+//! submitted first wins. The picture is bit-identical for any number of threads, any SIMD level and
+//! any division into regions.
 //!
 //! # Example
 //!

@@ -24,13 +24,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// }
 /// ```
 pub trait Monitor: Debug + Send + Sync {
-    /// Returns whether the work should stop early. Its result is then incomplete.
+    /// Returns whether the work should stop early. The result is then incomplete.
     fn is_canceled(&self) -> bool {
         false
     }
 
-    /// Records that `done` of `total` equal parts of the work are done; `total` is never 0. Calls
-    /// from several threads may arrive out of order.
+    /// Reports that `done` of `total` equal parts of the work are complete; `total` is never 0.
+    /// Calls from several threads may arrive out of order.
     fn report_progress(&self, done: u64, total: u64) {
         let _ = (done, total);
     }
@@ -77,7 +77,7 @@ impl<'a> Workers<'a> {
         self.monitor.is_some_and(Monitor::is_canceled)
     }
 
-    /// Reports that `done` of `total` parts are done.
+    /// Reports that `done` of `total` parts are complete.
     pub fn report_progress(&self, done: u64, total: u64) {
         if let Some(monitor) = self.monitor {
             monitor.report_progress(done, total.max(1));

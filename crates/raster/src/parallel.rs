@@ -42,7 +42,7 @@ pub(crate) fn for_each_with_workers<W, T, I>(
             work(worker, item);
         }
     };
-    // WebAssembly has no threads: code for them would be dead weight.
+    // WebAssembly has no threads here, so code for them would be dead weight.
     if others.is_empty() || cfg!(target_family = "wasm") {
         return run(first);
     }

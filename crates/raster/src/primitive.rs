@@ -88,7 +88,7 @@ pub(crate) enum WeightSource {
 /// The range of 1/w in which no product of the weights and their derivatives overflows or
 /// underflows.
 const SAFE_INV_W: core::ops::RangeInclusive<f32> = 1.0 / MAX_SAFE_INV_W..=MAX_SAFE_INV_W;
-/// 2⁴⁰.
+/// The maximum of this range, 2⁴⁰.
 const MAX_SAFE_INV_W: f32 = 1_099_511_627_776.0;
 
 /// Returns the vertices, with 1/w scaled if it is extreme: weights depend only on the ratios of
@@ -117,8 +117,8 @@ fn scale_inv_w_to_one(vertices: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
     })
 }
 
-/// Converts a line to the two triangles of a rectangle around it, or returns `None` if its ends
-/// coincide.
+/// Converts a line to the two triangles of a rectangle around it, or returns no triangle if its
+/// ends coincide.
 ///
 /// The ends of the rectangle are flush with the ends of the line. Depth and 1/w are constant across
 /// the line.

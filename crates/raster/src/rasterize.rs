@@ -14,7 +14,7 @@
 //! in submission order, the triangle submitted first wins depth ties.
 //!
 //! Eight blocks of a row are classified at once by the edge functions at their corners. For
-//! triangles of a few blocks this does not pay off, so they are drawn block by block.
+//! triangles that touch few blocks, this does not pay off, so they are drawn block by block.
 //!
 //! ```text
 //!   E(x, y) = A x + B y + C                 edge function, ≥ 0 inside (Pineda 1988), 32 bits
@@ -44,7 +44,7 @@ const FEW_BLOCKS: i32 = 4;
 /// `start` returns the start values of the triangle's functions in a plane.
 ///
 /// Every plane contains one sample of each pixel. Small triangles are drawn block by block in all
-/// planes, large ones plane by plane along the rows of blocks.
+/// planes, and large ones plane by plane along the rows of blocks.
 #[inline(always)]
 pub(crate) fn rasterize_triangle<S: Simd>(
     simd: S,
@@ -86,7 +86,7 @@ impl SamplePlane {
     ///
     /// All eight blocks are classified and bounded by vector instructions; then only touched blocks
     /// are visited, in the bit order of a mask. Before the samples of a block are written, its
-    /// bounds are raised to depths that are valid for them.
+    /// bounds are raised to fit them.
     #[inline(always)]
     fn rasterize_block_row<S: Simd>(
         &mut self,
@@ -141,7 +141,7 @@ impl SamplePlane {
         self.count_nearer_blocks(full.count_ones());
     }
 
-    /// Overwrites a block that the triangle fills and is completely in front of.
+    /// Overwrites a block that the triangle fills and hides completely.
     ///
     /// There is no coverage test, depth test or clamping: a depth and an index are stored for each
     /// sample. This is the fastest path, for a large triangle that is the first in a block or in
@@ -186,8 +186,8 @@ impl SamplePlane {
 
     /// Rasterizes a block that an edge may cross: coverage and depth test of each sample.
     ///
-    /// Depth is clamped to the depths of the vertices, because on a steep sliver rounding may carry
-    /// a sample out of their range.
+    /// Depth is clamped to the depths of the vertices, because on a steep sliver, rounding may move
+    /// a sample's depth out of their range.
     #[inline(always)]
     fn rasterize_partial_block<S: Simd>(
         &mut self,
@@ -213,7 +213,7 @@ impl SamplePlane {
 
     /// Depth-tests and writes eight samples of a row, starting at array index `first`.
     ///
-    /// The test is strict: at equal depth the stored triangle, which was submitted earlier, wins.
+    /// The test is strict: at equal depth, the stored triangle, which was submitted earlier, wins.
     #[inline(always)]
     fn depth_test_row<S: Simd>(
         &mut self,
@@ -253,7 +253,7 @@ impl SamplePlane {
     ) {
         let functions = &lanes.functions;
         for block in blocks_in_bounds(functions) {
-            // Beyond the visible region the bound is +∞, so nothing is drawn there.
+            // Beyond the visible region, the bound is +∞, so nothing is drawn there.
             let farthest = self.block_farthest[block.index];
             let is_hidden = if compare == DepthCompare::Always {
                 farthest == f32::INFINITY

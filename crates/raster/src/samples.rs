@@ -20,9 +20,8 @@ pub enum Samples {
     Sixteen,
 }
 
-// Offsets from the center of the pixel in 1/32 pixel. Their sum is 0, so that a picture does not
-// move with the number of samples. No two samples of a pattern share a row or a column, so nearly
-// horizontal and vertical edges get as many steps as there are samples.
+// Offsets from the center of the pixel in 1/16 pixel. No two samples of a pattern share a row or a
+// column, so nearly horizontal and nearly vertical edges get as many steps as there are samples.
 const ONE: [(i32, i32); 1] = [(0, 0)];
 const FOUR: [(i32, i32); 4] = [(-4, -12), (12, -4), (-12, 4), (4, 12)];
 const EIGHT: [(i32, i32); 8] =

@@ -16,8 +16,8 @@ pub const SUBPIXELS: i32 = 1 << SUBPIXEL_BITS;
 ///
 /// This leaves a guard band of 8192 pixels around a picture with sides of
 /// [`MAX_SIDE`](crate::MAX_SIDE) (CL-4), so few triangles need clipping at the sides of the
-/// picture. No triangle is then wider or taller than 32768 pixels, and its edge functions change by
-/// less than 2³⁰ across a tile.
+/// picture. No triangle is then wider or taller than 32768 pixels, and its edge functions, divided
+/// by 256, change by less than 2³⁰ across a tile.
 pub const GUARD_BAND: core::ops::RangeInclusive<f64> = -8192.0..=24576.0;
 
 /// [`GUARD_BAND`] in grid steps.
@@ -100,8 +100,8 @@ impl ScreenVertex {
         self.depth
     }
 
-    /// Returns 1/w for the clip-space w, which makes interpolation perspective-correct (IN-2). It
-    /// is 1 in parallel projections.
+    /// Returns 1/w for the clip-space w, a factor of the weights in perspective-correct
+    /// interpolation (IN-2). It is 1 in parallel projections.
     #[inline(always)]
     #[must_use]
     pub const fn inv_w(&self) -> f32 {

@@ -3,7 +3,7 @@
 //! There are two levels: the baseline for which the program was built (SSE2 on x86-64, NEON on ARM)
 //! and AVX2. Each hot loop is compiled once per level. The picture does not depend on the level.
 //! Every operation is exact or correctly rounded (no fused multiply-add, no approximate
-//! reciprocal), so each lane has the same bits as the scalar computation.
+//! reciprocal), so each lane computes the same bits as scalar code.
 //!
 //! On x86, shading is compiled only for AVX2 ([`SimdLevel::run_wide_kernel`]); without it,
 //! fragments are shaded one by one.
@@ -67,12 +67,12 @@ impl SimdLevel {
         kernel.run()
     }
 
-    /// Runs a kernel that has no SSE2 copy. On x86 this requires AVX2; without it, the method
-    /// returns `None`. On other processors the kernel always runs.
+    /// Runs a kernel that has no SSE2 copy. On x86, this requires AVX2; without it, the method
+    /// returns `None`. On other processors, the kernel always runs.
     ///
     /// Use it for kernels so large that a second copy is not worthwhile for the few processors
-    /// without AVX2. If the result is `None`, callers continue fragment by fragment, with the same
-    /// bits.
+    /// without AVX2. If the result is `None`, callers continue fragment by fragment and get the
+    /// same bits.
     #[inline(always)]
     pub fn run_wide_kernel<K: Kernel>(self, kernel: K) -> Option<K::Output> {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]

@@ -8,8 +8,8 @@ use crate::{Fragment, Fragments, Frame};
 
 /// The appearance of the primitives of a frame: alpha test and shading.
 pub trait Surface: Sync {
-    /// Runs the alpha test: returns whether a masked primitive is present in this fragment. It is
-    /// called only in frames with masked primitives. The default returns `true`.
+    /// Runs the alpha test: returns whether a masked primitive is present in this fragment. This
+    /// method is called only in frames with masked primitives. The default returns `true`.
     #[inline(always)]
     fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
         let _ = fragment;
@@ -33,7 +33,7 @@ pub trait Surface: Sync {
     /// glass.
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4];
 
-    /// Returns the colors of eight fragments: all reds, all greens, all blues, all alphas.
+    /// Returns the colors of eight fragments: all reds, all greens, all blues and all alphas.
     ///
     /// Drawing calls this method; the default calls [`shade`](Self::shade) for each fragment. An
     /// implementation written as plain loops over the lanes and marked `#[inline(always)]` is
@@ -67,7 +67,7 @@ pub trait Surface: Sync {
     }
 }
 
-/// Shades eight fragments one by one. Returns all reds, all greens, all blues, all alphas.
+/// Shades eight fragments one by one. Returns all reds, all greens, all blues and all alphas.
 #[inline(always)]
 pub fn shade_each(
     fragments: &Fragments<'_>,
@@ -87,7 +87,7 @@ pub fn shade_each(
 /// The colors and transmittances of eight fragments that may be translucent.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct TranslucentColors {
-    /// All reds, all greens, all blues, all alphas; linear and premultiplied.
+    /// All reds, all greens, all blues and all alphas; linear and premultiplied.
     pub color: [F32x8; 4],
     /// The factors applied to the red, green and blue of everything behind, from 0 to 1.
     pub transmittance: [F32x8; 3],

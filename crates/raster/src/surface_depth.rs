@@ -16,10 +16,10 @@ pub struct SurfaceDepth {
     pub depth: f32,
     /// The change of depth per pixel to the right, on the surface's plane.
     ///
-    /// It is clamped to the range of the vertex depths, because the plane of a triangle smaller
-    /// than a pixel is meaningless outside the triangle.
+    /// Its magnitude is at most the range of the vertex depths, because the plane of a triangle
+    /// smaller than a pixel is meaningless outside the triangle.
     pub dx: f32,
-    /// The change of depth per pixel down, clamped likewise.
+    /// The change of depth per pixel down, limited likewise.
     pub dy: f32,
 }
 
@@ -36,7 +36,7 @@ impl Frame {
     ///
     /// The sample is at [`Samples::first_offset`](crate::Samples::first_offset) in each pixel; with
     /// one sample, it is at the center. Depths are not extrapolated to another position: beyond the
-    /// edge of a steep surface the error would be large.
+    /// edge of a steep surface, the error would be large.
     ///
     /// Masked primitives count where they pass the alpha test; translucent primitives do not count.
     /// Uses up to `threads` threads; the result is the same for any number.

@@ -8,7 +8,7 @@
 //!
 //! Triangles are binned in groups. Each group has its own bins and can be sorted by its own thread
 //! without locks. The bin of a tile is the concatenation of its bins in all groups. For any number
-//! of threads, this is submission order, which breaks depth ties.
+//! of threads, it is in submission order, which breaks depth ties.
 //!
 //! Binning makes two passes over the triangles of a group. Its time is linear in the number of
 //! triangles, tiles and entries, because triangles are never compared.
@@ -80,7 +80,7 @@ impl TileBins {
     pub(crate) fn append_tile_bin(&self, column: u32, row: u32, bin: &mut Vec<u32>) {
         let tile = self.grid.tile_index(column, row);
         for BinGroup { bin_starts, triangles, .. } in &self.groups[..self.used] {
-            // Group after group, which is submission order.
+            // Group by group, which is submission order.
             let (start, end) = (bin_starts[tile] as usize, bin_starts[tile + 1] as usize);
             bin.extend_from_slice(&triangles[start..end]);
         }

@@ -1,4 +1,4 @@
-//! The grid of 64 × 64 pixel tiles, and the region of it that a frame shows.
+//! The grid of tiles of 64 × 64 pixels, and the region of it that a frame shows.
 //!
 //! Tiles are counted from the upper left corner of the whole picture, even if a frame shows only a
 //! region of it. A tile then has the same triangles with the same coordinates whichever region is

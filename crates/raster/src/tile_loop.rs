@@ -71,7 +71,7 @@ impl Frame {
             let rect = tile_rect(self.region, column, band.row);
             bin.clear();
             bins.append_tile_bin(column, band.row, bin);
-            // Nothing to draw: the background is already there.
+            // If the bin is empty, there is nothing to draw: the background is already there.
             if !bin.is_empty() {
                 tile.rasterize_bin(self, rect, bin, surface);
                 each(FilledTile { tile, rect, band: band.pixels, scratch });

@@ -218,7 +218,7 @@ impl<S: Surface> TileResolve<'_, S> {
                 *pixel = if triangle == NO_TRIANGLE { empty } else { *pixel };
             }
         }
-        // A whole block takes one store; at the borders of the region fewer pixels are visible.
+        // A whole block takes one store; at the borders of the region, fewer pixels are visible.
         if let Ok(targets) = <&mut [P; LANES]>::try_from(&mut *targets) {
             *targets = pixels;
         } else {
@@ -253,7 +253,7 @@ impl<S: Surface> TileResolve<'_, S> {
     #[inline(always)]
     fn shade_several(&self, triangles: [u32; LANES], x: u32, y: u32) -> [F32x8; 4] {
         // The background has the largest index, so the minimum is a triangle. Background lanes
-        // repeat the fragment that shows it, so no surface is shaded where it is not visible.
+        // repeat that triangle's fragment, so no surface is shaded where it is not visible.
         let (mut any, mut any_lane) = (NO_TRIANGLE, 0);
         for (lane, &triangle) in triangles.iter().enumerate() {
             if triangle < any {
@@ -281,8 +281,8 @@ impl<S: Surface> TileResolve<'_, S> {
     /// Shades the first samples of a run with edges, and gathers the triangles of the other
     /// samples.
     ///
-    /// Most pixels of a run with edges still show the first sample's triangle at most samples, so
-    /// this one vector of eight does most of the work.
+    /// Most pixels of a run with edges still show the first sample's triangle at most of their
+    /// samples, so this one vector of eight does most of the work.
     #[inline(always)]
     fn begin_edge_pixels(&self, run: &PixelRun<'_>, edges: &mut EdgePixels) {
         let mut planes = [[NO_TRIANGLE; LANES]; 16];

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! The result is a visibility buffer, which stores the index of the nearest opaque triangle for
-//! each sample, but no color. Shading comes later, once per pixel, so hidden surfaces cost nothing.
+//! each sample, but no color. Shading comes later, once per pixel, and skips hidden surfaces.
 
 use crate::fragment_lanes::LANES;
 use crate::micro_triangles::MicroTriangles;
@@ -300,7 +300,7 @@ impl TileVisibility {
         let Some(setup) = TriangleSetup::new(triangle, rect, range) else { return };
         let lanes = TriangleLanes::new(simd, &setup.functions);
         let first = self.layers.len();
-        // At equal depth a decal is drawn over the surface below it.
+        // At equal depth, a decal is drawn over the surface below it.
         let compare = DepthCompare::GreaterEqual;
         let Self { planes, layers, .. } = self;
         let samples = planes.iter_mut().zip(frame.samples.sample_offsets()).enumerate();
@@ -316,7 +316,7 @@ impl TileVisibility {
     /// Sorts layers by pixel, and within a pixel back to front.
     ///
     /// Of two translucent layers at equal depth, the one submitted later is drawn over the other.
-    /// (Among opaque triangles the one submitted first wins; see `rasterize.rs`.)
+    /// (Among opaque triangles, the one submitted first wins; see `rasterize.rs`.)
     fn sort_layers(&mut self) {
         // Pixel, depth, triangle: a total order, so an unstable sort gives one result.
         self.layers.sort_unstable_by(|a, b| {
@@ -342,8 +342,8 @@ impl Default for MaskedPixels {
 }
 
 impl MaskedPixels {
-    /// Returns whether a triangle passes the alpha test in a pixel of the tile. The test runs when
-    /// the first sample of the pixel passes the depth test.
+    /// Returns whether a triangle passes the alpha test in a pixel of the tile. The test runs once,
+    /// when a sample of the pixel's row of eight first passes the depth test.
     #[inline(always)]
     fn passes(
         &mut self,
@@ -382,8 +382,8 @@ fn translucent_layer(
     rect.is_visible(x, y).then_some(layer)
 }
 
-/// Starting at index `first`, merges the layers of one triangle that are samples of the same pixel.
-/// A merged layer has the depth of its first sample.
+/// Merges the layers of one triangle, which start at index `first`, to one layer per pixel with the
+/// depth of its first sample.
 fn merge_layer_samples(layers: &mut Vec<TranslucentLayer>, first: usize) {
     // Make the samples of each pixel adjacent, starting with the first sample.
     layers[first..].sort_unstable_by_key(|layer| (layer.pixel, layer.mask));

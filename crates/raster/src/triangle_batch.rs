@@ -1,6 +1,6 @@
 //! Batched triangle setup: eight small triangles prepared for a tile at once.
 //!
-//! In fine meshes most of the work on a triangle is its setup. For triangles near the tile, 32-bit
+//! In fine meshes, most of the work on a triangle is its setup. For triangles near the tile, 32-bit
 //! arithmetic is enough throughout, and the same vector instructions prepare eight of them. The
 //! results match [`TriangleSetup`](crate::triangle_setup::TriangleSetup), bit for bit: edge
 //! functions are exact in both, and depth uses the same operations in the same order. Everything is
@@ -229,7 +229,7 @@ fn coordinate_extents([p, q, r]: &[Ints; 3]) -> (Ints, Ints) {
 /// that [`TriangleSetup::new`](crate::triangle_setup::TriangleSetup::new) computes.
 ///
 /// `extent` contains the minimum x and y, then the maximum x and y, in grid steps from the tile's
-/// corner. Pixels are clamped to 0 and to the right and bottom of the visible part.
+/// corner. Pixels are clamped to 0 and to the right and bottom borders of the visible part.
 #[inline(always)]
 fn pixel_bounds(extent: [Ints; 4], tile: TileRect, offset_range: (i32, i32)) -> [Ints; 4] {
     let (least, greatest) = offset_range;
@@ -253,7 +253,7 @@ fn pixel_bounds(extent: [Ints; 4], tile: TileRect, offset_range: (i32, i32)) -> 
 /// Returns the difference between the coordinates of each edge's ends: start − end, or end − start
 /// if `forward`.
 ///
-/// With y backward and x forward these are A and B of the edge function, as in
+/// With y backward and x forward, these are A and B of the edge function, as in
 /// [`EdgeFunction`](crate::edge_function::EdgeFunction).
 #[inline(always)]
 fn edge_differences(c: &[Ints; 3], forward: bool) -> [Ints; 3] {

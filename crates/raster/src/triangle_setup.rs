@@ -2,11 +2,11 @@
 //! tile.
 //!
 //! Edge functions are exact in 64 bits ([`EdgeFunction`]), but vectors of 32-bit integers have
-//! twice as many lanes. Within a tile the samples of one plane are whole pixels apart, so all of
+//! twice as many lanes. Within a tile, the samples of one plane are whole pixels apart, so all of
 //! them have the same value of E modulo 256, and E ≥ 0 holds if and only if ⌊E/256⌋ ≥ 0. The
-//! quotient changes by integers from pixel to pixel and fits in 32 bits. If it is too large, it is
-//! clamped to ±2³⁰. The change across a tile is smaller than that, so the sign, which is all that
-//! matters, stays correct.
+//! quotient changes by integers from pixel to pixel. Near the tile, it fits in 32 bits; farther
+//! away, it is clamped to ±2³⁰. The change across a tile is smaller than that, so the sign, which
+//! is all that matters, stays correct.
 //!
 //! ```text
 //!   E(x, y) = A x + B y + C    A, B, C integers, x and y in 1/256 pixel, all exact
@@ -30,15 +30,15 @@ pub(crate) struct TriangleFunctions {
     pub(crate) a: [i32; 3],
     /// The change of E/256 per pixel down, for each edge.
     pub(crate) b: [i32; 3],
-    /// The pixels that may have a sample within the triangle's bounds: [x0, x1) × [y0, y1), which
-    /// is not empty. Depth is relative to the pixel (x0, y0), which therefore must not depend on
-    /// the visible region.
+    /// The first column of [x0, x1) × [y0, y1), the pixels that may have a sample within the
+    /// triangle's bounds. Depth is relative to pixel (x0, y0), which must not depend on the visible
+    /// region.
     pub(crate) x0: i32,
-    /// The first row of the bounds.
+    /// The first row of these pixels.
     pub(crate) y0: i32,
-    /// One past the last column of the bounds.
+    /// One past the last column of these pixels.
     pub(crate) x1: i32,
-    /// One past the last row of the bounds.
+    /// One past the last row of these pixels.
     pub(crate) y1: i32,
     /// The change of depth per pixel to the right.
     pub(crate) dx: f32,
@@ -142,7 +142,7 @@ impl TriangleSetup {
     /// Returns the start values for the samples at `offset` (grid steps) from the upper left
     /// corners of their pixels.
     ///
-    /// The values are exact for edges near the tile. For other edges only the sign is correct, and
+    /// The values are exact for edges near the tile. For other edges, only the sign is correct, and
     /// only the sign is used.
     pub(crate) fn sample_start(&self, offset: (i64, i64)) -> SampleStart {
         let limit = 1_i64 << 30;
@@ -158,10 +158,10 @@ impl TriangleSetup {
     }
 }
 
-/// Returns the change of a triangle's depth per pixel to the right and down, clamped to the range
+/// Returns the change of a triangle's depth per pixel to the right and down, limited to the range
 /// of its vertices' depths.
 ///
-/// The clamp bounds the error next to a sliver, whose plane may be arbitrarily steep.
+/// The limit bounds the error next to a sliver, whose plane may be arbitrarily steep.
 pub(crate) fn clamped_depth_slopes(triangle: &ScreenTriangle) -> [f32; 2] {
     let plane = DepthPlane::new(triangle);
     let depths = triangle.vertices.map(|vertex| vertex.depth);

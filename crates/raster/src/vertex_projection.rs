@@ -79,7 +79,7 @@ impl<A: Space> VertexProjection<A> {
     /// Projects the runs that `runs` returns for each chunk of positions, relative to the start of
     /// the chunk.
     ///
-    /// A chunk is a disjoint slice of positions and vertices, so threads write without locks.
+    /// Chunks are disjoint slices of positions and vertices, so threads write without locks.
     fn project_chunks<I: Iterator<Item = Range<usize>>>(
         &self,
         positions: &[[f32; 3]],
@@ -174,7 +174,7 @@ fn project_chunk(
 /// Returns the clip-space x, y, z and w of positions: a matrix, passed as rows, times each
 /// position, added in the same order as in glam.
 ///
-/// The sum is ((x·m₀ + y·m₁) + z·m₂) + m₃: another order would round differently and crack the edge
+/// The sum is ((x·m₀ + y·m₁) + z·m₂) + m₃: another order would round differently and leave cracks
 /// between clipped and unclipped triangles.
 #[inline(always)]
 fn transform_to_clip(positions: &[[f32; 3]; SNAP_LANES], rows: DMat4) -> [F64x8; 4] {
@@ -205,8 +205,8 @@ fn split_coordinates(points: &[HPoint<Clip>; SNAP_LANES]) -> [F64x8; 4] {
 /// Divides eight points by w, applies the viewport transform (a matrix as rows) and snaps the
 /// results.
 ///
-/// A lane is `None` if its point cannot be drawn: if it is outside the guard band, its w is not
-/// positive and finite, or its depth is beyond ±2²⁰. All lanes are computed to the end, without
+/// A lane is `None` if its point cannot be drawn: if it is outside the guard band, if its w is not
+/// positive and finite, or if its depth is beyond ±2²⁰. All lanes are computed to the end, without
 /// branches.
 #[inline(always)]
 fn divide_and_snap(

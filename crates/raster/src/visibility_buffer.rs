@@ -7,7 +7,7 @@ use crate::tile_grid::{tile_columns, tile_rect, tile_rows};
 use crate::{Fragment, Frame, Surface};
 use homog::PixelRect;
 
-/// Depths and ids at the first sample of each pixel (its center, with one sample), rows from the
+/// Depths and ids at the first sample of each pixel (at its center, with one sample), rows from the
 /// top.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]

@@ -1,5 +1,5 @@
 //! Readings of affine matrices as maps of space: translations, scales, windowing, shears, and model
-//! transforms of translation, rotation and scale.
+//! transforms composed of translation, rotation and scale.
 
 use super::matrix_reading::factor_cost;
 use super::rigid::{axis_angle, is_square_frame, largest_error};
@@ -34,7 +34,7 @@ pub(crate) fn read_affine(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
         read_diagonal(diagonal, offset, &mut push);
     } else if diagonal.into_iter().all(|entry| entry.is(1.0)) && slanted <= 2 {
         let entries = off_diagonal.map(|(i, j)| unit[i][j]);
-        // Row-vector matrices that add x and y to z are oblique projections for column vectors.
+        // A matrix that adds both x and y to z is usually an oblique projection for row vectors.
         let rare = if unit[2][0].is_zero() || unit[2][1].is_zero() { 0 } else { 4 };
         let cost = 4 + rare + 2 * (total_digits(&entries) + total_digits(&offset));
         let linear = [0, 1, 2].map(|i| [0, 1, 2].map(|j| unit[i][j].simplest()));
@@ -70,7 +70,7 @@ fn read_diagonal(
         push(MatrixMeaning::Scale { factors }, 1 + 2 * digits + 2 * mirrored);
         return;
     }
-    // A factor shared by all axes counts once.
+    // A number shared by several axes counts once.
     let different = |numbers: &[Rounded; 3]| -> u32 {
         let repeated = |at: usize| numbers[..at].iter().any(|earlier| earlier.equals(numbers[at]));
         let new = (0..3).filter(|&at| !repeated(at) && !numbers[at].is(1.0));
@@ -84,8 +84,8 @@ fn read_diagonal(
     push(MatrixMeaning::Windowing { scale, offset }, base + 2 * digits + mirrored);
 }
 
-/// Adds the reading as a translation, rotation and scale of the axes: perpendicular columns, not
-/// all of length 1.
+/// Adds the reading as a translation, rotation and scale of the axes, if the columns are
+/// perpendicular and not all of length 1.
 fn read_model_transform(unit: &Entries<4>, push: &mut impl FnMut(MatrixMeaning, u32)) {
     let columns = [0, 1, 2].map(|j| [0, 1, 2].map(|i| unit[i][j]));
     let lengths = columns.map(|[x, y, z]| (x * x + y * y + z * z).sqrt());

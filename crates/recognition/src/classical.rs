@@ -34,8 +34,8 @@ pub(crate) fn read_classical(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     }));
 }
 
-/// Adds the reading as a perspective from the origin onto the plane z = d: x, y, z or 0, and w =
-/// z/d.
+/// Returns the reading as a perspective projection from the origin onto the plane z = d. The rows
+/// are x, y, z or 0, and w = z/d.
 fn read_central(m: &Entries<4>) -> Option<MatrixReading> {
     let factor = m[0][0];
     if factor.is_zero() || m[3][2].is_zero() {
@@ -61,14 +61,14 @@ fn is_zero_row(row: &[Rounded; 4]) -> bool {
     row.iter().all(|entry| entry.is_zero())
 }
 
-/// Adds the reading as diag(0, 1, 1, 1) or a similar matrix: T_yoz, T_zox, T_xoy (MV-1 to MV-3).
+/// Returns the reading as diag(0, 1, 1, 1) or a similar matrix: T_yoz, T_zox, T_xoy (MV-1 to MV-3).
 fn read_principal_view(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     let dropped = (0..3).find(|&i| is_zero_row(&m[i]))?;
     let kept = (0..3).filter(|&i| i != dropped).all(|i| is_unit_row(&m[i], i));
     kept.then_some((MatrixMeaning::PrincipalView { plane: PrincipalPlane::ALL[dropped] }, 2))
 }
 
-/// Adds the readings with x' = x + (z − z_p) slant, y' likewise, and z' = z_p or z (OB-1, OB-2).
+/// Returns the reading with x' = x + (z − z_p) slant, y' likewise, and z' = z_p or z (OB-1, OB-2).
 fn read_oblique(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     let [x, y, z, _] = m;
     let keeps_axes = x[0].is(1.0) && x[1].is_zero() && y[0].is_zero() && y[1].is(1.0);
@@ -122,8 +122,8 @@ fn read_planometric(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     Some((meaning, 5 + 2 * (turn.digits() + height.digits())))
 }
 
-/// Adds the reading of two rows of a rotation and a row of zeros: an axonometric projection onto
-/// the picture plane (AX-1).
+/// Returns the reading of two rows of a rotation and a row of zeros as an axonometric projection
+/// onto the picture plane (AX-1).
 fn read_axonometric(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     let [x, y, z, _] = m;
     let (a, b) = ([x[0], x[1], x[2]], [y[0], y[1], y[2]]);

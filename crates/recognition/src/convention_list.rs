@@ -5,8 +5,8 @@ use projection::Convention;
 
 const DOWN: NdcY = NdcY::Down;
 
-/// All sixteen combinations of depth range, handedness and y direction, with common conventions
-/// first.
+/// All sixteen combinations of depth range, depth direction, handedness and y direction, with
+/// common conventions first.
 ///
 /// The second number is a cost in addition to the digits of the parameters. Reversed left-handed
 /// depth in [−1, 1], which no graphics API uses, is the rarest.

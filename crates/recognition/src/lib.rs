@@ -23,7 +23,7 @@
 //! let matrix = lens.view_to_clip(Convention::VULKAN);
 //! let meaning = recognize(matrix.rows()).first().meaning;
 //! let MatrixMeaning::Perspective { lens, convention, .. } = meaning else {
-//!     panic!("a perspective")
+//!     panic!("not a perspective projection")
 //! };
 //! assert_eq!((lens.fov_y_degrees, convention), (60.0, Convention::VULKAN));
 //!
@@ -42,7 +42,7 @@
 //! | a matrix as source code or LaTeX | [`CodeLanguage::format_matrix`] |
 //! | the parameters of a matrix in a known convention | [`projection::decompose()`] |
 //!
-//! All matrices are for column vectors, in f64. The example `doctor` identifies sixteen numbers.
+//! All matrices are for column vectors, in f64. The example `doctor` identifies a given matrix.
 #![no_std]
 
 extern crate alloc;

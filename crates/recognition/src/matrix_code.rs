@@ -69,7 +69,7 @@ impl CodeLanguage {
     }
 }
 
-/// Formats a number with a point or an exponent, so that every language reads it as floating point.
+/// Formats a number with a point or an exponent, so that every language reads it as a float.
 fn number(x: f64) -> String {
     format!("{:?}", x + 0.0)
 }

@@ -84,7 +84,7 @@ impl Recognition {
 /// ];
 /// let MatrixMeaning::Perspective { frustum, lens, convention } = recognize(rows).first().meaning
 /// else {
-///     panic!("a perspective")
+///     panic!("not a perspective projection")
 /// };
 /// assert_eq!(convention, Convention::OPENGL);
 /// assert_eq!((lens.fov_y_degrees, frustum.near(), frustum.far()), (60.0, 0.1, 100.0));
@@ -111,7 +111,7 @@ pub(crate) fn least_cost(entries: &Entries<4>) -> u32 {
     cost(entries).min(cost(&transpose(entries)) + suspicion::SLIP)
 }
 
-/// Exchanges rows and columns.
+/// Swaps rows and columns.
 pub(crate) fn transpose(entries: &Entries<4>) -> Entries<4> {
     [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| entries[j][i]))
 }
@@ -145,7 +145,7 @@ pub(crate) fn readings_of(entries: &Entries<4>) -> Vec<MatrixReading> {
     }
     found.retain(|reading| reading.factor.is_finite() && reading.factor != 0.0);
     found.push(unnamed_reading(entries));
-    // The sort is stable, so at equal cost the result of the earlier reader is first.
+    // The sort is stable, so at equal cost, the result of the earlier reader is first.
     found.sort_by_key(|reading| reading.cost);
     found
 }

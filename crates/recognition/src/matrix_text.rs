@@ -1,4 +1,4 @@
-//! Matrix text: sixteen or nine numbers as people and programs write them, including source code.
+//! Matrix text: sixteen or nine numbers as people and programs write them, also in source code.
 //!
 //! ```text
 //!  1 0 0 2  0 1 0 1/2  0 0 1 -1e3  0 0 0 1              row by row
@@ -42,8 +42,8 @@ pub enum MatrixTextError {
     WrongCount(usize),
 }
 
-/// Words in source code that reveal the order of the numbers, in lower case; the first match in
-/// this list applies.
+/// Words in lower-case source code, whether they reveal an order by columns, and the order to
+/// report. The first match in this list applies.
 const ORDERS: [(&str, bool, &str); 13] = [
     ("column by column", true, "column by column, as its comment says"),
     ("row by row", false, "row by row, as its comment says"),
@@ -64,7 +64,7 @@ const ORDERS: [(&str, bool, &str); 13] = [
 /// by brackets, commas or spaces.
 ///
 /// The rows are for column vectors, with the translation in the last column. Numbers stored column
-/// by column, as in OpenGL, are transposed; `column_major` transposes any input.
+/// by column, as in OpenGL, are transposed; with `column_major`, all numbers are read by columns.
 ///
 /// ```
 /// use recognition::{GivenMatrix, parse_matrix};

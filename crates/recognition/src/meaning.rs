@@ -7,7 +7,7 @@ use projection::{
     PrincipalPlane, Window,
 };
 
-/// The angles and proportions of a perspective, read from its matrix with all significant digits.
+/// The angles and proportions of a perspective projection, read from its matrix at full precision.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct Lens {
@@ -58,7 +58,7 @@ pub enum MatrixMeaning {
         /// The angle in degrees, from 0 to 180, counterclockwise when the axis points at the
         /// viewer.
         angle_degrees: f64,
-        /// The equivalent camera at the origin, if it exists.
+        /// The equivalent camera at the origin.
         camera: CameraReading,
     },
     /// The camera transform M_cam: rotation and translation (CA-2).
@@ -101,7 +101,7 @@ pub enum MatrixMeaning {
         /// The z of the far plane.
         f: f64,
     },
-    /// A perspective, from view to clip space (GL-1, PE-2, D3D-1 and others).
+    /// A perspective projection, from view to clip space (GL-1, PE-2, D3D-1 and others).
     Perspective {
         /// The window on the near plane, with near and far as distances.
         frustum: Frustum,
@@ -110,7 +110,7 @@ pub enum MatrixMeaning {
         /// The convention in which the parameters are expressed.
         convention: Convention,
     },
-    /// The inverse of a perspective, from clip to view space (IV-1).
+    /// The inverse of a perspective projection, from clip to view space (IV-1).
     InversePerspective {
         /// The window on the near plane, with near and far as distances.
         frustum: Frustum,
@@ -126,7 +126,7 @@ pub enum MatrixMeaning {
         /// The convention in which the parameters are expressed.
         convention: Convention,
     },
-    /// A perspective with an inclined near plane (Lengyel 2005).
+    /// A perspective projection with an inclined near plane (Lengyel 2005).
     ObliqueNear {
         /// The window at distance 1 in front of the eye.
         slopes: Window,
@@ -135,14 +135,14 @@ pub enum MatrixMeaning {
         /// The convention in which the parameters are expressed.
         convention: Convention,
     },
-    /// An orthographic box, from view to clip space (OR-1, GL-3).
+    /// An orthographic projection, from view to clip space (OR-1, GL-3).
     Orthographic {
         /// The window, with near and far as distances.
         volume: Orthographic,
         /// The convention in which the parameters are expressed.
         convention: Convention,
     },
-    /// An oblique prism, from view to clip space (VV-1).
+    /// An oblique projection, from view to clip space (VV-1).
     ObliqueVolume {
         /// The length and angle of the depth axis.
         projection: Oblique,
@@ -184,7 +184,7 @@ pub enum MatrixMeaning {
         /// True if the height is dropped.
         onto_plane: bool,
     },
-    /// A one-, two- or three-point perspective (ONE-1, TWO-1, THREE-1).
+    /// A one-, two- or three-point perspective projection (ONE-1, TWO-1, THREE-1).
     NPoint {
         /// The terms p, q and r.
         projection: NPoint,
@@ -199,7 +199,7 @@ pub enum MatrixMeaning {
         /// True if z is dropped.
         onto_plane: bool,
     },
-    /// A camera and a perspective, from world to clip space.
+    /// A camera and a perspective projection, from world to clip space.
     CameraPerspective {
         /// The camera in the world.
         camera: CameraReading,
@@ -211,8 +211,8 @@ pub enum MatrixMeaning {
         /// its view space.
         convention: Convention,
     },
-    /// A perspective and a viewport in one matrix, from view or world space to pixels (PL-1). The
-    /// window is centered on the line of sight.
+    /// A perspective projection and a viewport in one matrix, from view or world space to pixels
+    /// (PL-1). The window is centered on the line of sight.
     PerspectiveToPixels {
         /// The width and height in pixels; depth is unchanged.
         size: [f64; 2],
@@ -229,8 +229,8 @@ pub enum MatrixMeaning {
         /// The convention in which the parameters are expressed.
         convention: Convention,
     },
-    /// A camera and an orthographic box. The matrix does not determine the eye, which is placed at
-    /// the origin.
+    /// A camera and an orthographic projection. The matrix does not determine the eye, which is
+    /// placed at the origin.
     CameraOrthographic {
         /// The orientation of the camera.
         camera: CameraReading,

@@ -119,7 +119,7 @@ impl Misprint {
                 "the depth offset has the wrong sign: the box appears to be behind the eye"
             }
             Self::FrustumOffsetOne => {
-                "the x offset is 1, correct only for a window that begins at 0"
+                "the x offset is 1, which is correct only for a window that begins at 0"
             }
             Self::HalfOfTangent => "the tangent was halved instead of the angle",
             Self::Degrees => "the angle was read as radians but is in degrees",
@@ -137,20 +137,20 @@ impl Misprint {
     pub const fn remedy(self) -> &'static str {
         match self {
             Self::PerspectiveLeftOut => "use M_per = M_orth P instead of M_orth",
-            Self::RepeatedTranslation => "the third row ends with t_z",
+            Self::RepeatedTranslation => "end the third row with t_z",
             Self::DepthReversed => {
                 "multiply by diag(1, 1, −1, 1) on the left, or name the intended convention"
             }
             Self::NegativeW => "multiply the matrix by −1 before clipping; the map stays the same",
-            Self::ThirdRowFlat => "the translation's third row is (0, 0, 1, −z)",
+            Self::ThirdRowFlat => "make the translation's third row (0, 0, 1, −z)",
             Self::ApexMoved => {
                 "for an eye at the origin, put (right+left)/(right−left) into the third column; \
                  keep the matrix if the apex is meant to move"
             }
             Self::BottomRowOne => "set the last entry to 0",
-            Self::OrthoOffsetSign => "the third row ends with −(far+near)/(far−near)",
-            Self::FrustumOffsetOne => "the first row's third entry is (right+left)/(right−left)",
-            Self::HalfOfTangent => "the entries are 1/(aspect tan(fovy/2)) and 1/tan(fovy/2)",
+            Self::OrthoOffsetSign => "end the third row with −(far+near)/(far−near)",
+            Self::FrustumOffsetOne => "make the first row's third entry (right+left)/(right−left)",
+            Self::HalfOfTangent => "use the entries 1/(aspect tan(fovy/2)) and 1/tan(fovy/2)",
             Self::Degrees => "convert first: radians = degrees π/180",
             Self::LastRowNegated => "negate the last row",
             Self::WrongSign => "flip the sign of this entry",
@@ -256,9 +256,9 @@ fn apex_moved(frustum: Frustum) -> Option<DMat4> {
     Some(lesson.view_to_clip(Convention::OPENGL).raw())
 }
 
-/// Returns the misprint that turns the intended matrix into `matrix`, or `None` if the matrix is
-/// correct up to a positive factor or wrong in an unknown way. Entries may differ by one part in a
-/// million, as in f32 programs.
+/// Returns the misprint that turns the intended matrix into `view_to_clip`, or `None` if that
+/// matrix is correct up to a positive factor or wrong in an unknown way. Entries may differ by one
+/// part in a million, as in f32 programs.
 ///
 /// ```
 /// use projection::Orthographic;
@@ -285,7 +285,7 @@ pub fn misprint_of(
     })
 }
 
-/// Returns whether two matrices are equal up to a positive factor and one part in a million.
+/// Returns whether two matrices are equal up to a positive factor, within one part in a million.
 fn nearly_equal(ours: DMat4, theirs: DMat4) -> bool {
     let size =
         |m: DMat4| m.to_cols_array().iter().fold(0.0, |size: f64, entry| size.max(entry.abs()));

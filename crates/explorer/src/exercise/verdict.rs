@@ -14,7 +14,7 @@ pub enum Verdict {
     Mistaken(&'static Mistake),
     /// The answer is correct to about three digits.
     Rounded,
-    /// These entries are wrong.
+    /// Some entries are wrong.
     Different {
         /// The entries that differ.
         differences: Vec<Difference>,
@@ -28,13 +28,13 @@ pub enum Verdict {
 /// A wrong entry.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Difference {
-    /// The row or part, from 0.
+    /// The index of the row or part, from 0.
     pub row: usize,
     /// The position in the row, from 0.
     pub column: usize,
     /// The name of the entry.
     pub name: Sentence,
-    /// The value of the entry, for the verdict's values of the symbols.
+    /// The answer's value for the entry, at the verdict's values of the symbols.
     pub value: f64,
     /// Whether only the sign is wrong.
     pub is_negated: bool,
@@ -131,7 +131,7 @@ impl Difference {
     }
 }
 
-/// Returns a name for a Chinese sentence, with spaces only next to Latin letters.
+/// Returns a name for use in a Chinese sentence, with spaces where it begins or ends in ASCII.
 fn between_han(name: &str) -> String {
     let blank = |c: Option<char>| if c.is_some_and(|c| c.is_ascii()) { " " } else { "" };
     format!("{}{name}{}", blank(name.chars().next()), blank(name.chars().next_back()))

@@ -1,4 +1,4 @@
-//! Lessons on the viewing chapter: its two view volumes and the depth between the planes.
+//! Lessons on the viewing chapter: its two view volumes, and depth between the near and far planes.
 
 use super::PARALLEL_PANES;
 use super::effects::{distortion, planes_only_clip};
@@ -24,10 +24,10 @@ const fn plane_f(default: f64) -> Parameter {
     number("f", label, "", [-60.0, -11.5], [0.5, default])
 }
 
-/// The window of the chapter.
+/// The chapter's names for the sides of the window.
 const WINDOW: [&str; 4] = ["l", "r", "b", "t"];
 
-/// Returns the distances of the planes, as used in scene files; n and f are coordinates.
+/// Returns the distances of the planes, which scene files use instead of the coordinates n and f.
 fn planes(values: &Values<'_>) -> [f64; 2] {
     values.scene_numbers(["n", "f"]).map(|z| -z)
 }
@@ -119,7 +119,7 @@ pub(super) static MIDPOINT_DEPTH: Lesson = Lesson {
     items: &["C41", "C48"],
     title: words("Depth of the midpoint", "中点的深度"),
     statement: words(
-        "P preserves the order of depths but not their ratios: the midpoint z = (n + f)/2 maps to (n² + f²)/(n + f), which is closer to f. The farther apart n and f are, the more of the range is used near the eye.",
+        "P preserves the order of depths but not their ratios: the midpoint z = (n + f)/2 maps to (n² + f²)/(n + f), which is closer to f. The farther apart n and f are, the more of the depth range is used near the eye.",
         "P 保持深度的次序，但不保持比例：中点 z = (n + f)/2 映为 (n² + f²)/(n + f)，更靠近 f。n 与 f 相差越大，深度范围就越多地用在近处。",
     ),
     parameters: &[plane_n(-4.0), plane_f(-40.0)],
@@ -131,7 +131,7 @@ pub(super) static MIDPOINT_DEPTH: Lesson = Lesson {
         let [middle, image] = [middle, image].map(|z| decimals(z, 3));
         vec![sentence(
             format!(
-                "The midpoint z = {middle} maps to {image}. In the canonical view volume, where near is 1 and far is −1, that is {depth} and not 0."
+                "The midpoint z = {middle} maps to {image}. In the canonical view volume, where near is 1 and far is −1, its depth is {depth}, not 0."
             ),
             format!(
                 "中点 z = {middle} 映为 {image}；在近平面为 1、远平面为 −1 的规范视见体中，深度是 {depth}，而不是 0。"

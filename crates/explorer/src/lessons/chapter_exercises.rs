@@ -9,7 +9,7 @@ use crate::words::{Sentence, sentence, words};
 use explain::ApiConventions;
 use scene_file::file::{CameraFile, LabelSize, OverlayFile, ProjectionFile, ViewFile};
 
-/// The ends of the segment in exercise 11, along the ridge of the house.
+/// The endpoints of the segment in exercise 11, along the ridge of the house.
 const RIDGE_ENDS: [[f64; 3]; 2] = [[0.0, 4.38, 3.15], [0.0, 4.38, -3.15]];
 
 /// Exercises 2, 7, 10 and 11.
@@ -19,7 +19,7 @@ pub(super) static EXERCISES: Lesson = Lesson {
     items: &["C39", "C44", "C46", "C47"],
     title: words("Exercises", "习题"),
     statement: words(
-        "Figures for the chapter's exercises. 2: M_vp M_orth maps a window to pixels. 7: M_per takes the corner (r, t, n) to (1, 1, 1). 10: the camera at (0, 1, 0) looks down. 11: the image of the point at fraction t of a segment.",
+        "Figures for the chapter's exercises. 2: M_vp M_orth maps a window to pixels. 7: M_per takes the corner (r, t, n) to (1, 1, 1). 10: the camera at (0, 1, 0) looks down. 11: the image of the point a fraction t of the way along a segment.",
         "本章习题的图：2，M_vp M_orth 把窗口映射到像素；7，M_per 把角点 (r, t, n) 映为 (1, 1, 1)；10，位于 (0, 1, 0) 向下看的相机；11，线段上比例 t 处的点的像在哪里。",
     ),
     models: &[HOUSE, CRATE],
@@ -37,7 +37,7 @@ pub(super) static EXERCISES: Lesson = Lesson {
                     label: words("10: a camera looking down", "10：向下看的相机"),
                 },
                 Choice {
-                    value: "11", label: words("11: f(t) of a segment", "11：线段的 f(t)")
+                    value: "11", label: words("11: f(t) along a segment", "11：线段的 f(t)")
                 },
             ],
         ),
@@ -131,7 +131,7 @@ fn exercise_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
             let (start, end) = (decimals(start, 2), decimals(end, 2));
             vec![sentence(
                 format!(
-                    "w is {start} at a and {end} at b. The image of the point at {t} of the segment is at f(t) = {image} of the segment's image."
+                    "w is {start} at a and {end} at b. The point a fraction {t} of the way along the segment maps to a fraction f(t) = {image} of the way along its image."
                 ),
                 format!(
                     "a 处 w 为 {start}，b 处 w 为 {end}：线段上 {t} 处的点，其像位于线段的像的 f(t) = {image} 处。"

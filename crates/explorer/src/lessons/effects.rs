@@ -1,11 +1,10 @@
-//! Sentences shared by several lessons: distortion by a different aspect ratio, and clipping
-//! planes.
+//! Sentences that several lessons share, on distortion and on the near and far planes.
 
 use crate::facts::Facts;
 use crate::number_text::decimals;
 use crate::words::{Sentence, sentence};
 
-/// Describes the distortion caused by the window's shape, if any.
+/// Describes whether the window's shape distorts the picture.
 pub(super) fn distortion(facts: &Facts) -> Option<Sentence> {
     let stretch = facts.picture_aspect() / facts.window_aspect()?;
     if (stretch - 1.0).abs() < 5e-3 {

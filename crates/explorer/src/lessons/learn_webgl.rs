@@ -9,13 +9,13 @@ use crate::number_text::{decimals, scene_number};
 use crate::words::{Sentence, sentence, words};
 use scene_file::file::{CameraFile, InvalidNumber, ProjectionFile};
 
-/// C62: the field of view magnifies, a wrong aspect ratio distorts, and near and far only clip.
+/// C62: a small field of view magnifies, a wrong aspect ratio distorts, and near and far only clip.
 pub(super) static PERSPECTIVE: Lesson = Lesson {
     id: "perspective",
     items: &["C61", "C62", "C70", "C92", "C94"],
     title: words("Perspective", "透视投影"),
     statement: words(
-        "A smaller field of view enlarges the picture. An aspect ratio that differs from the picture's distorts it. The near and far planes only clip and do not move anything.",
+        "A smaller field of view enlarges the objects. An aspect ratio that differs from the picture's distorts it. The near and far planes only clip and do not move anything.",
         "视场角越小，物体越大。宽高比与图像不一致时，物体会变形。近平面和远平面只裁剪，不移动任何物体。",
     ),
     parameters: &[
@@ -37,7 +37,7 @@ pub(super) static PERSPECTIVE: Lesson = Lesson {
         let factor = decimals(factor, 2);
         let mut all = vec![match fov == 40.0 {
             true => sentence(
-                "field of view 40°: the sizes at other angles are compared with these sizes.",
+                "field of view 40°: sizes at other angles are compared with the sizes at this angle.",
                 "视场角 40°：其他角度下的大小都与此时的大小相比较。",
             ),
             false => sentence(
@@ -52,8 +52,8 @@ pub(super) static PERSPECTIVE: Lesson = Lesson {
     ..Lesson::USUAL
 };
 
-/// Returns a perspective with a field of view. If the aspect ratio does not match the picture, the
-/// window has a different shape.
+/// Returns the perspective projection with a field of view, or a frustum if its aspect ratio
+/// differs from the picture's.
 fn perspective(values: &Values<'_>) -> Result<ProjectionFile, InvalidNumber> {
     let [fov, aspect, near] = ["fov", "aspect", "near"].map(|key| values.number(key));
     let planes = values.scene_numbers(PLANES);
@@ -66,13 +66,13 @@ fn perspective(values: &Values<'_>) -> Result<ProjectionFile, InvalidNumber> {
     ProjectionFile::frustum([-r, r, -t, t], planes)
 }
 
-/// C63, C64: the window keeps its size, so near changes the angle; the moving apex (M12).
+/// C63, C64: with a fixed window, near changes the angle; createFrustum moves the apex (M12).
 pub(super) static FRUSTUM: Lesson = Lesson {
     id: "frustum",
     items: &["C63", "C64", "C66", "M12"],
     title: words("Frustum", "视锥体（frustum）"),
     statement: words(
-        "The window on the near plane keeps its size, so the distance of the near plane changes the lens angle, while the far plane only clips. Left, right, bottom and top move the window. The lesson's createFrustum moves the apex behind the window's center instead of shearing the volume, so the picture differs unless the window is centered.",
+        "The window on the near plane keeps its size, so the distance of the near plane changes the field of view, while the far plane only clips. Left, right, bottom and top move the window. The lesson's createFrustum moves the apex behind the window's center instead of shearing the volume, so the picture differs unless the window is centered.",
         "近平面上的窗口大小不变，所以近平面的距离会改变视场角；远平面只裁剪。左、右、下、上移动窗口。教程中的 createFrustum 把顶点移到窗口中心的正后方，而不是对视锥体作错切：除非窗口居中，否则图像不同。",
     ),
     parameters: &[
@@ -123,7 +123,7 @@ fn frustum_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
     if let Some([_, vertical]) = facts.opening_angles() {
         let angle = decimals(vertical, 1);
         all.push(sentence(
-            format!("near {near}: the window keeps its size, so the vertical angle is {angle}°."),
+            format!("near {near}: with this window, the vertical field of view is {angle}°."),
             format!("近平面 {near}：窗口大小不变，所以垂直视场角为 {angle}°。"),
         ));
     }
@@ -156,7 +156,7 @@ pub(super) static ORTHO: Lesson = Lesson {
     items: &["C90", "C94"],
     title: words("Orthographic projection", "正交投影"),
     statement: words(
-        "A box in the world is shown without foreshortening: an object twice as far away has the same size. A smaller window enlarges the picture. Near and far only clip, and near may even be behind the camera.",
+        "A box in the world is shown without foreshortening: an object twice as far away has the same size. A smaller window enlarges the objects. Near and far only clip, and near may even be behind the camera.",
         "长方体视见体中的物体没有近大远小：远一倍的物体同样大。窗口越小，物体越大；近平面和远平面只裁剪，近平面甚至可以在相机后面。",
     ),
     parameters: &[

@@ -1,4 +1,4 @@
-//! Lessons from *Learn WebGL* on stereo, viewports, the mouse and depth.
+//! Lessons from *Learn WebGL* on stereo, viewports, picking and depth.
 
 use super::effects::{distortion, planes_only_clip};
 use super::{ALL_PANES, HOUSE};
@@ -20,7 +20,7 @@ pub(super) static STEREO: Lesson = Lesson {
     items: &["C65"],
     title: words("Stereo pair", "立体像对"),
     statement: words(
-        "Two eyes look in the same direction through off-axis windows that coincide at the convergence distance. A point at that distance has no parallax; a nearer point appears in front of the picture. The eyes are not turned toward each other, and the apex is not moved, because that would cause vertical parallax or a different picture.",
+        "Two eyes look in the same direction through off-axis windows that coincide at the convergence distance. A point at that distance has no parallax; a nearer point appears in front of the picture. Turning the eyes toward each other would cause vertical parallax, and moving the apex would change the picture.",
         "两只眼睛朝同一方向，透过在会聚距离上重合的离轴窗口观看。会聚距离处没有视差；更近的物体凸出画面。眼睛不向内转动，也不移动顶点：那样会产生垂直视差或不同的图像。",
     ),
     parameters: &[
@@ -59,7 +59,7 @@ fn stereo_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
     let Some([nearest, farthest]) = facts.model_range else { return Vec::new() };
     let [eyes, convergence] = ["eyes", "convergence"].map(|key| values.number(key));
     // On the plane of convergence, the right eye's image of a point at distance D is e (1 − c / D)
-    // farther to the right.
+    // to the right of the left eye's image.
     let parallax = |distance: f64| eyes * (1.0 - convergence / distance);
     let sentence_for = |distance: f64, what: [&str; 2]| {
         let (shift, text) = (parallax(distance), decimals(distance, 2));
@@ -129,7 +129,7 @@ pub(super) static VIEWPORT: Lesson = Lesson {
 };
 
 /// Returns the rectangle in fractions of the picture, from the lower left corner, clamped to the
-/// borders.
+/// picture.
 fn viewport_rectangle(values: &Values<'_>) -> [f64; 4] {
     let [x, y, width, height] = ["x", "y", "width", "height"].map(|key| values.number(key) / 100.0);
     [x, y, width.min(1.0 - x), height.min(1.0 - y)]
@@ -166,7 +166,7 @@ pub(super) static PICKING: Lesson = Lesson {
     items: &["C26", "C97"],
     title: words("Picking", "拾取"),
     statement: words(
-        "A pixel is mapped back to −1 … 1, and then by the inverse matrix and a divide by w to a point on the near plane and a point on the far plane. The line through both is the line of sight, and the first triangle on it is picked.",
+        "A pixel is mapped back to −1 … 1, and then by the inverse matrix and a divide by w to a point on the near plane and a point on the far plane. The line through both points is the line of sight, and the first triangle on it is picked.",
         "像素沿观察流水线返回：先映射到 −1 … 1，再用逆矩阵求出近平面和远平面上的点，并除以 w。过这两点的直线就是拾取射线；射线上的第一个三角形就是被拾取的物体。",
     ),
     parameters: &[
@@ -219,7 +219,7 @@ pub(super) static DEPTH_TABLE: Lesson = Lesson {
     items: &["C67", "C68"],
     title: words("Depth after the divide", "透视除法之后的深度"),
     statement: words(
-        "Depth is not linear in distance: z = c₁/D + c₂ with c₁ = 2FN/(N − F), c₂ = (F + N)/(F − N). Half of its range is used for distances from N to 2FN/(F + N). Moving the near plane out helps; moving the far plane in hardly makes a difference.",
+        "Depth is not linear in distance: z = c₁/D + c₂ with c₁ = 2FN/(N − F) and c₂ = (F + N)/(F − N). Half of the depth range is used for distances from N to 2FN/(F + N). Moving the near plane out helps; moving the far plane in hardly makes a difference.",
         "深度与距离不是线性关系：z = c₁/D + c₂，c₁ = 2FN/(N − F)，c₂ = (F + N)/(F − N)。一半的深度范围用在 N 到 2FN/(F + N) 的距离上。把近平面移远有用；把远平面移近几乎无用。",
     ),
     parameters: &[

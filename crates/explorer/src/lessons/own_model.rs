@@ -54,7 +54,7 @@ pub(super) static MODEL: Lesson = Lesson {
             _ => ProjectionFile::perspective(fov, None)?,
         };
         let angles = ["azimuth", "elevation"].map(|key| values.number(key));
-        // Classical projections determine their direction.
+        // A classical projection determines the viewing direction.
         let from = (!projection.is_classical()).then_some(angles);
         let mut scene =
             model_scene(values.model.unwrap_or_default(), framed(projection, 5.0, from)?)?;
@@ -88,11 +88,11 @@ pub(super) fn describe_model(facts: &Facts) -> Vec<Sentence> {
         let [near, far] = [near, far].map(|distance| decimals(distance, 3));
         all.push(match near == far {
             true => sentence(
-                format!("It is {near} in front of the camera."),
+                format!("The model is {near} in front of the camera."),
                 format!("它在相机前方 {near} 处。"),
             ),
             false => sentence(
-                format!("It is {near} to {far} in front of the camera."),
+                format!("The model is {near} to {far} in front of the camera."),
                 format!("它在相机前方 {near} 到 {far} 处。"),
             ),
         });

@@ -20,7 +20,7 @@ pub(super) static NORMALIZATION: Lesson = Lesson {
     items: &["C87", "C88", "C89"],
     title: words("Normalization", "投影规范化"),
     statement: words(
-        "Any frustum becomes the canonical view volume in three steps: a shear moves the center line to −z, a scale changes the sides to x = ±z and y = ±z, and the perspective matrix turns it into a cube. A single clipper then serves every projection.",
+        "Any frustum becomes the canonical view volume in three steps: a shear moves the center line to −z, a scale changes the sides to x = ±z and y = ±z, and the perspective matrix turns the pyramid into a cube. A single clipper then serves every projection.",
         "任何视锥体都可以分三步变成规范视见体：错切把中心线移到 −z 上，缩放使侧面成为 x = ±z、y = ±z，透视矩阵再把它变成立方体。这样一个裁剪程序就能用于所有投影。",
     ),
     parameters: &[
@@ -75,13 +75,13 @@ pub(super) static NORMALIZATION: Lesson = Lesson {
     ..USUAL
 };
 
-/// WV-1, WV-2: stretched, or at a single scale with bars at the sides.
+/// WV-1, WV-2: a window stretched to the viewport, or shown at a single scale between bars.
 pub(super) static WINDOW_VIEWPORT: Lesson = Lesson {
     id: "window-viewport",
     items: &["C95", "C96"],
     title: words("Window to viewport", "窗口到视口的变换"),
     statement: words(
-        "The window in the world is moved to the origin, scaled by sx and sy, and moved to the viewport: T · S · T. With sx = sy shapes are preserved, but a viewport with a different shape has bars (letterbox).",
+        "The window in the world is moved to the origin, scaled by sx and sy, and moved to the viewport: T · S · T. With sx = sy, shapes are preserved, but a viewport with a different shape has bars (letterbox).",
         "世界窗口先平移到原点，再按 sx、sy 缩放，然后平移到视口：T · S · T。sx = sy 时形状不变；视口形状不同时会留边（letterbox）。",
     ),
     parameters: &[
@@ -160,7 +160,7 @@ pub(super) static MEXICAN_HAT: Lesson = Lesson {
     items: &["C98"],
     title: words("Mexican hat", "墨西哥帽"),
     statement: words(
-        "The indices of a grid are also a window: i from 0 to n − 1 maps to x = 2 i/(n − 1) − 1 from −1 to 1. The heights of the points form a mesh.",
+        "The indices of a grid are also a window: i from 0 to n − 1 maps to x = 2 i/(n − 1) − 1 from −1 to 1. The grid points, raised to their heights, form a mesh.",
         "网格的下标也构成一个窗口：i 从 0 到 n − 1 映为 x = 2 i/(n − 1) − 1，从 −1 到 1；每个点上的高度构成网格曲面。",
     ),
     models: &[HAT, HAT_LINES],
@@ -202,7 +202,7 @@ pub(super) static MEXICAN_HAT: Lesson = Lesson {
     },
     consequences: |_, _| {
         vec![sentence(
-            "The grid has 49 × 49 points: i = 0, 24 and 48 map to x = −1, 0 and 1. Each of the 48 × 48 squares has two triangles, 4608 in total.",
+            "The grid has 49 × 49 points: i = 0, 24 and 48 map to x = −1, 0 and 1. Each of the 48 × 48 squares is split into two triangles, 4608 in total.",
             "网格有 49 × 49 个点：i = 0、24、48 映为 x = −1、0、1；48 × 48 个方格各分成两个三角形，共 4608 个。",
         )]
     },

@@ -18,7 +18,7 @@ pub(super) static MULTIVIEW: Lesson = Lesson {
     items: &["C75"],
     title: words("Multiview projection", "三视图"),
     statement: words(
-        "Each view projects orthographically onto a principal plane: the front onto XOY drops z, the side onto YOZ drops x, and the top onto ZOX drops y. Faces parallel to the plane keep their true shape, but no single view shows everything.",
+        "Each view projects orthographically onto a principal plane: the front view drops z (XOY), the side view drops x (YOZ), and the top view drops y (ZOX). Faces parallel to its plane keep their true shape, but no single view shows everything.",
         "每个视图都正交投影到一个坐标平面：主视图投影到 XOY 面，去掉 z；侧视图投影到 YOZ 面，去掉 x；俯视图投影到 ZOX 面，去掉 y。平行于投影平面的面保持真实形状；单个视图不能表示整个物体。",
     ),
     parameters: &[choice(
@@ -57,7 +57,7 @@ pub(super) static MULTIVIEW: Lesson = Lesson {
         let [(a, b, lost)] = lost;
         vec![sentence(
             format!(
-                "{a} and {b} have true length; every point loses its {lost}, so the matrix is singular."
+                "Lengths along {a} and {b} are true; every point loses its {lost}, so the matrix is singular."
             ),
             format!("{a} 和 {b} 为真实长度；每个点都失去了 {lost}，所以矩阵是奇异的。"),
         )]
@@ -86,13 +86,13 @@ fn four_views() -> LessonScene {
     })
 }
 
-/// AX-1: rotated by α and tilted by β, then projected onto XOY.
+/// AX-1: the object is rotated by α, tilted by β, and then projected onto XOY.
 pub(super) static AXONOMETRIC: Lesson = Lesson {
     id: "axonometric",
     items: &["C76"],
     title: words("Axonometric projection", "轴测投影"),
     statement: words(
-        "The object is rotated by α about y and tilted by β about x, and then projected orthographically, so all three axes are visible. If all three axes have equal foreshortening, the projection is isometric; if only two do, it is dimetric; otherwise it is trimetric. The squares of the factors always sum to 2.",
+        "The object is rotated by α about y and tilted by β about x, and then projected orthographically, so all three axes are visible. If all three axes have equal foreshortening, the projection is isometric; if only two do, it is dimetric; otherwise it is trimetric. The squares of the three factors always sum to 2.",
         "物体先绕 y 轴旋转 α，再绕 x 轴旋转 β，然后正交投影：三个轴都可见。三个轴向伸缩系数相等为正等测，两个相等为正二测，都不等为正三测；系数的平方和恒为 2。",
     ),
     parameters: &[
@@ -101,7 +101,7 @@ pub(super) static AXONOMETRIC: Lesson = Lesson {
     ],
     describe: |values| {
         let [alpha, beta] = ["alpha", "beta"].map(|key| values.number(key));
-        // Seen directly from above, the direction does not determine which way is up in the
+        // From directly above, the viewing direction does not determine which way is up in the
         // picture.
         let from = Some([alpha, beta.min(89.9)]);
         let camera = framed(ProjectionFile::ORTHOGRAPHIC, 10.0, from)?;
@@ -135,7 +135,7 @@ fn foreshortening(values: &Values<'_>) -> Sentence {
     };
     let [x, y, z] = factors.map(|factor| decimals(factor, 3));
     sentence(
-        format!("Foreshortening: x {x}, y {y}, z {z}: {kind}."),
+        format!("Foreshortening: x {x}, y {y}, z {z} ({kind})."),
         format!("轴向伸缩系数：x {x}，y {y}，z {z}：{kind_zh}。"),
     )
 }
@@ -146,7 +146,7 @@ pub(super) static OBLIQUE: Lesson = Lesson {
     items: &["C77", "C78"],
     title: words("Oblique projection", "斜投影"),
     statement: words(
-        "The projectors are parallel to each other but not perpendicular to the picture. The front keeps its true shape, and depth recedes at angle φ with length L₁ = cot α. L₁ is 1 in a cavalier projection, ½ in a cabinet projection, and 0 in an orthographic projection.",
+        "The projectors are parallel to each other but not perpendicular to the picture. The front keeps its true shape, and a unit of depth is drawn at angle φ with length L₁ = cot α. L₁ is 1 in a cavalier projection, ½ in a cabinet projection, and 0 in an orthographic projection.",
         "投影线互相平行但不垂直于投影平面：正面保持真实形状，深度沿角 φ 方向以长度 L₁ = cot α 画出。斜等测 L₁ = 1，斜二测 L₁ = ½；L₁ = 0 就是正交投影。",
     ),
     parameters: &[

@@ -1,4 +1,4 @@
-//! Lessons from the slides on vanishing points: one-, two- and three-point perspectives.
+//! Lessons from the slides on vanishing points: one-, two- and three-point perspective.
 
 use crate::lesson::{Lesson, Source, Values, number};
 use crate::lesson_scene::{LessonScene, line_drawing};

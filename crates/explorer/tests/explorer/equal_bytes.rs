@@ -1,5 +1,5 @@
-//! Identical bytes from bands and whole pictures, from PNG and the scene renderer, and from two
-//! explorers.
+//! Compares the bytes of bands and whole pictures, of PNGs and the scene renderer, and of used and
+//! fresh explorers.
 
 use super::{explorer_with_models, json, lessons, scenes_folder};
 use explorer::Explorer;
@@ -25,8 +25,8 @@ fn bands_match_the_whole_picture() {
     }
 }
 
-/// A saved picture has the same bytes as `alberti render` with the displayed scene file, which is
-/// formatted as by `alberti scene fmt` and has no lints.
+/// A saved picture has the same bytes as the output of `alberti render` for the displayed scene
+/// file. That file is formatted as by `alberti scene fmt` and has no lints.
 #[test]
 fn a_png_matches_the_rendered_scene_file() {
     let mut explorer = explorer_with_models();

@@ -10,7 +10,7 @@ fn code(explorer: &mut Explorer, query: &str) -> &'static str {
 }
 
 #[test]
-fn broken_models_are_errors_and_the_next_request_works() {
+fn broken_models_are_reported_and_the_next_request_works() {
     let mut explorer = explorer_with_models();
     explorer.add_file("broken.glb", b"glTF, but not really".to_vec()).expect("a name");
     explorer.add_file("empty.glb", Vec::new()).expect("a name");
@@ -80,7 +80,7 @@ fn replaced_files_are_reloaded() {
 }
 
 #[test]
-fn missing_and_outside_pixels_are_rejected() {
+fn missing_pixels_and_pixels_outside_the_picture_are_rejected() {
     let mut explorer = explorer_with_models();
     let query = "what=pick&lesson=frustum";
     assert_eq!(code(&mut explorer, query), "malformed_query");

@@ -4,7 +4,7 @@ use super::{explorer_with_models, json, lessons};
 use explorer::Explorer;
 use serde_json::Value as Json;
 
-/// Returns requests that set one parameter at a time to the ends of its range or to each choice.
+/// Returns requests that set one parameter at a time to each end of its range or to each choice.
 fn extreme_states(lesson: &Json) -> Vec<String> {
     let id = lesson["id"].as_str().expect("an id");
     let mut states = vec![format!("lesson={id}")];
@@ -22,7 +22,7 @@ fn extreme_states(lesson: &Json) -> Vec<String> {
     states
 }
 
-/// Counts the pixels whose color differs from the upper left pixel.
+/// Counts the pixels that differ from the upper left pixel.
 fn drawn_pixels(pixels: &[u8]) -> usize {
     let pixels = pixels.as_chunks::<4>().0;
     pixels.iter().filter(|pixel| **pixel != pixels[0]).count()
@@ -87,7 +87,7 @@ fn every_lesson_can_be_a_line_drawing() {
     }
 }
 
-/// Asserts that an object has text in both languages and that the Chinese text is Chinese.
+/// Asserts that an object has English and Chinese text, the latter with Chinese characters.
 fn assert_both_languages(words: &Json, what: &str) {
     let [en, zh] = ["en", "zh"].map(|language| words[language].as_str().expect("a text"));
     assert!(!en.is_empty() && en.is_ascii() || en.chars().all(|c| !is_chinese(c)), "{what}: {en}");

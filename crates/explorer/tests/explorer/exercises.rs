@@ -1,5 +1,5 @@
-//! Every exercise with correct answers in several notations, its known mistakes, and an unknown
-//! wrong answer.
+//! Checks every exercise with correct answers in several notations, with its known mistakes, and
+//! with an unrecognized wrong answer.
 //!
 //! The answers here are written by hand, and the crates compute the correct values.
 
@@ -137,8 +137,8 @@ fn chinese_verdicts_name_the_entry_without_stray_spaces() {
     }
 }
 
-/// OpenGL's third row has the same effect on n and f whether it is copied or uses N = −n and F =
-/// −f.
+/// OpenGL's third row maps n and f to the same depths whether it is copied or written with N = −n
+/// and F = −f.
 #[test]
 fn third_rows_in_exercise_2_map_near_and_far_as_the_verdicts_state() {
     let depths = |row: fn(f64, f64) -> [f64; 2]| {

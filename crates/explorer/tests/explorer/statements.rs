@@ -18,7 +18,7 @@ fn numbers(values: &Json) -> Vec<f64> {
     values.iter().map(|value| value.as_f64().expect("a number")).collect()
 }
 
-/// C64: for a fixed window the angle is 2 atan((t − b) / 2n), and far changes only the clipping.
+/// C64: for a fixed window, the angle is 2 atan((t − b) / 2n), and far changes only the clipping.
 #[test]
 fn near_changes_the_angle_of_a_frustum_and_far_only_clips() {
     let mut explorer = explorer_with_models();
@@ -67,7 +67,7 @@ fn the_apex_moves_only_in_the_lessons_own_frustum() {
     assert!(said.iter().any(|sentence| sentence.contains("moved to (1, 0.75)")), "{said:?}");
 }
 
-/// C62: the field of view magnifies, a different aspect ratio distorts, and near and far only clip.
+/// C62: a small field of view magnifies, a wrong aspect ratio distorts, and near and far only clip.
 #[test]
 fn a_small_field_of_view_enlarges_and_a_wrong_aspect_ratio_distorts() {
     let mut explorer = explorer_with_models();
@@ -107,7 +107,7 @@ fn every_triangle_is_counted_once() {
     }
 }
 
-/// C65: both eyes agree on the plane of convergence, and neither apex moves vertically.
+/// C65: the parallax of a point at distance D is e (1 − c / D).
 #[test]
 fn parallax_matches_the_formula_for_off_axis_pairs() {
     let mut explorer = explorer_with_models();
@@ -120,7 +120,7 @@ fn parallax_matches_the_formula_for_off_axis_pairs() {
     assert!(said[0].contains(&expected), "{expected}: {said:?}");
 }
 
-/// C94: a parallel projection has no apex, w stays 1, and the planes are at z = 1 and −1.
+/// C94: a parallel projection has no apex, and w stays 1.
 #[test]
 fn w_stays_1_in_an_orthographic_view() {
     let mut explorer = explorer_with_models();
@@ -142,9 +142,9 @@ fn the_window_corner_maps_to_1_1_1() {
     }
 }
 
-/// C68: for n = 2 and f = 40, depth 0 is at 80/21, and the table ends are −1 and 1.
+/// C68: for n = 2 and f = 40, depth 0 is at 80/21, and the table runs from −1 to 1.
 #[test]
-fn half_of_the_depth_range_is_at_the_harmonic_mean() {
+fn the_middle_of_the_depth_range_is_at_the_harmonic_mean() {
     let mut explorer = explorer_with_models();
     let state = json(&mut explorer, "what=state&lesson=depth-table&near=2&far=40");
     let table = &state["depth_table"];
@@ -167,13 +167,13 @@ fn the_midpoint_of_the_depths_moves_toward_far() {
     assert!(said[0].contains("z = -22") && said[0].contains(&image.to_string()), "{said:?}");
 }
 
-/// AX-1: isometric at 45° and asin(1/√3), with factors of √(2/3).
+/// AX-1: the view is isometric at 45° and asin(1/√3), with factors of √(2/3).
 #[test]
 fn equal_foreshortening_is_isometric() {
     let mut explorer = explorer_with_models();
     let said = consequences(&mut explorer, "lesson=axonometric");
     assert!(
-        said[0].contains("x 0.816, y 0.817, z 0.816: isometric")
+        said[0].contains("x 0.816, y 0.817, z 0.816 (isometric)")
             || said[0].contains("x 0.816, y 0.816"),
         "{said:?}"
     );
@@ -181,9 +181,9 @@ fn equal_foreshortening_is_isometric() {
     assert!(said[0].contains("trimetric"), "{said:?}");
 }
 
-/// C36: some corners are behind the eye, and all remaining corners have w > 0 after clipping.
+/// C36: some corners are behind the eye, so the order of clipping and dividing matters.
 #[test]
-fn a_floor_that_passes_the_eye_has_corners_with_negative_w() {
+fn a_floor_that_extends_behind_the_eye_has_corners_with_negative_w() {
     let mut explorer = explorer_with_models();
     let behind = facts(&mut explorer, "lesson=tear&z=0")["behind_eye"].as_u64();
     assert!(behind > Some(100), "{behind:?}");
@@ -215,7 +215,7 @@ fn divided_first_the_floor_behind_the_eye_appears_above_the_horizon() {
     assert!(drawn_in_the_sky("divide") > 100);
 }
 
-/// A triangle can be outside several planes, which the sentences say.
+/// A triangle can be outside several planes, and a sentence explains this overlap.
 #[test]
 fn overlapping_counts_are_explained() {
     let mut explorer = explorer_with_models();
@@ -275,7 +275,7 @@ fn screen_coordinates_start_at_the_viewport_corner() {
     assert!((screen[1] - (80.0 + (ndc[1] + 1.0) * 120.0)).abs() < 1e-9, "{screen:?} {ndc:?}");
 }
 
-/// IN-1: f(t) is the position of the point at t on the image of the segment.
+/// IN-1: the point a fraction t along a segment maps to a fraction f(t) along the image.
 #[test]
 fn f_of_t_is_the_fraction_along_the_image() {
     let mut explorer = explorer_with_models();

@@ -20,7 +20,7 @@ use super::{
 ///
 /// JSON does not limit integers; range checks and the loader's limits do.
 const MAX_INTEGER: u64 = u64::MAX;
-/// Names are optional and need not be unique; references use indices instead.
+/// The optional name of an object. It need not be unique, because references use indices.
 const NAME: super::MemberSchema = optional("name", Text);
 
 /// Declares the schema of an object.
@@ -166,7 +166,7 @@ static BUFFER: ObjectSchema = object_schema(
 
 /// `bufferView` (§5.11): a range of a buffer, with an optional stride of 4 to 252 bytes.
 ///
-/// `target` is a hint for graphics APIs: 34962 is `ARRAY_BUFFER` for vertices, 34963
+/// `target` is a hint for graphics APIs: 34962 is `ARRAY_BUFFER` for vertices, and 34963 is
 /// `ELEMENT_ARRAY_BUFFER` for indices.
 static BUFFER_VIEW: ObjectSchema = object_schema(
     "bufferView",
@@ -208,7 +208,7 @@ static ORTHOGRAPHIC: ObjectSchema = object_schema(
 
 /// `camera.perspective` (§5.14): vertical field of view, aspect ratio, and near and far planes.
 ///
-/// Without `zfar` the projection is infinite; `yfov` is in radians and less than π.
+/// Without `zfar`, the projection is infinite; `yfov` is in radians and less than π.
 static PERSPECTIVE: ObjectSchema = object_schema(
     "perspective",
     &[

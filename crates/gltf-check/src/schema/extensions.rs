@@ -1,7 +1,8 @@
 //! Schema tables for extension objects, each with the object that may contain it.
 //!
-//! Other extensions are not validated. An extension without objects, such as KHR_mesh_quantization,
-//! has the parent "nothing": the extension is known, but its object must not appear anywhere.
+//! Extensions without a table are not validated. An extension without objects, such as
+//! KHR_mesh_quantization, has the parent "nothing": the extension is known, but its object must not
+//! appear anywhere.
 //!
 //! To support an extension, add a row for each object that may contain its object, and a static for
 //! each nested object. The walk finds unknown members, missing members and out-of-range values
@@ -19,7 +20,7 @@ use super::{ANY, NOT_NEGATIVE, NumberRange, ObjectSchema, POSITIVE, UNIT, option
 const MAX_INTEGER: u64 = u64::MAX;
 /// Indices of refraction: at least 1.
 ///
-/// A vacuum has an index of refraction of 1, and films and coatings are never below that.
+/// A vacuum has an index of refraction of 1, and no film or coating has a lower one.
 const ABOVE_ONE: NumberRange = NumberRange { min: 1.0, ..ANY };
 /// Cone angles of spot lights, in radians.
 ///
@@ -161,8 +162,8 @@ extension_objects! {
     MSFT_texture_dds in "texture": [required("source", Index(Images))];
 }
 
-/// The index of refraction is 0 (for metals) or at least 1; material validation rejects values in
-/// between.
+/// The index of refraction is 0 (full reflection at every angle) or at least 1; material validation
+/// rejects values in between.
 ///
 /// A [`NumberRange`] cannot express an interval with a gap.
 const IOR: NumberRange = NOT_NEGATIVE;

@@ -60,9 +60,9 @@ pub(super) struct BlockCoverage<S: Simd> {
 
 /// Bounds of a triangle's depth in the eight blocks of a row.
 pub(super) struct BlockDepths<S: Simd> {
-    /// The minimum depth in each block, not below the farthest vertex.
+    /// The minimum depth in each block, at least the depth of the farthest vertex.
     pub(super) min_depth: f32x8<S>,
-    /// The maximum depth in each block, not above the nearest vertex.
+    /// The maximum depth in each block, at most the depth of the nearest vertex.
     pub(super) max_depth: f32x8<S>,
     /// Whether the depth plane stays within the depths of the vertices, so no sample needs
     /// clamping.
@@ -87,7 +87,7 @@ pub(crate) struct TriangleLanes<S: Simd> {
 }
 
 impl<S: Simd> TriangleLanes<S> {
-    /// Spreads the functions of a triangle over eight lanes, shared by all planes.
+    /// Spreads the functions of a triangle over eight lanes. All planes share the result.
     #[inline(always)]
     pub(crate) fn new(simd: S, functions: &TriangleFunctions) -> Self {
         let TriangleFunctions { a, dx, min_depth, max_depth, .. } = *functions;
@@ -225,8 +225,8 @@ impl<S: Simd> TriangleLanes<S> {
 
     /// Returns the second term of the depth in a row of a block: z + dy·y.
     ///
-    /// The terms are added in the same order everywhere, so a sample has the same bits on every
-    /// path.
+    /// The terms are added in the same order everywhere, so a sample's depth has the same bits on
+    /// every path.
     #[inline(always)]
     pub(super) fn row_depth(
         &self,

@@ -11,9 +11,9 @@ fn vertex(x: i32, y: i32) -> ScreenVertex {
     ScreenVertex::new(x, y, 0.5, 1.0).expect("on the grid")
 }
 
-/// Returns whether the triangle covers a sample, straight from RA-1. Samples inside are covered. A
-/// sample on the border is covered if a step to the right and an infinitely smaller step down (y
-/// down) take it inside.
+/// Returns whether the triangle covers a sample, computed directly from RA-1. Samples inside are
+/// covered. A sample on the border is covered if a step to the right and an infinitely smaller step
+/// down (y down) take it inside.
 fn covers(triangle: [ScreenVertex; 3], x: i64, y: i64) -> bool {
     let side = |a: ScreenVertex, b: ScreenVertex| {
         let (dx, dy) = (i64::from(b.x()) - i64::from(a.x()), i64::from(b.y()) - i64::from(a.y()));
@@ -97,7 +97,7 @@ proptest! {
     }
 }
 
-/// Computes √(x² + y²) for numbers whose squares neither overflow nor underflow.
+/// The hypotenuse √(x² + y²) of numbers whose squares neither overflow nor underflow.
 trait Hypot {
     fn hypot_exact(self, other: f64) -> f64;
 }
@@ -110,7 +110,7 @@ impl Hypot for f64 {
 
 #[test]
 fn slivers_across_a_16384_pixel_picture_have_no_gaps_or_overlaps() {
-    // Slivers that extend to the far corner of the largest picture; one row of it is checked.
+    // Slivers that extend across the largest picture, of which one row is checked.
     let width = raster::MAX_SIDE;
     let mut frame = Frame::new(width, 1, Samples::One).expect("one row");
     let (left, right) = (0, width as i32 * 256);
@@ -142,12 +142,12 @@ fn nearer_triangles_win_and_the_first_wins_at_equal_depth() {
     };
     assert_eq!(seen(&[0.25, 0.75, 0.5]), Some(1));
     assert_eq!(seen(&[0.5, 0.5]), Some(0));
-    assert_eq!(seen(&[0.0]), Some(0), "a point on the far plane is visible");
+    assert_eq!(seen(&[0.0]), Some(0), "a triangle on the far plane is visible");
 }
 
 #[test]
 fn c31_depth_follows_the_plane_and_weights_follow_the_projection() {
-    // The corners are at different distances, so halfway along an edge on the screen the weights
+    // The corners are at different distances, so halfway along an edge on the screen, the weights
     // are not equal.
     let corner = |x: f64, y: f64, w: f64| {
         ScreenVertex::snap(Point::new(x, y, 1.0 / w), w).expect("within the grid")

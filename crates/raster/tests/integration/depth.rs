@@ -1,4 +1,4 @@
-//! Depth functions, depth buffers, second passes, clipped meshes and monitors.
+//! Tests of depth functions, depth buffers, second passes, clipped meshes and monitors.
 
 use homog::{ClipRange, Point, Projective, View};
 use proptest::prelude::*;
@@ -28,7 +28,7 @@ fn frame(samples: Samples) -> Frame {
     Frame::new(SIDE, SIDE, samples).expect("a frame")
 }
 
-/// Returns the ids that a depth function leaves when each triangle is drawn separately.
+/// Returns the ids that a depth function should leave, found by drawing each triangle separately.
 fn expected_ids(triangles: &[Corners], compare: DepthCompare) -> Vec<Option<u32>> {
     let empty = match compare {
         DepthCompare::Less | DepthCompare::LessEqual => f32::INFINITY,
@@ -152,7 +152,7 @@ fn lens() -> Projective<View, homog::Clip> {
     ])
 }
 
-/// Finding 6.4: a floor under the eye covered no pixel, because the near plane cuts it.
+/// Regression test: a floor under the eye, cut by the near plane, covered no pixel (finding 6.4).
 #[test]
 fn a_floor_under_the_eye_covers_the_lower_half() {
     let positions = [[-500.0, -1.0, 9.0], [500.0, -1.0, 9.0], [0.0, -1.0, -99.0_f32]];

@@ -297,7 +297,7 @@ fn c2_wireframes_hide_only_their_own_pixels_and_triangles_hide_more() {
     line(&mut alone, far_line, 0.2, 0);
     let whole = pixels_of(&alone, 0);
     assert_eq!(whole, (2..14).map(|x| 8 * 16 + x).collect::<Vec<usize>>());
-    // The outline of a square in front of the line hides the two pixels where it crosses.
+    // The outline of a square in front of the line hides the two pixels where they cross.
     let corners = [[4.5, 4.5], [11.5, 4.5], [11.5, 11.5], [4.5, 11.5]];
     let mut wireframe = alone.clone();
     for side in 0..4 {
@@ -307,8 +307,7 @@ fn c2_wireframes_hide_only_their_own_pixels_and_triangles_hide_more() {
     let left: Vec<usize> = whole.iter().copied().filter(|at| !crossed.contains(at)).collect();
     assert_eq!(pixels_of(&wireframe, 0), left);
     assert!(crossed.iter().all(|at| pixels_of(&wireframe, 1).contains(at)));
-    // The square itself hides all pixels between them: the centers from 4.5 up to, but not
-    // including, 11.5.
+    // The filled square hides every pixel of the line whose center is in [4.5, 11.5).
     let mut solid = alone.clone();
     rectangle(&mut solid, [4.5, 4.5, 11.5, 11.5], 0.8, 2, Opacity::Opaque);
     let outside = |at: &usize| !(4..11).contains(&(at % 16));

@@ -1,4 +1,4 @@
-//! Frames that are filled and drawn repeatedly, with any number of threads and without new
+//! Tests of filling and drawing frames repeatedly, with any number of threads and without new
 //! allocations.
 
 use homog::Point;

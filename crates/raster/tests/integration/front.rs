@@ -43,8 +43,8 @@ fn cover_of(id: u32) -> Opacity {
     [Opacity::Opaque, Opacity::Masked, Opacity::Translucent][id as usize % 3]
 }
 
-/// Returns, for each pixel, the primitives that cover its center and their depths; each is drawn
-/// separately.
+/// Returns, for each pixel, the primitives that cover its center and their depths, found by drawing
+/// each separately.
 fn covering() -> Vec<Vec<(u32, f32)>> {
     let mut all = vec![Vec::new(); (SIZE[0] * SIZE[1]) as usize];
     for (id, corners) in (0..).zip(triangles()) {

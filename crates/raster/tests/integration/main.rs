@@ -1,4 +1,4 @@
-//! Tests of the public interface of `raster`, linked once.
+//! Tests of the public interface of `raster`, linked into one program.
 
 mod coverage;
 mod depth;

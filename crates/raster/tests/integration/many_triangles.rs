@@ -7,7 +7,7 @@
 
 use raster::{Frame, Opacity, Samples, ScreenVertex, SimdLevel};
 
-/// The number of pictures and, below, the number of triangles in each picture.
+/// The number of pictures, each with [`TRIANGLES`] triangles.
 const PICTURES: usize = 25_000;
 const TRIANGLES: usize = 40;
 /// The side of a picture: one tile and part of the next.
@@ -58,7 +58,7 @@ fn covers(mut corners: [[i32; 2]; 3], x: i32, y: i32) -> bool {
     area != 0
         && (0..3).all(|k| {
             let (a, b) = (corners[k], corners[(k + 1) % 3]);
-            // Clockwise with y down: a left edge runs up, a top edge runs to the right.
+            // Clockwise with y down: a left edge runs up, and a top edge runs to the right.
             let owns_border = b[1] < a[1] || (b[1] == a[1] && b[0] > a[0]);
             let value = side(a, b, x, y);
             value > 0 || (value == 0 && owns_border)

@@ -25,11 +25,11 @@ pub(super) static ROWS_FROM_THE_TOP: Exercise = Exercise {
     ),
     hints: &[
         words(
-            "Each axis is a linear map: find a scale and an offset from its two pairs of values.",
+            "Along each axis, the map has a scale and an offset: find both from the two pairs of values.",
             "每个轴都是一次函数：由两对数值求比例和偏移。",
         ),
         words(
-            "Counted from the bottom, the row is y_s = ny/2 · y + (ny − 1)/2; counted from the top it is ny − 1 − y_s.",
+            "Counted from the bottom, the row is y_s = ny/2 · y + (ny − 1)/2; counted from the top, it is ny − 1 − y_s.",
             "自下而上的行号是 y_s = ny/2 · y + (ny − 1)/2；自上而下则是 ny − 1 − y_s。",
         ),
     ],
@@ -44,13 +44,13 @@ pub(super) static ROWS_FROM_THE_TOP: Exercise = Exercise {
         mistake(
             "centers-at-halves",
             Wrong::Computed(|size| Some(rows_of(viewport_matrix(size, PixelConvention::IMAGE)?))),
-            "the centers are at half-integers: with centers at integers, the offsets are (nx − 1)/2 and (ny − 1)/2",
+            "you put the centers at half-integers: with centers at integers, the offsets are (nx − 1)/2 and (ny − 1)/2",
             "像素中心取在了半整数处：中心在整数处时，偏移是 (nx − 1)/2 和 (ny − 1)/2",
         ),
         mistake(
             "offset-of-y-negated",
             Wrong::Places(&[(1, 3, "-(ny-1)/2")]),
-            "the offset of y was negated with its scale: the center of the image stays at (ny − 1)/2",
+            "you negated the offset of y along with its scale, but the center of the image stays at (ny − 1)/2",
             "y 的偏移随比例一起变了号：图像的中央仍在 (ny − 1)/2",
         ),
         mistake(
@@ -141,7 +141,7 @@ pub(super) static ONE_WINDOWING: Exercise = Exercise {
         mistake(
             "sign-of-the-offset",
             Wrong::Places(&[(0, 3, "-1/2+l*nx/(r-l)"), (1, 3, "-1/2+b*ny/(t-b)")]),
-            "the offsets have the wrong sign: insert x = l and y = b, which map to −½",
+            "the offsets have the wrong sign: substitute x = l and y = b, which must map to −½",
             "偏移的符号不对：代入 x = l 和 y = b 验证，它们应映为 −½",
         ),
         TRANSPOSED,
@@ -178,7 +178,7 @@ pub(super) static WINDOW_TO_VIEWPORT: Exercise = Exercise {
     ),
     hints: &[
         words(
-            "There are three steps: move the window's lower left corner to the origin, scale, and move to the viewport's corner.",
+            "There are three steps: move the window's lower left corner to the origin, scale, and move it to the viewport's corner.",
             "分三步：把窗口左下角移到原点，缩放，再移到视口的左下角。",
         ),
         words(
@@ -209,7 +209,7 @@ pub(super) static WINDOW_TO_VIEWPORT: Exercise = Exercise {
         mistake(
             "window-corner-not-scaled",
             Wrong::Places(&[(0, 2, "10-2"), (1, 2, "20-1")]),
-            "the window was moved after the scale: its corner must be moved to the origin first",
+            "the window was moved after scaling: its corner must be moved to the origin first",
             "窗口在缩放之后才移动：应先把它的角点移到原点",
         ),
         mistake(

@@ -1,11 +1,11 @@
 //! Answers to the exercises: correct answers, known mistakes and unknown mistakes.
 
-/// Correct answers, and wrong answers with their mistakes.
+/// Correct answers to an exercise, and wrong answers with the ids of their mistakes.
 pub(super) struct Case {
     pub(super) number: u32,
     pub(super) right: &'static [&'static str],
     pub(super) mistaken: &'static [(&'static str, &'static str)],
-    /// An unknown wrong answer and its verdict.
+    /// An unrecognized wrong answer and a part of its verdict.
     pub(super) unknown: (&'static str, &'static str),
 }
 
