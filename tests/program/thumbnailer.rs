@@ -49,8 +49,8 @@ fn both_files_are_installed_for_a_user_and_removed_again() {
             assert!(path.is_file(), "{name}");
             assert!(said.contains(&format!("wrote {}\n", path.display())), "{said}");
         }
-        // If update-mime-database is installed, its database has the mesh formats, one of which
-        // Debian's database lacks.
+        // If update-mime-database is installed, the new database has the mesh formats, one of which
+        // Debian's own database lacks.
         if said.contains("\nran update-mime-database ") {
             let globs = std::fs::read_to_string(data.join("mime/globs2")).expect("a database");
             for glob in ["50:model/x-ply:*.ply", "60:model/obj:*.obj", "50:model/stl:*.stl"] {
