@@ -80,7 +80,7 @@ fn check_unknown_name(program: &Path) -> Result<(), String> {
     is_right.then_some(()).ok_or_else(|| format!("{}: {said}", output.status))
 }
 
-/// Checks that the explanation in the explorer's answers has the schema of `explain`.
+/// Checks that the explanation in the explorer's answers conforms to the schema of `explain`.
 fn check_embedded() -> Result<(), String> {
     let read = |name: &str| read_json(&schema_folder().join(format!("{name}.schema.json")));
     let mut explain = read("explain")?;

@@ -1,9 +1,9 @@
 //! References computed by this test: scenes of spheres and rectangles, ray traced with exact
 //! intersections and shaded with the formulas of the glTF specification.
 //!
-//! They have the same form as pictures from another renderer, so that both are scored in the same
-//! way. This form is `NAME.json` with the model, camera and lights, `NAME.png`, and the model
-//! itself as triangles.
+//! They have the same form as the references from another renderer, so that both are scored in the
+//! same way: `NAME.json` with the camera, lights and model path, `NAME.png`, and the model as
+//! triangles.
 
 mod brdf;
 mod tracer;
