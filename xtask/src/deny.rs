@@ -22,8 +22,8 @@ use std::process::Command;
 /// The manifests of the shipped packages.
 const SHIPPED: [&str; 2] = ["Cargo.toml", "crates/web/Cargo.toml"];
 
-/// The manifests of all packages in the project. The same minimum compiler version must be enough
-/// for all of them.
+/// The manifests of all packages in the project, which must all work with the same minimum compiler
+/// version.
 const MANIFESTS: [&str; 4] = [
     "Cargo.toml",
     "crates/web/Cargo.toml",
@@ -75,7 +75,7 @@ struct Dependency {
     version: String,
     license: String,
     source: String,
-    /// The oldest compiler that it supports, if it declares one.
+    /// The oldest compiler that the package supports, if it declares one.
     floor: Option<String>,
 }
 

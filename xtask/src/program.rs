@@ -107,11 +107,10 @@ pub fn cargo_command(arguments: &[&str]) -> Command {
     cargo
 }
 
-/// The CPU time that compilers have used in child processes, in hundredths of a second, as counted
-/// by [`compile`].
+/// The CPU time that [`compile`] has counted as compiler time, in hundredths of a second.
 static COMPILE_TICKS: AtomicU64 = AtomicU64::new(0);
 
-/// Counts the CPU time of some work as compiler time.
+/// Does some work and counts its CPU time as compiler time.
 pub fn compile<T>(work: impl FnOnce() -> T) -> T {
     let before = process_seconds();
     let result = work();

@@ -9,7 +9,7 @@ use std::process::Command;
 
 /// A file in a package.
 pub struct PackagedFile {
-    /// Its path below the prefix, which is `usr` in distribution packages.
+    /// The path below the prefix, which is `usr` in distribution packages.
     pub path: String,
     /// Its bytes.
     pub bytes: Vec<u8>,

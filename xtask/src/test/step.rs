@@ -141,8 +141,8 @@ impl Step {
         outcome.and(written.map_err(|error| error.to_string()))
     }
 
-    /// Starts the step in a new process of this program. Its output goes to a file unless it is
-    /// watched.
+    /// Starts the step in a new process of this program. The output is written to a file unless the
+    /// step is watched.
     pub fn start(&self, program: &Path, is_watched: bool) -> Result<RunningStep, String> {
         create_folder(&steps_folder())?;
         let with_name = |error: std::io::Error| format!("{}: {error}", self.name);

@@ -1,6 +1,6 @@
 //! The chart: a bar for each ratio over all models, extending left or right from a line at 1.
 //!
-//! Positions are logarithmic: half the time is as far from the line as twice the time.
+//! Positions are logarithmic, so half the time is as far from the line as twice the time.
 
 use super::machine::Machine;
 use super::measurement::Measurement;
@@ -10,7 +10,7 @@ use super::variants::Group;
 use std::fmt::Write as _;
 
 const WIDTH: f64 = 900.0;
-/// The ends of the scale.
+/// The x coordinate of the left end of the scale, which extends to [`RIGHT`].
 const LEFT: f64 = 190.0;
 const RIGHT: f64 = 800.0;
 const BAR: f64 = 16.0;
@@ -22,7 +22,7 @@ const GREATEST: f64 = 16.0;
 const GRAY: &str = "#9a9a9a";
 const BLUE: &str = "#2f6f9f";
 
-/// A ratio with its name.
+/// A bar: a ratio with its name.
 struct Bar<'a> {
     name: &'a str,
     ratio: Option<Spread>,

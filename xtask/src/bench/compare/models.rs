@@ -28,13 +28,13 @@ pub enum ModelSelection {
     Default,
     /// All models in a folder and its subfolders.
     Folder(PathBuf),
-    /// Shared models, or scene models.
+    /// Shared models or scene models, by name.
     Names(Vec<String>),
 }
 
 impl ModelSelection {
-    /// Parses the words after `--models`. A single word that names a folder means its contents; any
-    /// other words are model names.
+    /// Parses the words after `--models`. A single word that names a folder selects its contents;
+    /// any other words are model names.
     pub fn parse_words(words: Vec<String>) -> Self {
         match words.as_slice() {
             [] => Self::Default,

@@ -7,7 +7,7 @@ use super::run::PEAK_MEMORY;
 use super::spread::Spread;
 use super::variants::Group;
 
-/// The measurements of a variant: one, or one per model.
+/// The measurements of a variant, for one model or for all models.
 #[derive(Clone, Debug)]
 pub struct VariantSummary<'a> {
     pub group: Group,
@@ -17,7 +17,7 @@ pub struct VariantSummary<'a> {
 }
 
 impl VariantSummary<'_> {
-    /// Returns whether it has a counterpart, such as the picture without the feature.
+    /// Returns whether the variant has a counterpart, such as the picture without the feature.
     pub fn is_compared(&self) -> bool {
         self.measurements.iter().any(|measurement| measurement.new.off.is_some())
     }
