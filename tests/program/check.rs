@@ -17,7 +17,7 @@ fn faulty_model() -> GltfBuilder {
 }
 
 #[test]
-fn diagnostics_have_severity_code_pointer_and_help_worst_first() {
+fn diagnostics_show_severity_code_pointer_and_help_worst_first() {
     let sandbox = Sandbox::new("check");
     faulty_model().write_file(&sandbox, "faulty");
     let run = sandbox.run(&["check", "faulty.gltf"]);
@@ -136,7 +136,7 @@ fn lenient_loading_draws_the_rest_and_reports_omissions() {
     }
     let (_, _, pixels) = sandbox.read_picture("out.png");
     let red = pixels.iter().filter(|pixel| **pixel == [255, 0, 0, 255]).count();
-    assert!(red > 32 * 32 / 2, "the square is drawn: {red} pixels");
+    assert!(red > 32 * 32 / 2, "only {red} pixels of the square are drawn");
     assert!(sandbox.run(&["info", "broken.gltf", "--lenient"]).stdout.contains("/nodes/1/mesh"));
     let run = sandbox.run(&["check", "broken.gltf", "--lenient"]);
     assert!(run.code == 1 && run.stdout.contains("it can be drawn"), "{}", run.stdout);

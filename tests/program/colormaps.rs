@@ -69,7 +69,7 @@ fn scene(model: &str, scalars: &str) -> String {
 }
 
 #[test]
-fn qualities_have_colormap_colors() {
+fn ply_qualities_are_shown_in_colormap_colors() {
     let sandbox = Sandbox::new("colormap_ply");
     sandbox.write_file("scan.ply", QUALITIES);
     sandbox.write_file("scan.ron", scene("scan.ply", "attribute: \"quality\", colormap: Turbo"));

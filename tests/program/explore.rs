@@ -231,7 +231,7 @@ fn slow_readers_and_abandoned_pictures_do_not_stop_the_server() {
 }
 
 #[test]
-fn paths_never_leave_the_served_files() {
+fn no_path_leads_out_of_the_served_files() {
     let sandbox = Sandbox::new("explore_paths");
     sandbox.write_file("secret.txt", "secret");
     std::fs::create_dir(sandbox.path_of("models")).expect("a folder");

@@ -3,7 +3,7 @@
 
 use crate::sandbox::{RunResult, Sandbox};
 
-/// A terminal title, a color, C1, DEL, text directions, and a line that looks like the program's.
+/// A name with a terminal title, a color, C1, DEL, text directions, and a forged line of output.
 const HOSTILE: &str =
     "\u{1b}]0;P\u{7}\u{1b}[31m\u{9b}2J\u{7f}\u{202e}\u{2066}\u{2028}\r\t\u{85}\n  = help: FORGED";
 

@@ -71,7 +71,7 @@ fn c82_axes_vanish_at_the_constructed_points() {
                 .zip(expected)
                 .for_each(|(found, expected)| assert_near(found, expected));
         }
-        // Horizontal directions vanish on one line, for every eye.
+        // Horizontal directions vanish on one line, wherever the eye is.
         let horizon = layers_ending_in(&layers, "-horizon");
         let ends = [horizon[0][0], horizon[0][1]].map(|end| to_half_heights(end, half));
         for [x, y] in [expected[0], expected[2]].into_iter().flatten() {

@@ -177,7 +177,7 @@ fn checking_a_scene_warns_about_problems_of_the_sheet() {
         sandbox.write_file("scene.ron", text);
         let checked = sandbox.run(&["scene", "check", "scene.ron"]);
         let drawn = sandbox.run(&["sheet", "scene.ron", "-o", "out.pdf"]);
-        // The model itself has errors, which do not keep it from being drawn.
+        // The model itself has errors, but they do not prevent it from being drawn.
         assert!(checked.stdout.contains("scene.ron: no mistakes, "), "{}", checked.stdout);
         assert_eq!(drawn.code, 0, "{}", drawn.stderr);
         let head = format!("warning[{code}]: ");

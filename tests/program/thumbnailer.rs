@@ -180,7 +180,7 @@ fn broken_and_huge_inputs_end_without_a_picture() {
         ("e.3mf", b"PK\x03\x04\0\0\0\0", ""),
     ];
     inputs.iter().for_each(|(name, content, _)| sandbox.write_file(name, content));
-    // A sparse file, which has far more bytes than blocks on the disk.
+    // A sparse file, which occupies far less space on the disk than its size.
     File::create(sandbox.path_of("f.stl")).and_then(|file| file.set_len(1 << 36)).expect("a file");
     let mut facets = vec![0; 80];
     facets.extend(400_000_u32.to_le_bytes());
