@@ -17,7 +17,7 @@ pub enum Build {
 }
 
 impl Build {
-    /// Returns its name in messages and folder names.
+    /// Returns the profile's name in messages and folder names.
     pub fn name(self) -> &'static str {
         match self {
             Self::Debug => "debug",
@@ -54,7 +54,7 @@ impl Program {
         Ok(Self { path: folder.join(profile).join(name) })
     }
 
-    /// Builds the release program of another checkout of the workspace, in its own target folder.
+    /// Builds the release program of another checkout, in the target folder of that checkout.
     pub fn build_checkout(root: &Path) -> Result<Self, String> {
         let folder = root.join("target");
         // In old revisions, the program was part of the library package.

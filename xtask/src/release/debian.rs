@@ -29,8 +29,8 @@ const OUTPUTS: [(&str, &str); 2] =
 /// The model for the thumbnail.
 const MODEL: &str = "models/house.glb";
 
-/// Installs, uses and removes a package. Pictures must be identical to the ones rendered outside
-/// the trial system.
+/// Installs, uses and removes a package. Pictures must have the same bytes as outside the trial
+/// system.
 pub fn try_package(deb: &Path, program: &Program) -> Outcome {
     let Some(trial) = new_debian()? else { return Ok(()) };
     let before = trial.files()?;
