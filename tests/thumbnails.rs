@@ -160,7 +160,7 @@ until [ "$(find "$XDG_CACHE_HOME" -name '*.png' | wc -l)" -ge "$3" ]; do
 done
 "#;
 
-/// Returns the file to which a thumbnail belongs, according to the thumbnail itself.
+/// Returns the URI of the file to which a thumbnail belongs, as stored in the thumbnail.
 fn thumbnail_uri(path: &Path) -> Result<String, String> {
     let problem = |error: String| format!("{}: {error}", path.display());
     let file = File::open(path).map_err(|error| problem(error.to_string()))?;

@@ -1,5 +1,5 @@
-//! Builds and runs programs like those of outside users against the packed crates, as if the crates
-//! came from the registry.
+//! Builds programs that outside users might write, with the packed crates as if these came from the
+//! registry, and runs them.
 //!
 //! ```text
 //!  crates ─► cargo package ─► *.crate ─► unpacked ─┐

@@ -38,7 +38,7 @@ pub fn check_sizes(site: &Path) -> Outcome {
     if names.is_empty() { Ok(()) } else { Err(format!("too large: {}", names.join("; "))) }
 }
 
-/// Returns the files that the page loads before the module: its own files and the module's
+/// Returns the files that the page loads before the module: the page's files and the module's
 /// JavaScript.
 fn page_files(site: &Path) -> Result<Vec<PathBuf>, String> {
     let mut files: Vec<PathBuf> =

@@ -119,8 +119,8 @@ pub fn summarize<'a>(
     summaries
 }
 
-/// Lists the refusals by a program, each with program, variant, model and reason. If a variant is
-/// refused for the same reason with several models, only the first model is listed.
+/// Lists the refused calls, each with program, model, variant and reason. If a variant is refused
+/// for the same reason with several models, only the first model is listed.
 pub fn refusals(measurements: &[Measurement]) -> Vec<String> {
     let mut seen: Vec<(&str, &str, &str)> = Vec::new();
     let mut lines = Vec::new();
