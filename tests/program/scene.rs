@@ -269,7 +269,7 @@ fn missing_names_are_reported_together_and_missing_files_with_their_folders() {
 }
 
 #[test]
-fn viewports_in_pixels_explain_how_to_follow_the_size() {
+fn errors_about_viewports_in_pixels_suggest_fractions() {
     let sandbox = Sandbox::new("scene_pixels");
     sandbox.copy_model("crate.glb");
     let scene =
@@ -381,7 +381,7 @@ fn included_files_are_merged_and_mistakes_point_to_the_correct_file() {
 }
 
 #[test]
-fn circular_and_outside_includes_are_refused() {
+fn circular_includes_and_includes_outside_the_folder_are_refused() {
     let sandbox = Sandbox::new("scene_include_refused");
     sandbox.copy_model("crate.glb");
     std::fs::create_dir(sandbox.path_of("in")).expect("a folder");

@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_nonzero_number_decides() {
+    fn the_first_nonzero_number_determines_compatibility() {
         assert_eq!(compatibility_number("0.1.3"), compatibility_number("0.1.9"));
         assert_ne!(compatibility_number("0.1.3"), compatibility_number("0.2.0"));
         assert_eq!(compatibility_number("1.4.0"), compatibility_number("1.5.2"));
