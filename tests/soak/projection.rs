@@ -267,7 +267,7 @@ impl Finite for Window {
     }
 }
 
-/// Returns one of the named conventions and their variants, or one with custom depths.
+/// Returns a variant of a named convention, sometimes with custom depths.
 fn convention(r: &mut Random) -> Convention {
     let depths = [Convention::CHAPTER, Convention::OPENGL, Convention::WEBGPU];
     let mut convention = r

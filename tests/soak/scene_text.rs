@@ -5,7 +5,8 @@
 //! ```
 //!
 //! A new field in the language appears in these scenes automatically. Most values are reasonable,
-//! so that most scenes are drawn; incompatible combinations must be rejected with a message.
+//! so that few scenes are rejected because of a single value. Incompatible combinations must be
+//! rejected with a message.
 
 use super::bits::Bits;
 use scene_file::reference::{FieldEntry, Shape, TypeEntry, ValueType, VariantEntry, all_types};
