@@ -1,9 +1,9 @@
 //! A corpus of small glTF files written by this code: ordinary, unusual and broken files, with the
 //! expected outcome of each.
 //!
-//! The tests `corpus` and `check` run on it in every clone. `models` contains valid files, `bad`
-//! contains broken files. For each file, the manifest lists the errors that the Khronos glTF
-//! validator reports and the outcome of rendering.
+//! The tests `corpus` and `check` use it in every clone. Its folder `models` contains valid files,
+//! and `bad` contains broken files. For each file, the manifest lists the errors that the Khronos
+//! glTF validator reports and the outcome of rendering.
 
 mod broken;
 mod containers;
@@ -18,12 +18,12 @@ use std::path::Path;
 #[derive(Clone, Debug)]
 pub struct Sample {
     row: Row,
-    /// The file names and contents; the row names the first file.
+    /// The file names and contents; `row` describes the first file.
     files: Vec<(String, Vec<u8>)>,
 }
 
 impl Sample {
-    /// Creates a valid file that is drawn. `triangles` is the count in a manifest.
+    /// Creates a valid file that is drawn. `triangles` is the count in the manifest.
     fn valid(name: &str, file_name: &str, bytes: Vec<u8>, triangles: usize) -> Self {
         let row = Row {
             path: format!("models/{name}/{file_name}"),
@@ -34,7 +34,7 @@ impl Sample {
         Self { row, files: vec![(file_name.to_owned(), bytes)] }
     }
 
-    /// Creates a broken file, with the errors that a validator reports.
+    /// Creates a broken file. `errors` are the codes that a validator reports.
     fn broken(name: &str, file_name: &str, bytes: Vec<u8>, errors: &[&str]) -> Self {
         let row = Row {
             path: format!("bad/{name}/{file_name}"),
@@ -60,7 +60,7 @@ impl Sample {
 /// Returns all samples.
 ///
 /// # Errors
-/// If a texture cannot be encoded.
+/// Returns an error if a texture cannot be encoded.
 pub fn all_samples() -> Result<Vec<Sample>, String> {
     let mut samples = valid::valid_samples();
     for (name, bytes) in scene_models::all_models()? {
@@ -76,7 +76,7 @@ pub fn all_samples() -> Result<Vec<Sample>, String> {
 /// Writes all samples and their `MANIFEST.tsv` to a folder, which is created if necessary.
 ///
 /// # Errors
-/// If a file cannot be written; the message names it.
+/// Returns an error that names the file if one cannot be written.
 pub fn write_samples(folder: &Path) -> Result<(), String> {
     let samples = all_samples()?;
     for sample in &samples {

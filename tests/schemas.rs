@@ -54,7 +54,7 @@ fn schema_files() -> Result<Vec<(String, PathBuf)>, String> {
     Ok(files)
 }
 
-/// Checks that `reference --schema` prints the file, and that the file contains its name.
+/// Checks that `reference --schema` prints the file, and that the file's id contains the name.
 fn check_printed(program: &Path, name: &str, path: &Path) -> Result<(), String> {
     let output = Command::new(program).args(["reference", "--schema", name]).output();
     let output = output.map_err(|error| error.to_string())?;
@@ -80,7 +80,7 @@ fn check_unknown_name(program: &Path) -> Result<(), String> {
     is_right.then_some(()).ok_or_else(|| format!("{}: {said}", output.status))
 }
 
-/// Checks that the explanation in the explorer's answers has the schema of `explain`.
+/// Checks that the schemas of the explorer's answers embed the schema of `explain`.
 fn check_embedded() -> Result<(), String> {
     let read = |name: &str| read_json(&schema_folder().join(format!("{name}.schema.json")));
     let mut explain = read("explain")?;

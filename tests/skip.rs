@@ -1,13 +1,13 @@
-//! Reports the parts of tests that cannot run here, where nobody can overlook them.
+//! Reports the parts of tests that cannot run here, so that nobody overlooks them.
 
 use std::fs::OpenOptions;
 use std::io::Write;
 
 /// Reports a part of a test that cannot run here.
 ///
-/// The line goes to standard error and, if the environment variable `SKIP_LOG` names a file, to the
-/// end of that file. `cargo xtask test` repeats those lines in its summary, even if a harness
-/// captures the output of a test.
+/// The report is written to standard error and, if the environment variable `SKIP_LOG` names a
+/// file, appended to that file. `cargo xtask test` repeats the reports in its summary, even if a
+/// harness captures the output of a test.
 pub fn report_skip(name: &str, reason: &str) {
     // A reason may be the output of another program, of which the first line is enough.
     let reason = reason.lines().next().unwrap_or_default();

@@ -1,8 +1,8 @@
-//! Picture statistics, which are five numbers that reveal lighting problems.
+//! Picture statistics: six numbers that reveal lighting problems.
 
 use pipeline::Picture;
 
-/// Statistics of the covered pixels of a picture, which are at least half opaque.
+/// Statistics of a picture. Covered pixels are at least half opaque.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct PictureStatistics {
     /// The fraction of the picture that is covered.

@@ -39,7 +39,7 @@ pub fn run() -> ExitCode {
     })
 }
 
-/// Returns a message that names the missing programs and their Debian packages.
+/// Returns a message that names the first missing program and its Debian package.
 fn missing_program() -> Option<String> {
     let names = [
         ("dbus-run-session", "dbus-daemon"),
@@ -54,7 +54,7 @@ fn missing_program() -> Option<String> {
     Some(format!("{name} is not installed (Debian: {package})"))
 }
 
-/// A thumbnail service with separate folders.
+/// A thumbnail service that uses only the test's folders.
 struct ThumbnailService {
     /// The folder that contains all others.
     folder: PathBuf,
@@ -141,12 +141,12 @@ impl ThumbnailService {
         {
             return Ok(());
         }
-        Err("the thumbnail differs from the picture of the program".to_owned())
+        Err("the thumbnail differs from the program's picture".to_owned())
     }
 }
 
-/// Queues files and types, and exits after a minute or once the number of thumbnails reaches the
-/// last argument. The service notifies only the requester, which has exited by then.
+/// Queues files with their types, and exits after a minute or once there are as many thumbnails as
+/// the last argument says. The service notifies only the requester, which has exited by then.
 const SESSION: &str = r#"
 name=org.freedesktop.thumbnails.Thumbnailer1
 path=/org/freedesktop/thumbnails/Thumbnailer1
@@ -160,7 +160,7 @@ until [ "$(find "$XDG_CACHE_HOME" -name '*.png' | wc -l)" -ge "$3" ]; do
 done
 "#;
 
-/// Returns the file to which a thumbnail belongs, according to the thumbnail itself.
+/// Returns the URI of the file to which a thumbnail belongs, as stored in the thumbnail.
 fn thumbnail_uri(path: &Path) -> Result<String, String> {
     let problem = |error: String| format!("{}: {error}", path.display());
     let file = File::open(path).map_err(|error| problem(error.to_string()))?;

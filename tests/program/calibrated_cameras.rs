@@ -4,7 +4,7 @@ use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
 use serde_json::Value;
 
-/// A camera three units in front of the origin, with x to the right, y down and z forward.
+/// A camera at (0, 0, −3) that looks at the origin, with x to the right, y down and z forward.
 const EXTRINSICS: &str = "1,0,0,0, 0,1,0,0, 0,0,1,3";
 
 /// Returns an item of an explanation.
@@ -16,8 +16,8 @@ fn item(explanation: &Value, step: &str, id: &str) -> Value {
     by_id(&by_id(&explanation["steps"], step)["items"], id)["value"].clone()
 }
 
-/// Returns the position of the point (0.5, 0.25, 1), as column and row with pixel centers at
-/// half-integers, and K.
+/// Returns K, and the column and row of the point (0.5, 0.25, 1) with pixel centers at
+/// half-integers.
 fn seen(sandbox: &Sandbox, flags: &[&str]) -> ([f64; 2], Value) {
     let subject =
         ["explain", "square.gltf", "--point", "0.5,0.25,1", "--json", "--size", "640x480"];
@@ -44,7 +44,7 @@ fn pixels_follow_the_definition_of_k() {
             "--extrinsics",
             "1,0,0,0,0,1,0,0,0,0,1,3,0,0,0,1",
         ],
-        // The same camera as a pose with OpenGL's axes: behind the origin, upside down.
+        // The same camera as a pose: OpenGL's y and z axes point the opposite way.
         ["--intrinsics", "800,780,300,250", "--pose", "1,0,0,0, 0,-1,0,0, 0,0,-1,-3"],
     ] {
         let (pixel, k) = seen(&sandbox, &flags);
@@ -86,7 +86,7 @@ fn invalid_cameras_are_reported() {
 #[test]
 fn the_matrix_of_a_calibrated_camera_is_built() {
     let sandbox = Sandbox::new("intrinsics");
-    // OpenGL's matrix by hand: 2fx/w, 2fy/h, 1 − 2(cx + ½)/w, 2(cy + ½)/h − 1 in its third column.
+    // OpenGL's matrix has 2fx/w and 2fy/h on its diagonal, computed here by hand.
     let numbers = "--intrinsics=800,780,300,250,640,480,1,3";
     let run = sandbox.run(&["matrix", numbers, "--json"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));

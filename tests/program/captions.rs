@@ -6,12 +6,12 @@ use crate::vector_files::{Layers, PagePoint, parse_svg, point_bounds};
 
 /// Pixels per millimeter of a drawing, at 96 pixels per inch.
 const PIXELS_PER_MILLIMETRE: f64 = 96.0 / 25.4;
-/// The maximum error of an extent whose ends are rounded to micrometers, in pixels.
+/// The maximum error, in pixels, of an extent whose endpoints are rounded to micrometers.
 const MICROMETRE: f64 = 0.001 * PIXELS_PER_MILLIMETRE;
-/// The extents of the crate in these tests along x, y and z; unscaled, it is a cube of side 1.
+/// The crate's extents along x, y and z, and also its scales, because it is a unit cube.
 const BOX: [f64; 3] = [2.0, 1.0, 3.0];
 
-/// Writes a scene with the crate, and renders it to an SVG without messages.
+/// Renders a scene with the crate to an SVG, and checks that there are no messages.
 fn draw(sandbox: &Sandbox, fields: &str) -> Layers {
     let (stderr, layers) = draw_with_messages(sandbox, fields);
     assert_eq!(stderr, "", "{fields}");
@@ -36,7 +36,7 @@ fn read_layers(sandbox: &Sandbox, file: &str) -> Layers {
     parse_svg(&std::fs::read_to_string(sandbox.path_of(file)).expect("an SVG")).1
 }
 
-/// Returns the minimum and maximum coordinates of the layers with a prefix, in pixels.
+/// Returns the minimum and maximum coordinates of the layers whose names have a prefix, in pixels.
 fn bounds_in_pixels(layers: &Layers, prefix: &str) -> [PagePoint; 2] {
     let lines = layers.iter().filter(|(id, _)| id.starts_with(prefix)).flat_map(|(_, all)| all);
     point_bounds(lines.flatten()).map(|point| point.map(|c| c * PIXELS_PER_MILLIMETRE))
@@ -48,8 +48,8 @@ fn assert_near(actual: PagePoint, expected: PagePoint, tolerance: f64) {
     assert!(near, "{actual:?} instead of {expected:?}");
 }
 
-/// In a picture of 800 × 600 pixels, a unit is 100 pixels in the plane z = 0; the perspective has
-/// its eye at a distance of 10, so (1, 1, 2) is at 1/8 instead of 1/10.
+/// In a picture of 800 × 600 pixels, a unit in the plane z = 0 covers 100 pixels. In perspective,
+/// (1, 1, 2) is drawn 10/8 times as far out, because the eye is at z = 10.
 #[test]
 fn labels_are_next_to_their_projected_points() {
     let sandbox = Sandbox::new("labels");
@@ -120,7 +120,7 @@ fn labels_outside_the_picture_are_reported() {
     assert_eq!(labels.collect::<Vec<_>>(), ["overlay-3-label"]);
 }
 
-/// The strip is 28 pixels high; above it is the picture with the requested height.
+/// The caption strip is 28 pixels high, and the picture above it has the remaining height.
 #[test]
 fn a_caption_is_below_the_picture() {
     let sandbox = Sandbox::new("caption");
@@ -139,14 +139,14 @@ fn a_caption_is_below_the_picture() {
     let written: Vec<usize> =
         (0..strip.len()).filter(|at| strip[*at] != [0x12, 0x34, 0xaa, 255]).collect();
     assert!(!written.is_empty());
-    // Letters 12 pixels high in the middle of the strip, light on the dark background.
+    // The letters are 12 pixels high, centered in the strip, and light on the dark background.
     assert!(written.iter().all(|at| (7..=21).contains(&(at / 128))));
     let columns = written.iter().map(|at| at % 128);
     let (least, most) = (columns.clone().min(), columns.max());
     let middle = (least.expect("a column") + most.expect("a column") + 1) as f64 / 2.0;
     assert!((middle - 64.0).abs() <= 1.0, "{middle}");
     assert!(written.iter().any(|at| strip[*at][0] > 200));
-    // A crop of the picture includes its part of the caption.
+    // A crop includes the part of the caption inside it.
     picture("with.png", (128, 156), "caption: \"Front\"");
     let run = sandbox.run(&["render", "scene.ron", "-o", "part.png", "--crop", "20,120,90,30"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));

@@ -1,4 +1,4 @@
-//! `alberti check`, and the flags for loading: `--lenient`, `--allow-outside`, and one for each
+//! `alberti check`, and the flags for loading: `--lenient`, `--allow-outside`, and a flag for each
 //! limit.
 
 use crate::gltf_builder::GltfBuilder;
@@ -17,7 +17,7 @@ fn faulty_model() -> GltfBuilder {
 }
 
 #[test]
-fn diagnostics_have_severity_code_pointer_and_help_worst_first() {
+fn diagnostics_show_severity_code_pointer_and_help_worst_first() {
     let sandbox = Sandbox::new("check");
     faulty_model().write_file(&sandbox, "faulty");
     let run = sandbox.run(&["check", "faulty.gltf"]);
@@ -78,7 +78,7 @@ fn the_json_report_has_a_version_and_the_same_problems() {
 }
 
 #[test]
-fn all_mistakes_in_a_scene_are_located_and_its_models_checked() {
+fn all_mistakes_in_a_scene_are_located_and_its_models_are_checked() {
     let sandbox = Sandbox::new("check_scene");
     sandbox.copy_model("crate.glb");
     faulty_model().write_file(&sandbox, "faulty");
@@ -136,7 +136,7 @@ fn lenient_loading_draws_the_rest_and_reports_omissions() {
     }
     let (_, _, pixels) = sandbox.read_picture("out.png");
     let red = pixels.iter().filter(|pixel| **pixel == [255, 0, 0, 255]).count();
-    assert!(red > 32 * 32 / 2, "the square is drawn: {red} pixels");
+    assert!(red > 32 * 32 / 2, "only {red} pixels of the square are drawn");
     assert!(sandbox.run(&["info", "broken.gltf", "--lenient"]).stdout.contains("/nodes/1/mesh"));
     let run = sandbox.run(&["check", "broken.gltf", "--lenient"]);
     assert!(run.code == 1 && run.stdout.contains("it can be drawn"), "{}", run.stdout);
@@ -179,7 +179,7 @@ fn every_limit_has_a_flag_and_its_message_names_it() {
 }
 
 #[test]
-fn folders_can_be_allowed_but_nothing_outside_them() {
+fn files_outside_the_allowed_folders_are_refused() {
     let sandbox = Sandbox::new("allow_outside");
     for folder in ["models/tin", "bins", "scenes", "secret"] {
         std::fs::create_dir_all(sandbox.path_of(folder)).expect("a folder");

@@ -33,7 +33,7 @@ end_header
 4 8 9 10 11
 ";
 
-/// Returns the codes of a color in a colormap.
+/// Returns the 8-bit codes of the color at `t` in a colormap.
 fn codes(colormap: Colormap, t: f32) -> [u8; 3] {
     colormap.srgb_at(t).map(|fraction| (fraction * 255.0).round() as u8)
 }
@@ -69,7 +69,7 @@ fn scene(model: &str, scalars: &str) -> String {
 }
 
 #[test]
-fn qualities_have_colormap_colors() {
+fn ply_qualities_are_shown_in_colormap_colors() {
     let sandbox = Sandbox::new("colormap_ply");
     sandbox.write_file("scan.ply", QUALITIES);
     sandbox.write_file("scan.ron", scene("scan.ply", "attribute: \"quality\", colormap: Turbo"));
@@ -140,7 +140,7 @@ fn a_format_without_scalars_is_refused() {
 }
 
 #[test]
-fn the_nearest_and_farthest_vertex_have_the_end_colors_of_the_colormap() {
+fn the_nearest_and_farthest_vertices_have_the_end_colors_of_the_colormap() {
     let sandbox = Sandbox::new("colormap_depth");
     // Two squares that face +z, the right one farther away.
     let square = "0 0 Z\n1 0 Z\n1 1 Z\n0 1 Z\n";

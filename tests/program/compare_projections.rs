@@ -43,8 +43,8 @@ fn oblique_boxes_have_textbook_sizes() {
         ("multiview", 4.0, 3.0),
         ("cavalier", 4.0 + 2.0 * half, 3.0 + 2.0 * half),
         ("cabinet", 4.0 + half, 3.0 + half),
-        // Both horizontal axes are at 30°, the height is vertical, and all are foreshortened by
-        // √(2/3).
+        // Both horizontal axes are at 30°, the third axis is vertical, and all three are
+        // foreshortened by √(2/3).
         ("isometric", 6.0 * slant, (3.0 + 0.5 * 6.0) * (2_f64 / 3.0).sqrt()),
     ] {
         let [w, h] = layer_size(&layers, name);

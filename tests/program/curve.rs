@@ -17,7 +17,7 @@ fn curve_csv(sandbox: &Sandbox, flags: &[&str]) -> Vec<[f64; 5]> {
     text.lines().skip(1).map(row).collect()
 }
 
-/// The lesson's table for near 2 and far 40 (C68), and some of its values with the four printed
+/// The lesson's table for near 2 and far 40 (C68); some values are compared with the four printed
 /// digits.
 #[test]
 fn the_lesson_table_is_reproduced() {
@@ -44,8 +44,8 @@ fn the_lesson_table_is_reproduced() {
     assert!(markdown.contains("| 3 | -0.2982 | 0.2982 |"), "{markdown}");
 }
 
-/// Fixed point: D²(F − N)/(F N) parts of the range. Floating point: the gap to the nearest f32,
-/// divided by the slope.
+/// In fixed point, a step is D²(F − N)/(F N) divided by the number of parts of the range. In
+/// floating point, it is the gap to the nearest f32, divided by the slope.
 #[test]
 fn steps_match_the_depth_formats() {
     let sandbox = Sandbox::new("curve_steps");

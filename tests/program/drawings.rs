@@ -99,7 +99,7 @@ fn lengths_are_exact_at_scale_one_to_one() {
 }
 
 #[test]
-fn scales_reduce_and_units_enlarge() {
+fn scale_and_unit_determine_the_drawn_size() {
     let sandbox = Sandbox::new("scales");
     write_box(&sandbox, "box", [1.0, 0.5, 0.25]);
     for (flags, width) in [
@@ -191,7 +191,7 @@ fn drawings_do_not_depend_on_threads_or_repetition() {
 }
 
 #[test]
-fn every_style_has_its_lines_in_every_projection() {
+fn each_style_draws_its_kinds_of_lines_in_every_projection() {
     let sandbox = Sandbox::new("styles");
     sandbox.copy_model("house.glb");
     let count = |style: &str, projection: &str| {
@@ -351,7 +351,7 @@ fn creases_follow_the_crease_flag() {
 }
 
 #[test]
-fn drawings_are_verified() {
+fn verification_finds_no_errors_in_the_drawing_of_a_box() {
     let sandbox = Sandbox::new("verified");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let run = sandbox.run(&["render", "box.gltf", "-o", "box.svg", "--verify"]);

@@ -79,7 +79,7 @@ fn a_parallel_view_has_model_coordinates() {
 }
 
 #[test]
-fn perspectives_and_sheets_are_in_page_millimeters() {
+fn perspective_views_and_sheets_are_in_page_millimeters() {
     let sandbox = Sandbox::new("dxf_paper");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let flags = ["render", "box.gltf", "--projection", "perspective", "--style", "lines"];
@@ -109,7 +109,7 @@ fn sheet_annotations_have_text_on_separate_layers() {
     let tags = read_tags(&sandbox, "cut.dxf");
     let [dimensions, names] = ["dimensions-text", "cut-names"].map(|layer| texts_on(&tags, layer));
     assert!(dimensions.contains(&"100") && dimensions.contains(&"50"), "{dimensions:?}");
-    // The section line is marked above and beside the front view, which is cut.
+    // The section line is in the views above and beside the front view, which is cut.
     assert_eq!(names, ["A", "A", "A", "A", "A-A"]);
     for layer in ["dimensions", "cut-lines", "cut-arrows", "scale-bar"] {
         assert_eq!(texts_on(&tags, layer), [""; 0], "{layer}");

@@ -66,7 +66,7 @@ fn the_examples_match_the_program() {
     for number in ["0000", "0999"] {
         let (scene, picture) = (format!("scenes/{number}.ron"), format!("scenes/{number}.png"));
         let run = sandbox.run(&["render", &scene, "--allow-outside", ".", "-o", "again.png"]);
-        // The model's path is relative to its own folder, not to the scene's.
+        // The scene's model path is relative to the model's folder, so the scene is copied there.
         assert_eq!(run.code, 1, "{}", run.stderr);
         std::fs::copy(sandbox.path_of(&scene), sandbox.path_of("scene.ron")).expect(number);
         let run = sandbox.run(&["render", "scene.ron", "-o", "again.png"]);

@@ -82,7 +82,7 @@ fn run_command(sandbox: &Sandbox, command: &str, more: &[&str]) -> String {
     run.stdout
 }
 
-/// Returns the numbers in a value: in a step's item, or in a member of the document.
+/// Returns the numbers in the item with this id or, without one, in the member of the document.
 fn find_numbers(document: &Value, id: &str) -> Option<Vec<f64>> {
     let steps = document["steps"].as_array().into_iter().flatten();
     let mut items = steps.flat_map(|step| step["items"].as_array().into_iter().flatten());

@@ -216,10 +216,10 @@ fn slow_readers_and_abandoned_pictures_do_not_stop_the_server() {
     sandbox.write_file("a.bin", bytes);
     sandbox.write_file("large.bin", vec![0; 16 << 20]);
     let server = Server::start(&sandbox, &["a.gltf"]);
-    // More bytes than the server holds at once, and no client reads them.
+    // These requests total more bytes than the server holds at once, and no client reads them.
     let _slow: Vec<TcpStream> = (0..500).map(|_| server.ask("/files/large.bin")).collect();
     server.assert_answers_soon("what=state&lesson=frustum");
-    // Each takes most of a minute.
+    // Each picture takes most of a minute.
     let picture = "/compute?v=1&lesson=frustum&what=picture&size=8192x8192";
     let waiting = server.ask(picture);
     for _ in 0..50 {
@@ -231,7 +231,7 @@ fn slow_readers_and_abandoned_pictures_do_not_stop_the_server() {
 }
 
 #[test]
-fn paths_never_leave_the_served_files() {
+fn no_path_leads_out_of_the_served_files() {
     let sandbox = Sandbox::new("explore_paths");
     sandbox.write_file("secret.txt", "secret");
     std::fs::create_dir(sandbox.path_of("models")).expect("a folder");
@@ -326,7 +326,7 @@ fn an_interrupt_stops_the_server() {
     assert_eq!(status.signal(), Some(2), "{status}");
 }
 
-/// Returns whether this process was started with a signal ignored, as its bit in the mask shows.
+/// Returns whether this process ignores a signal, according to the signal's bit in its mask.
 #[cfg(unix)]
 pub(crate) fn ignores_signal(number: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -2,8 +2,8 @@
 //! PNG that `alberti` draws for the same page.
 //!
 //! Each program antialiases edges a little differently, so pictures are compared with a tolerance
-//! of a pixel: where one has ink, the other must have some next to it. The tests are reported as
-//! skipped if the programs are not installed; `.ci/run` installs them if it can.
+//! of a pixel: where one has ink, the other must have some there or in an adjacent pixel. The tests
+//! are reported as skipped if the programs are not installed; `.ci/run` installs them if it can.
 
 use crate::sandbox::Sandbox;
 use alberti_tests::skip::report_skip;
@@ -126,7 +126,7 @@ fn chromium_matches_the_png() {
     }
 }
 
-/// Returns the upper left part of a picture, which may be one pixel larger.
+/// Returns the upper left part of a picture that may be one pixel larger.
 fn cropped(
     (width, height, pixels): (u32, u32, Vec<[u8; 4]>),
     [columns, rows]: [usize; 2],

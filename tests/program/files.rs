@@ -3,7 +3,7 @@
 use crate::sandbox::Sandbox;
 
 #[test]
-fn by_default_the_picture_goes_to_the_current_folder() {
+fn by_default_the_picture_is_written_to_the_current_folder() {
     let sandbox = Sandbox::new("default_output");
     sandbox.copy_model("teapot.glb");
     let run = sandbox.run(&["render", "teapot.glb", "--size", "40x30"]);

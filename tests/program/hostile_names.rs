@@ -3,7 +3,7 @@
 
 use crate::sandbox::{RunResult, Sandbox};
 
-/// A terminal title, a color, C1, DEL, text directions, and a line that looks like the program's.
+/// A name with a terminal title, a color, C1, DEL, text directions, and a forged line of output.
 const HOSTILE: &str =
     "\u{1b}]0;P\u{7}\u{1b}[31m\u{9b}2J\u{7f}\u{202e}\u{2066}\u{2028}\r\t\u{85}\n  = help: FORGED";
 
@@ -193,7 +193,7 @@ fn names_in_batch_lists_do_not_reach_a_terminal() {
     run(&sandbox, &["batch", "--list", "b.jsonl", "--out-dir", "out"]);
 }
 
-/// Some systems do not allow such names.
+/// Some systems do not allow file names with control characters.
 #[cfg(target_os = "linux")]
 #[test]
 fn paths_do_not_reach_a_terminal() {
@@ -227,7 +227,7 @@ fn paths_do_not_reach_a_terminal() {
 }
 
 #[test]
-fn a_parts_list_has_no_formulas() {
+fn names_in_a_parts_list_are_not_spreadsheet_formulas() {
     let sandbox = Sandbox::new("hostile_names_csv");
     let name = serde_json::Value::from("=cmd|'/c calc'!A1\",\"x").to_string();
     sandbox.write_file("a.gltf", model_with("NONE").replace("\"NODE\"", &name));

@@ -73,7 +73,7 @@ fn json_lists_counts_and_instances() {
     assert_eq!((&info["counts"], &info["shown"]["counts"]), (&count(1), &count(2)));
     assert_eq!(info["meshes"][0]["shown"], 2);
     assert_eq!(info["nodes"][1]["name"], "child");
-    assert_eq!(info["nodes"][1]["to_model"][13], 3.0, "a matrix column by column");
+    assert_eq!(info["nodes"][1]["to_model"][13], 3.0, "the matrix is listed column by column");
     let status = |at: usize| (&info["extensions"][at]["name"], &info["extensions"][at]["status"]);
     assert_eq!(status(0), (&json!("ACME_gizmo"), &json!("unknown")));
     let diffuse = json!("KHR_materials_diffuse_transmission");

@@ -54,7 +54,7 @@ fn a_viewport_matches_its_cameras_own_picture() {
     assert_eq!(sandbox.read_picture("part.png").2, cut_out(&all, [15, 5, 50, 40]));
 }
 
-/// In a drawing, a view is exactly its camera's drawing. Everything under its rectangle is erased.
+/// In a drawing, a viewport shows exactly its camera's drawing and erases everything under it.
 #[test]
 fn a_viewport_in_a_drawing_has_the_lines_of_its_camera() {
     let sandbox = Sandbox::new("drawn_viewports");
@@ -88,7 +88,7 @@ fn a_viewport_in_a_drawing_has_the_lines_of_its_camera() {
         assert!(!lines.iter().flatten().any(inside), "{id}");
     }
     assert!(both.contains_key("view-1-border"));
-    // The two eyes of a stereo pair are two such views, but an anaglyph consists of pixels.
+    // The two eyes of a stereo pair are two such viewports, but an anaglyph consists of pixels.
     let pair = draw("pair.svg", "stereo: SideBySide()");
     assert!(pair.keys().any(|id| id.starts_with("view-1-")));
     assert!(pair.keys().any(|id| id.starts_with("view-2-")));

@@ -172,7 +172,7 @@ fn a_model_with_its_own_lights_keeps_a_dimmed_studio() {
 }
 
 #[test]
-fn lights_as_bright_as_daylight_are_exposed() {
+fn lights_as_bright_as_daylight_do_not_overexpose_pictures() {
     let sandbox = Sandbox::new("daylight");
     let brightness = |lux: f64| {
         let mut document = alberti_tests::gltf::Document::single_triangle();

@@ -1,7 +1,7 @@
 //! The program as a process: its output, the files it leaves, and its exit codes.
 
 #![allow(clippy::panic, reason = "a missing part of an answer fails the test")]
-#![allow(missing_docs, unreachable_pub, reason = "in a program `pub` means: used by another file")]
+#![allow(missing_docs, unreachable_pub, reason = "in a program, `pub` means used by another file")]
 
 mod assemblies;
 mod asset_models;

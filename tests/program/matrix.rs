@@ -25,7 +25,7 @@ fn a_frustum_and_a_misprint_are_recognized() {
 }
 
 #[test]
-fn json_names_steps_and_items() {
+fn json_steps_and_items_have_ids() {
     let sandbox = Sandbox::new("matrix_json");
     let columns = "1 0 0 0  0 1 0 0  0 0 1 0  5 6 7 1";
     let run = sandbox.run(&["matrix", "--json", "--column-major", columns]);
@@ -148,7 +148,7 @@ fn nine_numbers_are_a_planar_matrix() {
 }
 
 #[test]
-fn matrices_are_built_from_parameters_with_factors() {
+fn matrices_built_from_parameters_list_their_factors() {
     let sandbox = Sandbox::new("matrix_built");
     let run = sandbox.run(&["matrix", "--json", "--frustum", "-1,3,-2,1,2,6"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));

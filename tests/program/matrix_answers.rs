@@ -11,7 +11,7 @@ fn report(sandbox: &Sandbox, command: &str, numbers: &str) -> String {
 }
 
 #[test]
-fn the_likeliest_reading_fits_the_program_of_origin() {
+fn the_likeliest_reading_matches_the_source_program() {
     let sandbox = Sandbox::new("matrix_answers");
     for (numbers, words) in [
         (

@@ -86,7 +86,7 @@ fn one_bad_input_does_not_stop_the_others() {
 }
 
 #[test]
-fn models_come_from_the_standard_input_and_pictures_go_to_the_standard_output() {
+fn models_are_read_from_standard_input_and_pictures_written_to_standard_output() {
     let sandbox = Sandbox::new("pipes");
     sandbox.copy_model("crate.glb");
     let model = std::fs::read(sandbox.path_of("crate.glb")).expect("the model");
@@ -95,14 +95,14 @@ fn models_come_from_the_standard_input_and_pictures_go_to_the_standard_output() 
     assert_eq!(file.code, 0);
     let expected = std::fs::read(sandbox.path_of("file.png")).expect("a picture");
     let piped = sandbox.run_with_input(&[&["render", "-", "-o", "-"], &small[..]].concat(), &model);
-    assert!(piped == (0, expected), "a model in, a picture out");
+    assert!(piped == (0, expected), "a model is read and a picture is written");
     let scene = b"Scene(models: [(path: \"crate.glb\")], image: (size: (24, 18)))";
     sandbox.write_file("scene.ron", scene);
     assert_eq!(sandbox.run(&["render", "scene.ron"]).code, 0);
     let expected = std::fs::read(sandbox.path_of("scene.png")).expect("a picture");
     assert!(
         sandbox.run_with_input(&["render", "-", "-o", "-"], scene) == (0, expected),
-        "a scene in"
+        "a scene is read"
     );
     for (format, magic) in [("svg", &b"<svg"[..]), ("pdf", b"%PDF-"), ("dxf", b"0\nSECTION\n")] {
         let (code, bytes) =

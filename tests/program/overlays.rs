@@ -4,7 +4,7 @@
 use crate::sandbox::Sandbox;
 use crate::vector_files::{Layers, PagePoint, parse_svg, point_bounds};
 
-/// Returns the layers in a drawing of the house, and half the width and height of its page.
+/// Returns half the width and height of the page of a drawing of the house, and its layers.
 fn draw_overlays(sandbox: &Sandbox, camera: &str, overlays: &str) -> (PagePoint, Layers) {
     sandbox.copy_model("house.glb");
     sandbox.write_file(
@@ -21,7 +21,7 @@ fn draw_overlays(sandbox: &Sandbox, camera: &str, overlays: &str) -> (PagePoint,
     ([page[0] / 2.0, page[1] / 2.0], layers)
 }
 
-/// Returns the layers whose names end with this suffix.
+/// Returns the lines of the overlay layers whose names end with this suffix.
 fn layers_ending_in<'a>(layers: &'a Layers, end: &str) -> Vec<&'a Vec<PagePoint>> {
     let chosen = layers.iter().filter(|(id, _)| id.starts_with("overlay-") && id.ends_with(end));
     chosen.flat_map(|(_, lines)| lines).collect()
@@ -71,7 +71,7 @@ fn c82_axes_vanish_at_the_constructed_points() {
                 .zip(expected)
                 .for_each(|(found, expected)| assert_near(found, expected));
         }
-        // Horizontal directions vanish on one line, for every eye.
+        // Horizontal directions vanish on one line, wherever the eye is.
         let horizon = layers_ending_in(&layers, "-horizon");
         let ends = [horizon[0][0], horizon[0][1]].map(|end| to_half_heights(end, half));
         for [x, y] in [expected[0], expected[2]].into_iter().flatten() {
@@ -176,7 +176,7 @@ fn vanishing_points_outside_the_picture_are_labeled_at_its_border() {
     let (half, layers) = draw_overlays(&sandbox, camera, "VanishingPoints");
     let named = layers_ending_in(&layers, "-outside-x");
     let [low, high] = point_bounds(named.iter().flat_map(|line| line.iter()));
-    assert!(low[0] > 0.0 && high[0] < half[0], "at the left: {low:?} {high:?}");
+    assert!(low[0] > 0.0 && high[0] < half[0], "on the left: {low:?} {high:?}");
     assert!(low[1] > 0.0 && high[1] < 2.0 * half[1]);
     assert!(layers_ending_in(&layers, "-vanishing-x").is_empty());
     assert!(layers_ending_in(&layers, "-outside-z").is_empty());

@@ -58,7 +58,7 @@ fn a_watched_picture_is_rendered_again_when_its_model_changes() {
     let mut child = sandbox.start(&words);
     let first = wait_for_change(&sandbox, &[]);
     let vase = std::fs::read(sandbox.path_of("vase.glb")).expect("the vase");
-    // Within the same second and with a different length.
+    // The new file may have the same time in seconds, but its length differs.
     sandbox.write_file("crate.glb", vase);
     let second = wait_for_change(&sandbox, &first);
     sandbox.write_file("scene.ron", "Scene(models: [(path: \"crate.glb\")], style: Normals)");

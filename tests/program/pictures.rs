@@ -124,8 +124,8 @@ fn every_view_style_and_projection_shows_something() {
                 let inked = pixels.iter().filter(|pixel| coverage(pixel) > 0).count();
                 assert!(inked > 48 * 32 / 16, "{flags:?}: {inked} pixels");
                 // Framing leaves a margin of 5 percent, so nothing touches the border. Dense
-                // wireframes consist of hairlines, which leave a trace of 30 of 255 one pixel
-                // beyond them.
+                // wireframes consist of hairlines, whose antialiasing covers one more pixel at 30
+                // of 255.
                 let border =
                     |n: usize| n.is_multiple_of(48) || n % 48 == 47 || !(48..48 * 31).contains(&n);
                 let touches =

@@ -216,7 +216,7 @@ fn the_picture_shows_the_pose() {
         assert_eq!(run.code, 0, "{}", run.stderr);
         let (_, _, pixels) = sandbox.read_picture("out.png");
         let seen = pixels.iter().filter(|pixel| pixel[3] == 255);
-        // Linear 0.75 and 0.25, 0.5 and 0.5, 0 and 1 in sRGB.
+        // In linear light, (red, green) is (0.75, 0.25), (0.5, 0.5) and (0.25, 0.75).
         assert!(seen.clone().count() > 20, "at {time}");
         assert!(
             seen.clone().all(|pixel| pixel[..3] == [red, green, 0]),

@@ -75,7 +75,7 @@ fn fields_are_found_by_name_type_and_path() {
 }
 
 #[test]
-fn the_reference_is_also_markdown_and_html() {
+fn the_reference_is_also_available_as_markdown_and_html() {
     let sandbox = Sandbox::new("reference_formats");
     let markdown = sandbox.run(&["reference", "--format", "markdown"]).stdout;
     assert!(markdown.starts_with("# Reference of Alberti\n\n## alberti\n"), "{markdown}");

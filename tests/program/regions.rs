@@ -229,8 +229,8 @@ fn pictures_are_shown_in_half_blocks() {
     let run = sandbox.run(&[&["render", "crate.glb", "--show"], &SIZE[..]].concat());
     assert_eq!(run.code, 0, "{}", run.stderr);
     let lines: Vec<&str> = run.stdout.lines().collect();
-    // 80 columns, and 60 rows of pixels in 30 lines; or characters, if the tests run without
-    // colors.
+    // The 60 rows of 80 pixels are shown in 30 lines of half blocks or, without colors, of other
+    // characters.
     assert_eq!(lines.len(), 30);
     let cells = lines[15].matches('▀').count();
     assert!(cells == 80 || lines[15].chars().count() == 80, "{}", lines[15]);

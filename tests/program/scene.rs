@@ -4,7 +4,7 @@ use crate::sandbox::Sandbox;
 use serde_json::{Value, json};
 
 #[test]
-fn a_starter_is_valid_and_formatted_and_each_of_its_comments_is_an_option() {
+fn a_starter_is_valid_and_formatted_and_its_commented_options_are_valid() {
     let sandbox = Sandbox::new("scene_init");
     for model in ["room.glb", "crate.glb", "lamp.glb"] {
         sandbox.copy_model(model);
@@ -40,7 +40,7 @@ fn a_starter_is_valid_and_formatted_and_each_of_its_comments_is_an_option() {
 }
 
 #[test]
-fn a_starter_replaces_files_only_if_forced_and_finds_its_model_from_elsewhere() {
+fn a_starter_replaces_files_only_if_forced_and_refers_to_models_in_other_folders() {
     let sandbox = Sandbox::new("scene_init_places");
     sandbox.copy_model("crate.glb");
     sandbox.write_file("crate.ron", "mine");
@@ -105,8 +105,8 @@ fn check_with_fields(sandbox: &Sandbox, rest: &str) -> (i32, String) {
     (run.code, run.stdout)
 }
 
-/// Fields for a scene with a crate that are valid but probably unintended: the code of the warning,
-/// its location (empty for any), and words from its message.
+/// Valid but probably unintended fields for a scene with a crate, each with the code of its
+/// warning, the location (empty for any), and words from the message.
 const SUSPICIOUS: &[(&str, &str, &str, &str)] = &[
     (
         "camera: (view: LookTo(eye: (0, 0.5, 6), gaze: (0, 0, 1)), projection: Perspective(near: 0.1, far: 100))",
@@ -269,7 +269,7 @@ fn missing_names_are_reported_together_and_missing_files_with_their_folders() {
 }
 
 #[test]
-fn viewports_in_pixels_explain_how_to_follow_the_size() {
+fn errors_about_viewports_in_pixels_suggest_fractions() {
     let sandbox = Sandbox::new("scene_pixels");
     sandbox.copy_model("crate.glb");
     let scene =
@@ -381,7 +381,7 @@ fn included_files_are_merged_and_mistakes_point_to_the_correct_file() {
 }
 
 #[test]
-fn circular_and_outside_includes_are_refused() {
+fn circular_includes_and_includes_outside_the_folder_are_refused() {
     let sandbox = Sandbox::new("scene_include_refused");
     sandbox.copy_model("crate.glb");
     std::fs::create_dir(sandbox.path_of("in")).expect("a folder");

@@ -59,7 +59,7 @@ fn random_scenes_survive_a_round_trip() {
     let count = numbers.len();
     for number in numbers {
         let text = random_scene_text(number, &files);
-        // Most values are valid, but not all; errors are tested elsewhere.
+        // Most of these scenes are valid; errors in the others are tested elsewhere.
         let Ok(scene) = SceneFile::from_ron(&text) else { continue };
         read += 1;
         assert_reads_back(&scene, &format!("scene {number}"));

@@ -79,7 +79,7 @@ fn open_surfaces_are_cut_without_a_cap_and_reported() {
     assert!(read_drawing(&sandbox, "out.svg").1.contains_key("visible-section"));
 }
 
-/// The remaining part fills the picture, and in the technical style, nothing is dashed behind the
+/// The remaining part fills the picture, and the technical style draws no dashed lines behind the
 /// cut.
 #[test]
 fn cut_pictures_frame_the_rest_and_dash_nothing_behind_the_cut() {
@@ -98,8 +98,8 @@ fn cut_pictures_frame_the_rest_and_dash_nothing_behind_the_cut() {
     assert!(whole.keys().any(|id| id.starts_with("hidden-")));
     let cut = layers(&["--style", "technical", "--section", "x=0.02"]);
     assert!(cut.keys().all(|id| !id.starts_with("hidden-")), "{:?}", cut.keys());
-    // Both are as high as the picture allows; framed like the whole model, the rest would be
-    // smaller.
+    // Both drawings are as high as the picture allows; framed like the whole model, the rest would
+    // be smaller.
     assert!(height(&cut) > 0.95 * height(&whole), "{} {}", height(&cut), height(&whole));
     // Requested dashes are drawn.
     let dashed = layers(&["--style", "dashed", "--section", "x=0.02"]);

@@ -177,7 +177,7 @@ fn checking_a_scene_warns_about_problems_of_the_sheet() {
         sandbox.write_file("scene.ron", text);
         let checked = sandbox.run(&["scene", "check", "scene.ron"]);
         let drawn = sandbox.run(&["sheet", "scene.ron", "-o", "out.pdf"]);
-        // The model itself has errors, which do not keep it from being drawn.
+        // The model itself has errors, but they do not prevent it from being drawn.
         assert!(checked.stdout.contains("scene.ron: no mistakes, "), "{}", checked.stdout);
         assert_eq!(drawn.code, 0, "{}", drawn.stderr);
         let head = format!("warning[{code}]: ");
@@ -187,7 +187,7 @@ fn checking_a_scene_warns_about_problems_of_the_sheet() {
 }
 
 #[test]
-fn an_included_title_block_is_relative_to_its_own_file() {
+fn the_title_block_of_an_included_file_is_relative_to_that_file() {
     let sandbox = Sandbox::new("sheet_included_block");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     std::fs::create_dir(sandbox.path_of("lib")).expect("a folder");

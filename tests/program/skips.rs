@@ -1,7 +1,7 @@
-//! Tests that lack a tool or a folder report it where `cargo xtask test` reads it.
+//! Tests that lack a tool or a folder report this in the log that `cargo xtask test` reads.
 //!
-//! This program runs each of them itself, as the harness does, without the tool or folder it needs:
-//! a test that returned silently would pass forever.
+//! This program runs each such test without the tool or folder that the test needs, because a test
+//! that returned silently would pass forever.
 
 use std::path::Path;
 use std::process::Command;

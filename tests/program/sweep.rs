@@ -25,7 +25,7 @@ const PARALLEL_RANGES: [(&str, &str, &str); 6] = [
     ("angle", "0", "90"),
 ];
 
-/// C62, C64, C94: pages for every parameter, in perspective and in parallel projection.
+/// C62, C64, C94: a page for every parameter, in perspective and in parallel projection.
 #[test]
 fn every_parameter_can_be_varied() {
     let sandbox = Sandbox::new("sweep_all");
@@ -48,8 +48,8 @@ fn every_parameter_can_be_varied() {
     }
 }
 
-/// The front of a flat box, which is at the depth of its center, keeps its size in a dolly zoom and
-/// otherwise scales with 1/distance.
+/// The front of a very flat box is at the depth of its center, so it keeps its size in a dolly
+/// zoom; otherwise it scales with 1/distance.
 #[test]
 fn a_dolly_zoom_keeps_the_size_and_a_plain_move_does_not() {
     let sandbox = Sandbox::new("sweep_dolly");

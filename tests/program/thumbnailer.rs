@@ -49,8 +49,8 @@ fn both_files_are_installed_for_a_user_and_removed_again() {
             assert!(path.is_file(), "{name}");
             assert!(said.contains(&format!("wrote {}\n", path.display())), "{said}");
         }
-        // If update-mime-database is installed, its database has the mesh formats, one of which
-        // Debian's database lacks.
+        // If update-mime-database is installed, the new database has the mesh formats, one of which
+        // Debian's own database lacks.
         if said.contains("\nran update-mime-database ") {
             let globs = std::fs::read_to_string(data.join("mime/globs2")).expect("a database");
             for glob in ["50:model/x-ply:*.ply", "60:model/obj:*.obj", "50:model/stl:*.stl"] {
@@ -180,7 +180,7 @@ fn broken_and_huge_inputs_end_without_a_picture() {
         ("e.3mf", b"PK\x03\x04\0\0\0\0", ""),
     ];
     inputs.iter().for_each(|(name, content, _)| sandbox.write_file(name, content));
-    // A sparse file, which has far more bytes than blocks on the disk.
+    // A sparse file, which occupies far less space on the disk than its size.
     File::create(sandbox.path_of("f.stl")).and_then(|file| file.set_len(1 << 36)).expect("a file");
     let mut facets = vec![0; 80];
     facets.extend(400_000_u32.to_le_bytes());

@@ -1,12 +1,12 @@
-//! Sheets of models that are empty, open or oddly named give a correct drawing or a message.
+//! Models that are empty, open or oddly named yield a correct sheet or a message.
 
 use crate::sandbox::{RunResult, Sandbox};
 
 /// The flags that draw every page of an assembly.
 const ALL_PAGES: [&str; 4] = ["--parts-list=list.csv", "--balloons", "--exploded", "--part-sheets"];
 
-/// Returns a cube as OBJ: its vertices start at x, and the indices of its faces start after
-/// `first`.
+/// Returns a cube as OBJ, which extends from `x` to `x + 1` and follows `first` vertices in the
+/// file.
 fn cube(x: i32, first: usize) -> String {
     let mut text = String::new();
     for corner in 0..8 {
@@ -41,7 +41,7 @@ fn models_without_size_or_lines_are_reported() {
         let (_, run) = draw_everywhere("unusual_no_size", &point, flags);
         assert!(run.stderr.contains("the views are empty"), "{}", run.stderr);
     }
-    // Lines are parts, and points are also drawn.
+    // Lines count as parts, and points are drawn too.
     for (own, flags) in [("l 1 2 3\n", &ALL_PAGES[..]), ("p 1 2 3\n", &[])] {
         let obj = format!("v 0 0 0\nv 1 1 1\nv 1 0 0\n{own}");
         let (_, run) = draw_everywhere("unusual_lines", &obj, flags);

@@ -5,7 +5,7 @@ use crate::sandbox::Sandbox;
 use serde_json::json;
 
 /// Writes a file with a red square on the left, which is blue in the variant `blue`. Its second
-/// scene also shows the square on the right.
+/// scene also shows a square on the right.
 fn write_variants_model(sandbox: &Sandbox) {
     let mut document = GltfBuilder::square();
     let blue = document.add_unlit_material([0.0, 0.0, 1.0]);

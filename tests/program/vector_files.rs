@@ -10,7 +10,7 @@ pub(crate) type PagePoint = [f64; 2];
 /// Lines as lists of points, by layer id.
 pub(crate) type Layers = BTreeMap<String, Vec<Vec<PagePoint>>>;
 
-/// Returns the lines in an SVG by layer, and the size of its page.
+/// Returns the page size of an SVG, and its lines by layer.
 pub(crate) fn parse_svg(text: &str) -> (PagePoint, Layers) {
     let size = ["width", "height"].map(|name| {
         let value = attribute_value(text, name).expect(name);

@@ -1,9 +1,9 @@
 //! References computed by this test: scenes of spheres and rectangles, ray traced with exact
 //! intersections and shaded with the formulas of the glTF specification.
 //!
-//! They have the same form as pictures from another renderer, so that both are scored in the same
-//! way. This form is `NAME.json` with the model, camera and lights, `NAME.png`, and the model
-//! itself as triangles.
+//! They have the same form as the references from another renderer, so that both are scored in the
+//! same way: `NAME.json` with the camera, lights and model path, `NAME.png`, and the model as
+//! triangles.
 
 mod brdf;
 mod tracer;
@@ -45,9 +45,9 @@ fn worlds() -> Vec<(&'static str, World)> {
         let x = f64::from(at) * 2.2 - 4.4;
         sphere(dvec3(x, 0.0, 0.0), Material::dielectric([0.1, 0.3, 0.7], 0.2 + 0.2 * f64::from(at)))
     });
-    // The sphere is large, because the renderer adds the variation of normals within a pixel to the
-    // roughness (geometric specular antialiasing). The roughness is not 1, because the renderer's
-    // albedo table ends at 15.5/16.
+    // The spheres appear large, because the renderer adds the variation of normals within a pixel
+    // to the roughness (geometric specular antialiasing). Their roughness is below 1, because the
+    // renderer's albedo table ends at 15.5/16.
     let metals = [(-1.05, 0.6), (1.05, 0.85)]
         .map(|(x, roughness)| sphere(dvec3(x, 0.0, 0.0), Material::metal(gold, roughness)));
     let floor = rectangle(

@@ -18,14 +18,14 @@ const LAYERED_MATERIALS: Limits = Limits { fraction_above: 0.03, silhouette: 0.0
 const LAYER_EXTENSIONS: [&[u8]; 3] =
     [b"KHR_materials_clearcoat", b"KHR_materials_transmission", b"KHR_materials_sheen"];
 
-/// References that intentionally deviate from the specification or from the renderer, with the
-/// limits they need and the reason.
+/// References from which our pictures deviate intentionally, with the limits that this needs and
+/// the reason.
 const EXCEPTIONS: [(&str, Limits, &str); 2] = [
     (
         "alpha-blend-mode-test",
         Limits { fraction_above: 0.014, silhouette: 0.0022 },
-        "(alpha applies to linear light, §3.9.4, but the reference blends sRGB codes: the BLEND pane; its upper edge is 0.0075 \
-     pixels above the centers of a row, and the reference rasterises in sixteenths of a pixel)",
+        "(alpha applies to linear light, §3.9.4, but the reference blends sRGB codes; the upper edge of the BLEND pane is 0.0075 \
+     pixels above the centers of a row, and the reference rasterizes in sixteenths of a pixel)",
     ),
     (
         "rough-metals",

@@ -36,7 +36,7 @@ impl Picture {
         written.map_err(|error| with_path(error.to_string()))
     }
 
-    /// Returns our picture, the reference and their difference side by side. Differences are gray
+    /// Returns our picture, the reference and their difference side by side. The difference is gray
     /// and multiplied by eight.
     pub fn side_by_side(&self, theirs: &Self) -> Self {
         let width = self.width as usize;

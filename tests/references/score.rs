@@ -1,8 +1,8 @@
 //! The difference between two pictures, as computed by the script `score.py` of the reference
 //! pictures.
 //!
-//! Edges may differ by half a pixel, so each pixel is compared with the pixel of the closest color
-//! among its 3 × 3 neighbors in the other picture, in both directions.
+//! Edges may differ by half a pixel, so each pixel is compared with the closest color in its 3 × 3
+//! neighborhood in the other picture, and vice versa.
 
 use crate::references::picture::Picture;
 
@@ -11,7 +11,7 @@ use crate::references::picture::Picture;
 pub struct Score {
     /// The mean difference over all channels, from 0 to 255.
     pub mean: f64,
-    /// The 95th percentile of the pixel differences, each to the closest neighbor.
+    /// The 95th percentile of the pixels' differences from the closest color.
     pub p95: f64,
     /// The fraction of pixels whose difference is above 8.
     pub fraction_above: f64,
@@ -45,15 +45,15 @@ pub fn score_picture(ours: &Picture, reference: &Picture) -> Option<Score> {
     })
 }
 
-/// Returns the largest difference of a channel.
+/// Returns the largest difference in any channel.
 pub fn largest_step(a: [u8; 3], b: [u8; 3]) -> u8 {
-    // This is written out because the tests are not optimized, and it runs for every pixel and its
-    // neighbors.
+    // The loop is unrolled by hand, because it runs for every pixel and its neighbors and the tests
+    // are not optimized.
     a[0].abs_diff(b[0]).max(a[1].abs_diff(b[1])).max(a[2].abs_diff(b[2]))
 }
 
 /// Returns for each pixel of `a` the smallest difference from the 3 × 3 neighbors of the same
-/// position in `b`. Border pixels are repeated beyond the border.
+/// position in `b`. At the border, some neighbors are missing.
 fn nearest_neighbor_steps(a: &Picture, b: &Picture) -> Vec<u8> {
     let (width, height) = (a.width as usize, a.height as usize);
     let mut least = vec![255; width * height];
@@ -90,7 +90,7 @@ const EXPECTED_SCORES: [&str; 3] = [
 /// Compares the scores of some generated pictures with the output of the script.
 ///
 /// # Errors
-/// If a score differs.
+/// Returns an error if a score differs.
 pub fn compare_with_script() -> Result<(), String> {
     let made = |width: u32, height: u32, seed: u32, shift: u32| {
         let pixel = |n: u32| {

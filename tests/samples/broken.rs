@@ -1,5 +1,5 @@
-//! Broken documents, in which one member of a valid file is changed or removed, with the errors
-//! from the Khronos validator.
+//! Documents in which one member of a valid file is changed or removed, with the errors that the
+//! Khronos validator reports.
 
 use super::{Sample, add_floats, add_times, quad, textured_quad, triangle};
 use crate::gltf::Document;
@@ -17,7 +17,7 @@ fn sample(name: &str, document: &Document, errors: &[&str]) -> Sample {
     Sample::broken(name, "model.glb", document.to_glb(), errors)
 }
 
-/// A name, the JSON pointer of a member, its JSON, and the error that it causes.
+/// A name, the JSON pointer of a member, its new value, and the error that this value causes.
 type Change = (&'static str, &'static str, &'static str, &'static str);
 
 /// Changes to a triangle.

@@ -79,7 +79,7 @@ fn large_grid() -> Document {
     let indices: Vec<u8> = indices.flat_map(u32::to_le_bytes).collect();
     let positions = add_floats(&mut document, "VEC3", &positions);
     document.json["accessors"][positions]["min"] = json!([0, 0, 0]);
-    // Squares modulo 7 are 0, 1, 2 and 4.
+    // Squares modulo 7 are 0, 1, 2 or 4, so z is at most 4.
     document.json["accessors"][positions]["max"] = json!([SIDE - 1, SIDE - 1, 4]);
     let accessor = json!({"componentType": 5125, "type": "SCALAR", "count": indices.len() / 4});
     let indices = document.add_accessor(&indices, accessor);

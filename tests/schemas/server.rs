@@ -62,7 +62,7 @@ impl Drop for Server {
     }
 }
 
-/// Returns answers for the lessons, each with its state and a pixel of its picture, and for errors.
+/// Returns the list of lessons, the state and a picked pixel of each lesson, and several errors.
 pub fn explorer_documents(program: &Path) -> Result<Vec<Document>, String> {
     let server = Server::start(program)?;
     let document = |schema, query: &str| {

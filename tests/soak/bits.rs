@@ -1,6 +1,6 @@
 //! The source of random numbers.
 //!
-//! splitmix64 (Steele, Lea, Flood 2014): the state is a counter, so any call can be repeated.
+//! This is splitmix64 (Steele, Lea, Flood 2014). Its state is a counter, so calls can be repeated.
 
 /// The generator.
 #[derive(Clone, Copy)]
@@ -19,7 +19,7 @@ impl Bits {
         mixed(self.state)
     }
 
-    /// Returns bits that depend on the state and differ from all later bits.
+    /// Returns bits that depend on the state, without changing it, and differ from the next bits.
     pub fn peek(&self) -> u64 {
         mixed(self.state ^ 0x5bd1_e995)
     }

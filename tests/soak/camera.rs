@@ -106,7 +106,7 @@ impl Finite for CameraView {
     }
 }
 
-/// Returns a named view or any other basis.
+/// Returns the basis of the front view or a random basis.
 fn basis(r: &mut Random) -> Option<Basis> {
     if r.coin() {
         return Some(NamedView::Front.basis());
@@ -162,7 +162,7 @@ fn rig(r: &mut Random) -> StereoRig {
     StereoRig { interocular: r.size(), zero_parallax: r.size() }
 }
 
-/// Returns the corners of a screen, mostly of a parallelogram with a right angle.
+/// Returns the corners of a screen whose sides are perpendicular, except for rounding errors.
 fn screen(r: &mut Random) -> ScreenCorners {
     let lower_left = r.point();
     let across = r.vector::<World>();

@@ -14,7 +14,7 @@ pub const SUBJECTS: &[Subject] = &[
         let (volume, point) = (volume(r), r.hpoint());
         let code = volume.outcode(point);
         let finite = point.is_finite();
-        // Each plane is compared only where the sign of the sum of four products is certain.
+        // A plane is compared only where the sign of its sum of four products is certain.
         let agrees = |i: PlaneIndex| {
             let distance = volume.plane(i).map_or(0.0, |plane| plane.evaluate(point));
             let certain = distance.is_finite() && i <= PlaneIndex::FAR;
@@ -118,7 +118,7 @@ impl Finite for ClipVertex {
     }
 }
 
-/// Returns one of the conventions' volumes, perhaps without a far plane, with a guard band or
+/// Returns one of the conventions' volumes, perhaps without its far plane, or with a guard band or
 /// custom planes.
 fn volume(r: &mut Random) -> Volume {
     let canonical = [Volume::CHAPTER, Volume::OPENGL, Volume::ZERO_ONE, Volume::ZERO_ONE_REVERSED];
@@ -137,7 +137,7 @@ fn volume(r: &mut Random) -> Volume {
     volume
 }
 
-/// Returns edges between a few points, so that some share an end.
+/// Returns edges between a few points, so that some share an endpoint.
 fn edges(r: &mut Random) -> Vec<[Point<World>; 2]> {
     let points = r.points::<World, 5>();
     (0..r.below(9)).map(|_| [points[r.below(5)], points[r.below(5)]]).collect()

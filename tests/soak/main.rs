@@ -35,7 +35,7 @@ const SUBJECTS: [&[Subject]; 5] =
 struct Order {
     calls: u64,
     seed: u64,
-    /// The minutes of random scenes, if these are rendered instead.
+    /// The number of minutes for which random scenes are rendered instead, if requested.
     scenes: Option<u64>,
     names: Vec<String>,
 }

@@ -267,7 +267,7 @@ impl Finite for Window {
     }
 }
 
-/// Returns one of the named conventions and their variants, or one with custom depths.
+/// Returns a variant of a named convention, sometimes with custom depths.
 fn convention(r: &mut Random) -> Convention {
     let depths = [Convention::CHAPTER, Convention::OPENGL, Convention::WEBGPU];
     let mut convention = r
@@ -330,7 +330,8 @@ fn frustum_is_finite(frustum: Frustum, r: &mut Random) -> Option<bool> {
     Some((maps, frustum.window(), frustum.slopes()).finite())
 }
 
-/// Checks all matrices of a classical projection, and the matrices of a picture with it.
+/// Checks all matrices of a classical projection, including its maps to and from clip space for a
+/// random volume.
 fn classical(made: Made<impl Into<Classical>>, r: &mut Random) -> Option<bool> {
     let made = made.ok()?.into();
     let matrices = (made.onto_plane(), made.depth_preserving(), made.depth_preserving_inverse());

@@ -7,15 +7,15 @@ use glam::{DMat3, DMat4, DVec3, DVec4};
 use homog::{Affine, HPoint, Normal, Plane, Point, Projective, Space, Vector};
 use std::f64::consts::PI;
 
-/// The kinds of numbers that a call draws. If each number could be of every kind, calls with six
-/// numbers would hardly ever be accepted.
+/// The kinds of numbers that a call draws. If every number could be of any kind, functions with six
+/// numbers would reject almost every call.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Mood {
-    /// Numbers between −10 and 10, integers, zero with either sign, or the previous number again.
+    /// Numbers from −10 to 10, integers, zero with either sign, and repeats of the previous number.
     Ordinary,
     /// The ordinary numbers, and every magnitude from subnormal to the largest.
     Extreme,
-    /// All of these, NaN, infinities, and any 64 bits.
+    /// All of these, NaN, infinities, and arbitrary bit patterns.
     Anything,
 }
 
@@ -44,7 +44,7 @@ const EXTREMES: [f64; 12] = [
 ];
 
 impl Random {
-    /// Creates the arguments for a call from the bits that follow.
+    /// Creates a generator that draws the arguments of a call from these bits.
     pub fn new(bits: Bits) -> Self {
         let (mood, drawn) = (Mood::Ordinary, None);
         let mut random = Self { bits, mood, last: 0.0, only_finite: true, drawn };
@@ -97,7 +97,7 @@ impl Random {
         self.bits.next() >> 63 == 1
     }
 
-    /// Returns arbitrary 32 bits or, half of the time, a small number.
+    /// Returns an arbitrary 32-bit number or, half of the time, a small one.
     pub fn count(&mut self) -> u32 {
         let bits = self.bits.next();
         let count = (bits >> 32) as u32;
@@ -118,7 +118,7 @@ impl Random {
         std::array::from_fn(|_| self.number())
     }
 
-    /// Returns a number, mostly its absolute value.
+    /// Returns a number, in most cases its absolute value.
     pub fn size(&mut self) -> f64 {
         let number = self.number();
         if self.below(32) == 0 { number } else { self.instead(number.abs()) }
@@ -148,7 +148,7 @@ impl Random {
         if self.below(8) == 0 { number } else { self.instead(number.abs().fract()) }
     }
 
-    /// Records an argument that was computed from others.
+    /// Records an argument that was computed from others, and returns it.
     pub fn given(&mut self, argument: f64) -> f64 {
         self.only_finite &= argument.is_finite();
         if let Some(drawn) = &mut self.drawn {
@@ -157,7 +157,7 @@ impl Random {
         argument
     }
 
-    /// Records an argument in place of the number from which it was computed.
+    /// Records an argument in place of the number from which it was computed, and returns it.
     pub fn instead(&mut self, argument: f64) -> f64 {
         if let Some(drawn) = &mut self.drawn {
             drawn.pop();

@@ -5,7 +5,8 @@
 //! ```
 //!
 //! A new field in the language appears in these scenes automatically. Most values are reasonable,
-//! so that most scenes are drawn; incompatible combinations must be rejected with a message.
+//! so that few scenes are rejected because of a single value. Incompatible combinations must be
+//! rejected with a message.
 
 use super::bits::Bits;
 use scene_file::reference::{FieldEntry, Shape, TypeEntry, ValueType, VariantEntry, all_types};
@@ -53,7 +54,7 @@ struct SceneWriter<'a> {
 }
 
 impl SceneWriter<'_> {
-    /// Returns whether a field is written: always if it is required, otherwise one time in three.
+    /// Returns whether a field is written: always if it is required, otherwise in a third of cases.
     fn is_chosen(&mut self, field: &FieldEntry) -> bool {
         !field.is_optional || self.below(3) == 0
     }
@@ -117,7 +118,7 @@ impl SceneWriter<'_> {
         }
     }
 
-    /// Returns a value for a type described in words: a number, a string or a boolean.
+    /// Returns a value for a type described in words: a boolean, a string or a whole number.
     fn plain_value(&mut self, owner: &str, field: &str, words: &str) -> String {
         match words {
             "true or false" => (self.below(2) == 0).to_string(),
@@ -146,7 +147,7 @@ impl SceneWriter<'_> {
         }
     }
 
-    /// Returns a value of a declared type without parts.
+    /// Returns a value of a declared type that has neither fields nor variants.
     fn number_or_color(&mut self, field: &str, name: &str) -> String {
         let [low, high] = match name {
             "Finite" if field.ends_with("_degrees") => [-180.0, 180.0],

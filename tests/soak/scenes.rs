@@ -30,7 +30,7 @@ struct Tally {
     faults: Mutex<Vec<String>>,
 }
 
-/// Renders scenes for this many minutes, starting at number `first`; returns whether all succeeded.
+/// Renders scenes for some minutes, starting with number `first`; returns whether all succeeded.
 pub fn soak_scenes(minutes: u64, first: u64) -> Result<bool, String> {
     let (folder, files) = prepare_files()?;
     let end = Instant::now() + Duration::from_secs(minutes * 60);
@@ -78,8 +78,7 @@ impl Tally {
     }
 }
 
-/// Returns true if a scene was drawn and false if it was rejected, or an error if something is
-/// wrong.
+/// Returns whether a scene was drawn rather than rejected, or an error if a check fails.
 fn check_scene(folder: &Path, text: &str) -> Result<bool, String> {
     let resolved = Origin::from_text("random.ron", text, folder.to_owned())
         .parse_with_includes(&[])
@@ -111,7 +110,8 @@ fn is_message(message: &str) -> Result<bool, String> {
     }
 }
 
-/// Checks that line drawings with one thread and with two have the same text, without NaN.
+/// Checks that line drawings with one thread and with two have the same text, without NaN or
+/// infinity.
 fn check_lines(scene: &Scene) -> Result<(), String> {
     let drawings = [1, 2].map(|threads| match scene.style {
         Style::Lines(_) => draw_lines(scene, threads, &Timings::default())

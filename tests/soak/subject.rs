@@ -7,8 +7,8 @@ use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
-/// A name, and one call with random arguments. The call returns `None` if they were rejected or
-/// there was no result, otherwise whether all numbers in the result are finite.
+/// A name, and one call with random arguments. The call returns whether all numbers in its result
+/// are finite, or `None` if the arguments are rejected or there is no result.
 pub type Subject = (&'static str, fn(&mut Random) -> Option<bool>);
 
 /// The results of the calls.

@@ -28,7 +28,7 @@ const FACES: [[usize; 3]; 4] = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
 /// Writes all files into a folder.
 ///
 /// # Errors
-/// If a file cannot be written; the message names it.
+/// Returns an error that names the file if one cannot be written.
 pub fn write_samples(folder: &Path) -> Result<(), String> {
     let read = |path: &str| {
         let path = alberti_tests::project_root().join(path);

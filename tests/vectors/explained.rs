@@ -9,8 +9,8 @@ use homog::{PixelConvention, Point, Projective};
 use serde_json::Value;
 use viewport::{DepthRange, Viewport};
 
-/// Compares the explanation of a point with a vector. `forth` is the projection in the chapter's
-/// convention, with w < 0 in front of the eye if `sign` is −1; `viewport` is from the vector.
+/// Compares the explanation of a point with a vector. `forth` is the vector's projection; if `sign`
+/// is −1, its w is negative in front of the eye. `viewport` is also from the vector.
 pub fn check_explained(
     (camera, forth, sign): (camera::Camera, DMat4, f64),
     viewport: &Viewport,

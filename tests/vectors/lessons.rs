@@ -1,5 +1,5 @@
-//! Runners for the exercises in the chapter and the misprints in the sources. The result must be
-//! the correct form and must differ from the printed form.
+//! Runners for the exercises in the chapter and the misprints in the sources. For a misprint, the
+//! result must match the correct form and differ from the printed form.
 
 use crate::vectors::Runner;
 use crate::vectors::chain::check_lookat;
@@ -162,7 +162,7 @@ fn parse_frustum_edges(case: &Value) -> Result<[f64; 6], String> {
     Ok(edges)
 }
 
-/// Checks that our matrix is the correct form and not the printed form.
+/// Checks that our matrix matches the correct form and not the printed form.
 fn check_correct_and_printed(
     ours: DMat4,
     out: &Value,
@@ -191,8 +191,8 @@ fn check_misprint(case: &Value, out: &Value) -> Result<(), String> {
         }
         "003-eq4-5-7-w" => {
             let (n, f) = (number_field(case, "n")?, number_field(case, "f")?);
-            // With the window [−n, n]², the x and y rows of the frustum matrix are those of the
-            // identity.
+            // With the window [−n, n]², the x and y rows of the frustum matrix equal the
+            // identity's.
             let ours = api::frustum_gl(-n, n, -n, n, n, f).map_err(refused)?;
             check_correct_and_printed(ours.raw(), out, "correct", "printed")
         }

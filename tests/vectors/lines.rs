@@ -13,7 +13,7 @@ use viewport::Viewport;
 /// The runners, one per file.
 pub const RUNNERS: &[(&str, Runner)] = &[("hidden_lines", check_hidden_lines)];
 
-/// The tolerance in the README, in t.
+/// The tolerance of t, from the README of the vectors.
 const TOLERANCE: f64 = 1e-9;
 
 fn check_hidden_lines(input: &Value, out: &Value) -> Result<(), String> {
@@ -46,7 +46,7 @@ fn check_hidden_lines(input: &Value, out: &Value) -> Result<(), String> {
     Ok(())
 }
 
-/// The side length of the picture in pixels, which are the unit of tolerances.
+/// The side length of the picture in pixels, the unit of tolerances.
 const IMAGE_SIDE: u32 = 1 << 20;
 
 /// Half the window at distance 1. It is large because, unlike the drawing, the vectors do not clip

@@ -44,7 +44,7 @@ fn check_coverage(input: &Value, out: &Value) -> Result<(), String> {
     let covered = hits.iter().filter(|&&hits| hits > 0).count() as u64;
     if out["union_count"].as_u64().is_some_and(|union| union != covered) {
         return Err(format!(
-            "together they cover {covered} pixels, expected {}",
+            "together, the triangles cover {covered} pixels, expected {}",
             out["union_count"]
         ));
     }

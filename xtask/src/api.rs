@@ -20,12 +20,12 @@ use std::fs;
 use std::process::Command;
 
 /// Returns the libraries with a stability promise: the crates on the map, except for the program's
-/// library, which is not meant for callers.
+/// library, which is not meant for other programs.
 fn libraries() -> impl Iterator<Item = &'static str> {
     crate::tidy::LAYERS.iter().map(|(name, _)| *name).filter(|name| *name != "alberti")
 }
 
-/// The compiler version of the listings. Rustdoc's pages differ between versions.
+/// The compiler version of the listings. Rustdoc's pages change from version to version.
 const COMPILER: &str = "1.95";
 
 const FOLDER: &str = "docs/api";
@@ -115,7 +115,7 @@ impl ApiChange {
     }
 }
 
-/// Counts how often each line occurs, prefixed with its item.
+/// Counts how often each line occurs under its item, whose name is put in front of the line.
 fn item_lines(listing: &str) -> BTreeMap<String, usize> {
     let (mut item, mut lines) = ("", BTreeMap::new());
     for line in listing.lines() {
@@ -150,7 +150,7 @@ fn fault_since_release(name: &str, listing: &str) -> Result<Option<String>, Stri
     Ok((!is_allowed).then(|| {
         format!(
             "`{name}` {version} breaks callers of {tag}:\n{}\n  = help: raise the version to the \
-             next one that may, or restore the removed items",
+             next incompatible one, or restore the removed items",
             removed.shown_lines()
         )
     }))
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_nonzero_number_decides() {
+    fn the_first_nonzero_number_determines_compatibility() {
         assert_eq!(compatibility_number("0.1.3"), compatibility_number("0.1.9"));
         assert_ne!(compatibility_number("0.1.3"), compatibility_number("0.2.0"));
         assert_eq!(compatibility_number("1.4.0"), compatibility_number("1.5.2"));

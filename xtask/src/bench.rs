@@ -10,8 +10,8 @@
 //! bench --instructions  instruction counts of fixed workloads against the recorded ones
 //! ```
 //!
-//! Only the last one can fail. The others just print, because times depend on more than the code;
-//! instruction counts depend only on the code.
+//! Only the last one can fail, because instruction counts depend only on the code. The others just
+//! print, because times depend on more than the code.
 
 mod compare;
 mod instructions;

@@ -85,8 +85,8 @@ fn build_editions(flags: &[&str]) -> Outcome {
     run_builder("build", &[&["--program", &path], flags].concat())
 }
 
-/// Copies the explorer's page next to the editions. If it has not been built, the editions omit
-/// their links to it.
+/// Copies the explorer's page next to the editions. If the page has not been built, the editions
+/// omit their links to it.
 fn copy_explorer(folder: &Path) -> Outcome {
     if folder.exists() {
         fs::remove_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;

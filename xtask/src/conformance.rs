@@ -62,7 +62,7 @@ pub fn run_conformance(arguments: &[String]) -> Outcome {
     Err(format!("{} problems\n  {}", faults.len(), faults.join("\n  ")))
 }
 
-/// Finds items without a test in a complete crate that is responsible for them.
+/// Finds items without a test in a math crate that is responsible for them.
 fn missing_items(tests: &[Test]) -> Vec<String> {
     let lines = items::all_items().flat_map(|item| {
         let missing = item.complete_owners().filter(|owner| !table::has_test(item, owner, tests));
@@ -80,7 +80,7 @@ fn unknown_items(tests: &[Test]) -> Vec<String> {
     lines.collect()
 }
 
-/// Finds topics that are missing from the inventory, the table or the marks in the book.
+/// Finds topics that the inventory, the table or the marks in the book lack or have in addition.
 fn differing_lists(document: &str, marks: Option<&BookMarks>) -> Result<Vec<String>, String> {
     let topics: BTreeSet<String> =
         items::ITEMS.iter().chain(items::MISPRINTS.iter()).map(|item| item.id.clone()).collect();

@@ -22,8 +22,8 @@ use std::process::Command;
 /// The manifests of the shipped packages.
 const SHIPPED: [&str; 2] = ["Cargo.toml", "crates/web/Cargo.toml"];
 
-/// The manifests of all packages in the project. The same minimum compiler version must be enough
-/// for all of them.
+/// The manifests of all packages in the project, which must all work with the same minimum compiler
+/// version.
 const MANIFESTS: [&str; 4] = [
     "Cargo.toml",
     "crates/web/Cargo.toml",
@@ -75,7 +75,7 @@ struct Dependency {
     version: String,
     license: String,
     source: String,
-    /// The oldest compiler that it supports, if it declares one.
+    /// The oldest compiler that the package supports, if it declares one.
     floor: Option<String>,
 }
 
@@ -118,7 +118,7 @@ fn dependency_faults(
             fault(format!("its source `{source}` is not in sources.allow-registry"));
         }
         if banned.contains(name) {
-            fault("bans.deny bans it".to_owned());
+            fault("bans.deny lists it".to_owned());
         }
         if needed.as_deref().is_some_and(|needed| version_numbers(needed) > version_numbers(floor))
         {
@@ -132,7 +132,7 @@ fn dependency_faults(
         if !twice.iter().any(|allowed| allowed == name) {
             let list = versions.iter().copied().collect::<Vec<_>>().join(" and ");
             faults.push(format!(
-                "{name}: versions {list} are used at once, and bans.skip does not list it"
+                "{name}: versions {list} are used together, but bans.skip does not list the package"
             ));
         }
     }

@@ -1,8 +1,8 @@
 //! `cargo xtask determinism`: tests that a scene renders to the same bytes on every machine.
 //!
-//! Renders every scene with the release build, with one thread and with several, and with the debug
-//! build. `--wide` adds a build that may use AVX2 and fused multiply-add, because floating-point
-//! sums would diverge there first. It needs a processor with these instructions.
+//! The command renders every scene with the release build, with one thread and with several, and
+//! with the debug build. `--wide` adds a build that may use AVX2 and fused multiply-add, because
+//! floating-point sums would diverge there first. It needs a processor with these instructions.
 //! `determinism/web.rs` compares the explorer's pictures in WebAssembly.
 //!
 //! `--targets` compares other processors, C libraries, compilers and optimizations instead
@@ -83,9 +83,8 @@ impl Options {
     }
 }
 
-/// Returns the variants of a build: the release build with one thread and with several, and the
-/// debug build with its default number of threads. The step `goldens` renders the same pictures
-/// with the debug build.
+/// Returns the variants of a build: the release build with one thread and with several, and other
+/// builds with their default number of threads.
 fn variants(build: Build, threads: u32) -> Vec<Variant> {
     let way = |name: String, flags: Vec<String>| Variant {
         name: format!("{}-{name}", build.name()),

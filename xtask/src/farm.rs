@@ -29,10 +29,10 @@ const START: Milliseconds = 2_000;
 /// The time from the failure of a node to the restart of its shard, with Slurm's defaults: 300 s
 /// until the node counts as down, and 120 s until a job restarts.
 const LOSS: Milliseconds = 420_000;
-/// File system calls that read a picture's model, as counted with strace. The model is looked up,
-/// opened and closed three times: to compute its key, to load it and to check it.
+/// The number of file system calls that read a picture's model, as counted with strace. The model
+/// is looked up, opened and closed three times: to compute its key, to load it and to check it.
 const REQUESTS_TO_READ: u64 = 9;
-/// File system calls that write a file: folder lookup, create, sync, close and rename.
+/// The number of file system calls that write a file, such as create, sync, close and rename.
 const REQUESTS_TO_WRITE: u64 = 6;
 /// Pictures per tar file.
 const TAR: u64 = 1_000;
@@ -43,7 +43,7 @@ struct Farm {
     nodes: usize,
     shards: usize,
     pictures: usize,
-    /// The time of a picture, as a multiple of the measured one.
+    /// The time of a picture, as a multiple of the measured time.
     slowness: f64,
     /// The mean time between failures of a node, in hours; 0 means that nodes do not fail.
     hours_to_death: u64,
@@ -168,8 +168,8 @@ impl Farm {
         let mut shards = vec![(0.0_f64, 0.0_f64); self.shards];
         for picture in 0..self.pictures {
             let time = times.time_at(random.next_fraction()) * self.slowness;
-            // Pictures are assigned in turn. The program assigns them by file size, which is more
-            // even.
+            // Pictures are assigned in turn. The program assigns them by file size, which balances
+            // the shards better.
             let (sum, longest) = &mut shards[picture % self.shards];
             *sum += time;
             *longest = longest.max(time);

@@ -12,10 +12,10 @@
 //! The targets are in `tests/fuzz`, a separate package. It needs a C++ compiler and the stable Rust
 //! compiler. The first inputs are a few small cases for each target in `tests/fuzz/corpus`, the
 //! shared assets (`$ASSETS`, or `shared/assets` next to the project), the scenes, and the cases in
-//! `tests/hostile`. A panic, a failed assertion, more than one second or more than 200 MB of memory
-//! counts as a crash. The input is saved in `DIR/TARGET/artifacts`, the command fails, and later
-//! runs begin with that input. When you fix a crash, add a minimal case to `tests/hostile` or to
-//! the tests of the crate.
+//! `tests/hostile`. A panic, a failed assertion, or the use of more than one second or 200 MB of
+//! memory counts as a crash. The input is saved in `DIR/TARGET/artifacts`, the command fails, and
+//! later runs begin with that input. When you fix a crash, add a minimal case to `tests/hostile` or
+//! to the tests of the crate.
 
 mod pack;
 mod seeds;
@@ -31,7 +31,7 @@ use std::path::{Path, PathBuf};
 struct FuzzTarget {
     name: &'static str,
     about: &'static str,
-    /// The dictionary of words in its inputs, if they are text.
+    /// The dictionary of words in the target's inputs, if these are text.
     words: Option<&'static str>,
 }
 
@@ -169,8 +169,8 @@ fn parse_number<T: std::str::FromStr>(text: &str) -> Result<T, String> {
 fn fuzz_help() -> String {
     let mut text = String::from(
         "Usage: cargo xtask fuzz [TARGET…] [--minutes N] [--jobs N] [--corpus DIR]\n\n\
-         N is CPU minutes per target for --minutes (default 20), processes per target for --jobs\n\
-         (default 1). DIR is target/fuzz by default.\n\
+         N is CPU minutes per target for --minutes (default 20) and processes per target for\n\
+         --jobs (default 1). DIR is target/fuzz by default.\n\
          Inputs that crash are saved in DIR/TARGET/artifacts, and later runs try them first.\n",
     );
     for target in TARGETS {

@@ -1,5 +1,5 @@
 //! `cargo xtask gallery`: renders every scene to one page, with the comment of its file as the
-//! caption. With `--models DIR`, it renders every model in a folder in every style and light
+//! caption. With `--models DIR`, it renders every model in a folder with every style and lighting
 //! (`tests/gallery`).
 
 use crate::Outcome;

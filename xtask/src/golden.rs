@@ -2,7 +2,7 @@
 //!
 //! The comparison is the suite `tests/goldens.rs`, which this command runs. `--bless` replaces the
 //! goldens of the named scenes, or of all scenes with `--all`. Look at the pictures before you use
-//! it. It does not work in CI.
+//! `--bless`, which does not work in CI.
 
 use crate::Outcome;
 use crate::program::{Build, Program, cargo_command};

@@ -12,8 +12,7 @@ pub struct Package {
     pub name: String,
     /// The version in its manifest.
     pub version: String,
-    /// The package names in its table `[dependencies]`; dependencies of tests and build scripts are
-    /// omitted.
+    /// The names of its normal dependencies; dependencies of tests and build scripts are omitted.
     pub dependencies: Vec<String>,
     /// Its integration tests with their source files, sorted by name.
     pub tests: Vec<(String, PathBuf)>,
@@ -98,7 +97,7 @@ impl Package {
     }
 }
 
-/// Returns the name of a package in code. Package names are longer, because the short names are
+/// Returns the name of a package in code. Package names have a prefix, because the short names are
 /// taken on the registry.
 pub fn short_name(package: &str) -> &str {
     package.strip_prefix("alberti-").unwrap_or(package)

@@ -1,5 +1,5 @@
-//! `cargo xtask models`: writes `scenes/models` from the code in `scenes/generator`, or compares
-//! them.
+//! `cargo xtask models`: writes `scenes/models` from the code in `scenes/generator`, or checks that
+//! they match.
 
 use crate::Outcome;
 use crate::workspace::{create_folder, list_files, project_root, relative_path};
@@ -11,7 +11,7 @@ fn models_folder() -> PathBuf {
     project_root().join("scenes/models")
 }
 
-/// Writes the models, or compares them if `--check` is given.
+/// Writes the models or, if `--check` is given, compares them with the committed ones.
 pub fn run_models(arguments: &[String]) -> Outcome {
     match arguments {
         [] => write_models(),

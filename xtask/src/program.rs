@@ -17,7 +17,7 @@ pub enum Build {
 }
 
 impl Build {
-    /// Returns its name in messages and folder names.
+    /// Returns the profile's name in messages and folder names.
     pub fn name(self) -> &'static str {
         match self {
             Self::Debug => "debug",
@@ -54,7 +54,7 @@ impl Program {
         Ok(Self { path: folder.join(profile).join(name) })
     }
 
-    /// Builds the release program of another checkout of the workspace, in its own target folder.
+    /// Builds the release program of another checkout, in the target folder of that checkout.
     pub fn build_checkout(root: &Path) -> Result<Self, String> {
         let folder = root.join("target");
         // In old revisions, the program was part of the library package.
@@ -107,11 +107,10 @@ pub fn cargo_command(arguments: &[&str]) -> Command {
     cargo
 }
 
-/// The CPU time that compilers have used in child processes, in hundredths of a second, as counted
-/// by [`compile`].
+/// The CPU time that [`compile`] has counted as compiler time, in hundredths of a second.
 static COMPILE_TICKS: AtomicU64 = AtomicU64::new(0);
 
-/// Counts the CPU time of some work as compiler time.
+/// Does some work and counts its CPU time as compiler time.
 pub fn compile<T>(work: impl FnOnce() -> T) -> T {
     let before = process_seconds();
     let result = work();

@@ -45,8 +45,8 @@ assert frame.rgb.shape == (240, 320, 3) and frame.ids.any() and frame.depth.min(
 print('a picture, its depth and its ids:', frame)
 ";
 
-/// Builds the wheel and tests it. `--release` builds it as published. `--first` only renders a
-/// picture with the library from the debug build.
+/// Builds the wheel and tests it. `--release` builds the wheel as published. `--first` only renders
+/// a picture with the library from the debug build.
 pub fn run_python(arguments: &[String]) -> Outcome {
     let is_release = match arguments {
         [] => false,

@@ -7,7 +7,7 @@
 //! release --deb [PROGRAM]   pack the release build or PROGRAM for Debian, and test the package
 //! release --crates          pack the crates for the registry without building them
 //! ```
-//! Nothing is published; `RELEASING.md` explains how to do that. The command needs the Debian tools
+//! Nothing is published; `RELEASING.md` explains how to publish. The command needs the Debian tools
 //! `tar`, `gzip`, `dpkg-deb`, `sha256sum`, and, to test the package, `debootstrap`.
 
 mod archives;

@@ -1,5 +1,5 @@
-//! Builds and runs programs like those of outside users against the packed crates, as if the crates
-//! came from the registry.
+//! Builds programs that outside users might write, with the packed crates as if these came from the
+//! registry, and runs them.
 //!
 //! ```text
 //!  crates ─► cargo package ─► *.crate ─► unpacked ─┐
@@ -14,8 +14,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// Packs the crates, builds the programs and runs them. With `--time`, they are release builds, and
-/// `peers` is timed.
+/// Packs the crates, builds the programs and runs them. With `--time`, they are built in release
+/// mode, and `peers` is timed.
 pub fn run_strangers(flags: &[String]) -> Outcome {
     let is_timed = flags.iter().any(|flag| flag == "--time");
     let folder = target_folder().join("strangers");

@@ -9,7 +9,7 @@ pub fn project_root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
 }
 
-/// Returns Cargo's target folder when it runs in the workspace root.
+/// Returns the target folder that Cargo uses in the workspace root.
 pub fn target_folder() -> PathBuf {
     project_root().join(std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into()))
 }

@@ -128,7 +128,7 @@ pub fn to_json(figures: &Figures) -> Value {
     let scenes = figures.scenes.iter().map(|heat| {
         let apart = heat.agreements.iter().map(|found| {
             json!({ "peer": found.peer, "drawn": found.drawn,
-                    "covered_otherwise": found.coverage, "coloured_otherwise": found.color })
+                    "coverage_differs": found.coverage, "color_differs": found.color })
         });
         json!({ "name": heat.scene, "about": heat.about,
                 "contestants": contestants(&heat.series, &["raster", "render"]),

@@ -88,11 +88,11 @@ fn visibility(nl: f64, nv: f64, alpha: f64) -> f64 {
     0.5 / (nl * root(nv) + nv * root(nl)).max(1e-12)
 }
 
-/// Computes E, the fraction of white light from all sides that the lobe reflects to a viewer at
-/// n·v, without Fresnel. It uses the midpoint rule over half-vectors distributed as D n·h.
+/// Computes E, the fraction of white light from all directions that the lobe reflects to a viewer
+/// at n·v, without Fresnel. It uses the midpoint rule over half-vectors distributed as D n·h.
 pub fn directional_albedo(nv: f64, alpha: f64) -> f64 {
     const STEPS: u32 = 48;
-    // Only half a turn is needed, because the other half has the same values.
+    // Half a turn is enough, because the other half has the same values.
     const AZIMUTHS: u32 = 12;
     let turns: [(f64, f64); AZIMUTHS as usize] =
         std::array::from_fn(|index| libm::sincos(PI * (index as f64 + 0.5) / f64::from(AZIMUTHS)));

@@ -115,7 +115,7 @@ fn decode_srgb(code: u8) -> f64 {
     if encoded <= 0.04045 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) }
 }
 
-/// Returns the sRGB code nearest to linear light, which is clamped to the range from 0 to 1.
+/// Clamps linear light to the range from 0 to 1, and returns the nearest sRGB code.
 fn encode_srgb(light: f64) -> u8 {
     let light = light.clamp(0.0, 1.0);
     let encoded = if light <= 0.0031308 {

@@ -18,7 +18,7 @@ const FIRST: [(&str, &str, &str); 4] = [
 /// Documents that other modules convert to pages.
 const ELSEWHERE: [&str; 1] = ["scenes/README.md"];
 
-/// Adds the menu pages that are documents. Guides are a different kind of page.
+/// Adds the documents that have an entry in the menu. Guides are added elsewhere.
 pub fn add_documents(site: &mut Site) -> Outcome {
     let mut listed: Vec<(String, &'static str)> = Vec::new();
     for (path, group, _) in FIRST {
@@ -61,7 +61,7 @@ fn add_document(site: &mut Site, path: &str, group: Option<&'static str>) -> Out
     if let Some((_, _, title)) = FIRST.iter().find(|(first, ..)| *first == path) {
         (*title).clone_into(&mut document.title);
     } else if let Some(name) = crate_name(path) {
-        // Use folder names as titles, because two packages have the same title.
+        // Use folder names as titles, because two READMEs have the same title.
         name.clone_into(&mut document.title);
     }
     site.add_page(&page, group, document);
@@ -93,7 +93,7 @@ pub fn add_linked_files(site: &mut Site) -> Outcome {
     Ok(())
 }
 
-/// Adds a page that lists a folder.
+/// Adds a page that lists the contents of a folder.
 fn add_folder(site: &mut Site, path: &str) -> Outcome {
     let names = names_in(&site.root.join(path))?;
     let items: String =
@@ -109,7 +109,7 @@ fn add_source(site: &mut Site, path: &str, content: &str) {
     site.add_page(&page, None, Document { title: path.to_owned(), html, ..Document::default() });
 }
 
-/// Returns the location of a repository file in the site.
+/// Returns the location in the site of a file or folder of the repository.
 pub fn place_for(root: &Path, path: &str) -> String {
     match path {
         "README.md" => "index.html".into(),
@@ -120,7 +120,7 @@ pub fn place_for(root: &Path, path: &str) -> String {
     }
 }
 
-/// Returns whether a file is a document of the site. Book pages are not: they contain marks that
+/// Returns whether a file is a document of the site. Book pages are not: they contain markup that
 /// only the book's own tool understands, so they are shown as plain text.
 fn is_document(path: &str) -> bool {
     path.ends_with(".md") && !path.starts_with("book/src/")

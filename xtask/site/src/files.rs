@@ -1,5 +1,5 @@
-//! File and folder operations, with error messages that name the path, and repository paths as
-//! strings.
+//! File and folder operations whose error messages name the path, and operations on repository
+//! paths.
 
 use crate::Outcome;
 use std::fs;
@@ -58,7 +58,7 @@ pub fn folder_of(path: &str) -> &str {
 }
 
 /// Resolves a relative path from a folder of the repository, removing `.` and `..`. Returns `None`
-/// if it leaves the repository.
+/// if the path leaves the repository.
 pub fn join(folder: &str, relative: &str) -> Option<String> {
     let mut parts: Vec<&str> = folder.split('/').filter(|part| !part.is_empty()).collect();
     for part in relative.split('/') {

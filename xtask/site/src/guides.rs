@@ -3,8 +3,8 @@
 //! The commands run in a folder that initially contains only the models that the guide links to.
 //! Code blocks have these meanings:
 //!
-//! - `sh` is run by the shell, where `alberti` is the program. Pictures that it writes are shown
-//!   below the block. Both errors and warnings are failures.
+//! - `sh` is run by the shell, where `alberti` is the program. Pictures that the commands write are
+//!   shown below the block. Warnings are failures too.
 //! - `text` directly after an `sh` block is the expected output. A line `…` matches any number of
 //!   lines, and a line that ends in `…` matches any ending.
 //! - A block with a file name after its language, such as `ron two_views.ron`, is written to that
@@ -53,7 +53,7 @@ pub fn run_guides(site: &mut Site, program: &Program) -> Outcome {
 struct GuideRun {
     /// The folder in which the commands run.
     folder: PathBuf,
-    /// Its page in the site.
+    /// The guide's page in the site.
     page: String,
 }
 

@@ -57,8 +57,8 @@ pub fn check_links(folder: &Path) -> Result<LinkReport, String> {
     if faults.is_empty() { Ok(report) } else { Err(faults.join("\n")) }
 }
 
-/// Returns the values of an attribute in all tags. Tags can be found by `<`, because it is escaped
-/// in text.
+/// Returns the values of an attribute in all tags. Every `<` begins a tag, because it is escaped in
+/// text.
 fn values<'a>(text: &'a str, start: &'a str) -> impl Iterator<Item = &'a str> {
     let tags = text.split('<').skip(1).filter_map(|rest| rest.split('>').next());
     tags.filter_map(move |tag| tag.split_once(start)?.1.split('"').next())

@@ -134,7 +134,7 @@ fn heading<'a>(
     Ok(Heading { anchor, text, html })
 }
 
-/// The anchors used so far. A repeated anchor gets a number.
+/// The number of uses of each anchor. A repeated anchor gets a number.
 #[derive(Default)]
 struct Anchors(BTreeMap<String, usize>);
 

@@ -69,7 +69,7 @@ fn scene_document(types: &[&(String, String)]) -> Result<Document, String> {
     to_html(&text, |target| Ok(target.into()))
 }
 
-/// Adds a link to the type in the line for a field, such as `` - `camera`: Camera — … ``.
+/// Turns the types in the line for a field, such as `` - `camera`: Camera — … ``, into links.
 fn with_type_links(line: &str, types: &[&str]) -> String {
     let Some((field, rest)) = line.split_once("`: ") else { return line.into() };
     let Some((kind, about)) = rest.split_once(" — ") else { return line.into() };

@@ -1,4 +1,4 @@
-//! The site under construction: its pages, the location of each repository file in it, and the
+//! The site under construction: its pages, the locations of repository files in the site, and the
 //! files that are yet to be copied.
 
 use crate::files::{self, copy, folder_of, join, relative, write};
@@ -30,7 +30,7 @@ pub struct Site {
     menu: Vec<String>,
     /// The locations of repository files in the site.
     places: BTreeMap<String, String>,
-    /// Repository files that pages link to and that have not been copied yet.
+    /// Repository files that pages link to but that have not been added yet.
     pub wanted: BTreeSet<String>,
 }
 

@@ -7,7 +7,7 @@ use crate::site::Page;
 /// The style sheet of all pages.
 pub const STYLE: &str = include_str!("style.css");
 
-/// The minimum number of sections for which a page has a list of sections.
+/// The minimum number of sections for which a page lists its sections.
 const LISTED_SECTIONS: usize = 3;
 
 /// Returns a whole page. The menu follows the content, so that on narrow screens the content comes

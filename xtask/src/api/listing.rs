@@ -18,7 +18,7 @@ use std::path::Path;
 
 /// Returns the listing of a crate, given the folder with its pages.
 ///
-/// Pages of removed items remain in the folder, so the list of all items decides which exist.
+/// Pages of removed items remain in the folder, so only pages in the list of all items are read.
 pub fn crate_listing(folder: &Path) -> Result<String, String> {
     let all = read_text(&folder.join("all.html"))?;
     let name = folder.file_name().unwrap_or_default().to_string_lossy();

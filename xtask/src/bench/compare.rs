@@ -8,8 +8,8 @@
 //! ```
 //!
 //! Both programs render the same models in turn: old, new, old, new. The output consists of ratios
-//! of times from the same round, because a machine that is slow for a second is slow for both. Each
-//! ratio is a median with its minimum and maximum: new/old for each stage of `--timings`, and
+//! of times from the same round, because a machine that is slow for a second slows both programs.
+//! Each ratio is a median with its minimum and maximum: new/old for each stage of `--timings`, and
 //! on/off for features, styles and threads in either program. Peak memory and wall time are listed
 //! too. A variant that a program refuses, for example because it lacks a flag, is shown as a dash,
 //! and the reason is listed below the table.
@@ -59,11 +59,13 @@ use std::path::{Path, PathBuf};
 
 const USAGE: &str = "bench compare REV [--models DIR|NAME…] [--runs N] [--quick] [--out FOLDER]";
 
-/// The number of rounds, and the number of frames in the turntable.
+/// The number of rounds.
 const RUNS: usize = 5;
+/// The number of frames in the turntable.
 const FRAMES: usize = 120;
-/// The two numbers with `--quick`.
+/// [`RUNS`] with `--quick`.
 const QUICK_RUNS: usize = 3;
+/// [`FRAMES`] with `--quick`.
 const QUICK_FRAMES: usize = 12;
 
 /// The parsed command line.

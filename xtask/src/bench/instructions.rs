@@ -2,8 +2,8 @@
 //!
 //! Times vary; instruction counts from callgrind do not: the same program always gives the same
 //! count. Valgrind presents the same plain processor with AVX2 to every program, even if the real
-//! one has wider instructions. `tests/bench/instructions.txt` contains the counts, each with the
-//! reason for its last change. A count that has risen by more than 3 % fails until it is stored
+//! processor has wider instructions. `tests/bench/instructions.txt` contains the counts, each with
+//! the reason for its last change. A count that has risen by more than 3 % fails until it is stored
 //! with a reason:
 //!
 //! ```text
@@ -79,8 +79,8 @@ pub fn recorded_counts() -> Result<RecordedCounts, String> {
     Ok(RecordedCounts { counts, compiler: table.compiler })
 }
 
-/// Returns the compiler's name and version, without the date. Another compiler generates other
-/// instructions.
+/// Returns the compiler's name and version, without the date. Different compilers generate
+/// different instructions.
 fn compiler_version() -> Result<String, String> {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let version = capture_output(Command::new(rustc).arg("--version").current_dir(project_root()))?;

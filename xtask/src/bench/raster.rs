@@ -1,9 +1,9 @@
 //! `cargo xtask bench raster`: compares the rasterizer with its peers and with the limits of the
 //! machine.
 //!
-//! The measurements are in a separate package, `tests/peers`, which only this command builds. It
-//! prints tables and writes `raster.json` and `raster.svg` to `target/bench`; it never fails
-//! because of a time.
+//! The measurements are in a separate package, `tests/peers`, which only this command builds. The
+//! command prints tables and writes `raster.json` and `raster.svg` to `target/bench`; it never
+//! fails because of a time.
 
 use crate::Outcome;
 use crate::program::{Build, Program, cargo_command, run_command, run_visibly};

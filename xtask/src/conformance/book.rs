@@ -65,7 +65,7 @@ impl BookMarks {
     }
 }
 
-/// Returns the topics in an inventory: the first cells of its tables.
+/// Returns the topics in an inventory: the ids in the first columns of its tables.
 pub fn inventory_topics(text: &str) -> BTreeSet<String> {
     let cells = text.lines().filter_map(|line| line.strip_prefix("| ")?.split(" |").next());
     cells.filter(|cell| is_item_id(cell)).map(str::to_owned).collect()

@@ -20,7 +20,7 @@ impl Item {
         Self { id: id.to_owned(), owners: owners.split_whitespace().collect(), title }
     }
 
-    /// The owners whose tests must be complete: the math crates.
+    /// Returns the owners whose tests must be complete: the math crates.
     pub fn complete_owners(&self) -> impl Iterator<Item = &'static str> {
         self.owners.iter().copied().filter(|owner| crate::tidy::NO_STD.contains(owner))
     }
@@ -28,7 +28,7 @@ impl Item {
 
 /// The topics in the sources.
 pub static ITEMS: LazyLock<Vec<Item>> = LazyLock::new(|| parse_rows(ITEM_ROWS));
-/// The misprints in the sources. A test of a misprint shows that the printed form fails.
+/// The misprints in the sources. A test of a misprint shows that the printed form is wrong.
 pub static MISPRINTS: LazyLock<Vec<Item>> = LazyLock::new(|| parse_rows(MISPRINT_ROWS));
 
 /// The exercises. Each covers an item, and a test of the exercise also counts for the item.

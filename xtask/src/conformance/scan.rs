@@ -18,8 +18,8 @@ pub struct Test {
 }
 
 impl Test {
-    /// Returns the crate whose topics a test covers: `recognition` reads the matrices of
-    /// `projection`, and tests of `explain` and cross-crate tests count for the pipeline.
+    /// Returns the crate whose topics a test covers. Tests of `recognition` count for `projection`;
+    /// tests of `explain` and cross-crate tests count for `pipeline`.
     pub fn owner(&self) -> &str {
         let folder = self.path.strip_prefix("crates/").and_then(|rest| rest.split('/').next());
         match folder {

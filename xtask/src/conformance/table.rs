@@ -38,7 +38,7 @@ pub fn conformance_document(tests: &[Test], marks: Option<&BookMarks>) -> String
     text
 }
 
-/// Writes a line for each file with a test of the item, for the vectors, and for missing tests.
+/// Writes a line for each file with a test of the item, and lines for vectors and missing tests.
 fn item_proofs(item: &Item, tests: &[Test], marks: Option<&BookMarks>) -> Vec<String> {
     let mut files: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for test in tests.iter().filter(|test| test.ids.contains(&item.id)) {

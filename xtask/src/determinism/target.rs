@@ -8,7 +8,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Another processor, C library, compiler or optimization.
+/// A build configuration to compare with the release build: it differs in processor, C library,
+/// compiler or optimization.
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
     pub name: &'static str,
@@ -35,7 +36,7 @@ enum Compiler {
     WithSources { triple: &'static str, linker: &'static str, packages: &'static str },
 }
 
-/// Settings that reduce optimization. Every change is tested on the emulated processors, and
+/// Compiler flags that reduce optimization. Every change is tested on emulated processors, and
 /// compiling for them takes longer than running on them. The targets `opt-1` and `native` compare
 /// optimizations.
 const QUICK: &[&str] = &["-Copt-level=1", "-Ccodegen-units=16"];
@@ -77,7 +78,7 @@ pub const TARGETS: &[Target] = &[
         },
         flags: QUICK,
         settings: &[],
-        // This processor can run it; the loader only needs the path of its C library.
+        // This machine can run the program; the loader only needs the path of the 32-bit C library.
         runner: &[
             "/usr/i686-linux-gnu/lib/ld-linux.so.2",
             "--library-path",
@@ -86,13 +87,13 @@ pub const TARGETS: &[Target] = &[
     },
     Target {
         name: "musl",
-        about: "x86-64, linked statically with the C library musl",
+        about: "x86-64, linked statically with the musl C library",
         compiler: Compiler::WithSources {
             triple: "x86_64-unknown-linux-musl",
             linker: "musl-gcc",
             packages: "musl-tools",
         },
-        // The compiler's own startup files and libraries for musl are missing, so use GCC's.
+        // The compiler lacks startup files and libraries for musl, so use GCC's.
         flags: &[
             QUICK[0],
             QUICK[1],

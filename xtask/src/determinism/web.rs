@@ -11,7 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// States in addition to the default of each lesson: models with textures, glass, lights and
-/// shadows, and every style of shading.
+/// shadows, and several styles.
 const STATES: &[&str] = &[
     "lesson=model&model=models/teapot.glb",
     "lesson=model&model=models/finishes.glb",

@@ -72,7 +72,7 @@ const SHARED_MODELS: &[&str] = &[
     "meshes/stl/20mm-xyz-cube.stl",
 ];
 
-/// Commands for the program, which run in order in a shared folder that is empty at first.
+/// Commands for the program, which run in parallel in a shared folder that is empty at first.
 pub struct Workload {
     commands: Vec<WorkloadCommand>,
 }

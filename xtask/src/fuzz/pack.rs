@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
 
-/// A model packed into one file.
+/// A model, packed into one file if possible.
 pub struct PackedModel {
     /// The whole file.
     pub file: Vec<u8>,

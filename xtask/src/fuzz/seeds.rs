@@ -174,8 +174,8 @@ fn image_seeds() -> Vec<Vec<u8>> {
     seeds
 }
 
-/// Returns random bytes (SplitMix64), each sequence preceded by the number of a function. There are
-/// fewer than 512 functions.
+/// Returns sequences of random bytes (SplitMix64), each preceded by the number of a function. There
+/// are fewer than 512 functions.
 fn number_seeds() -> Vec<Vec<u8>> {
     let mut state = 0u64;
     let mut word = || {

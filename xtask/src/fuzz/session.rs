@@ -18,7 +18,7 @@ pub struct Session {
     pub is_talkative: bool,
     /// The path of the dictionary.
     pub words: Option<PathBuf>,
-    /// The folder of `seeds`, `corpus` and `artifacts`.
+    /// The folder that contains `seeds`, `corpus` and `artifacts`.
     pub folder: PathBuf,
     /// The limit of the run in minutes of CPU time.
     pub minutes: f64,
@@ -33,9 +33,9 @@ pub struct SessionReport {
     /// The CPU time of all jobs.
     time: Duration,
     executions: u64,
-    /// The coverage: the number of branches reached and, in `features`, of branches distinguished
-    /// by how often they were taken.
+    /// The number of branches reached.
     edges: u64,
+    /// The number of branches, counted once for each range of how often they were taken.
     features: u64,
     corpus: usize,
     /// Inputs that crashed the target or exceeded a limit.
@@ -190,7 +190,7 @@ fn executed_runs(log: &str) -> Option<u64> {
     progress.split_whitespace().next()?.parse().ok()
 }
 
-/// Returns the end of a log without progress lines, starting at the panic if there is one.
+/// Returns a log's last lines, or its lines from the first panic on, without progress lines.
 fn last_lines(log: &str) -> String {
     let lines: Vec<&str> = log.lines().filter(|line| !line.starts_with('#')).collect();
     let last = lines.len().saturating_sub(LAST_LINES);

@@ -1,5 +1,5 @@
-//! Builds the programs in a release, without paths of this machine, so that the bytes depend only
-//! on the sources.
+//! Builds the programs of a release without paths of this machine, so that the bytes depend only on
+//! the sources.
 
 use super::write_file;
 use crate::Outcome;
@@ -70,7 +70,7 @@ impl Compiler {
 
     /// Returns the flags that replace paths of this machine in panic messages.
     fn remapped_paths(&self, sources: &Path, target: &Path) -> String {
-        // If several match, the last one applies.
+        // If several prefixes match, the last one applies.
         let pairs = [
             (cargo_home(), "cargo".to_owned()),
             (sources.to_owned(), "alberti".to_owned()),

@@ -9,7 +9,7 @@ use std::process::Command;
 
 /// A file in a package.
 pub struct PackagedFile {
-    /// Its path below the prefix, which is `usr` in distribution packages.
+    /// The path below the prefix, which is `usr` in distribution packages.
     pub path: String,
     /// Its bytes.
     pub bytes: Vec<u8>,
@@ -33,7 +33,7 @@ const COMPLETIONS: [(&str, &str); 3] = [
 /// The folder for the documents that Debian requires in a package.
 const DOCUMENTS: &str = "share/doc/alberti";
 
-/// Returns all files in a package, most of which the program itself writes.
+/// Returns all files in a package. The program itself writes most of them.
 pub fn packaged_files(program: &Path, notices: &str) -> Result<Vec<PackagedFile>, String> {
     let read = |path: &Path| fs::read(path).map_err(|error| format!("{}: {error}", path.display()));
     let mut files = vec![PackagedFile {

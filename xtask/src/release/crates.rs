@@ -3,10 +3,10 @@
 //! ```text
 //!  sources ─► copy with `publish = true` ─► cargo package --workspace ─► target/package-sources
 //! ```
-//! Cargo packs interdependent crates only if they may be published. The manifests forbid that, to
-//! prevent accidents, so only the copy allows it. Without building, the step takes a second and
-//! finds gaps in manifests. With building, each crate is built from its archive, which also finds
-//! gaps in the archives.
+//! Cargo packs interdependent crates only if they may be published. The manifests forbid
+//! publishing, to prevent accidents, so only the copy allows it. Without building, the step takes a
+//! second and finds gaps in manifests. With building, each crate is built from its archive, which
+//! also finds gaps in the archives.
 
 use super::build::{cargo_home, copy_sources};
 use super::write_file;
@@ -53,7 +53,7 @@ pub fn package_crates(is_built: bool) -> Outcome {
 /// Removes the crates that an earlier run unpacked. Cargo considers crates with the same version
 /// identical, so it would build a new crate against an old one.
 ///
-/// They are in Cargo's folder for crates from a registry without a host.
+/// Cargo keeps them in its folder for registries without a host.
 fn forget_unpacked_crates() -> Outcome {
     let registries = fs::read_dir(cargo_home().join("registry/src")).into_iter().flatten();
     let has_no_host = |entry: &fs::DirEntry| entry.file_name().to_string_lossy().starts_with('-');

@@ -5,7 +5,7 @@
 //!  debootstrap, once ─► copy ─► dpkg --install ─► picture, drawing, completion, thumbnail, manual
 //!                         └──── list of files ──── the same again ◄── dpkg --purge
 //! ```
-//! This needs root and `debootstrap`; without them, it is reported as skipped.
+//! The test needs root and `debootstrap`; without them, it is reported as skipped.
 
 use crate::Outcome;
 use crate::program::{Program, capture_output, run_command};
@@ -29,8 +29,8 @@ const OUTPUTS: [(&str, &str); 2] =
 /// The model for the thumbnail.
 const MODEL: &str = "models/house.glb";
 
-/// Installs, uses and removes a package. Pictures must be identical to the ones rendered outside
-/// the trial system.
+/// Installs, uses and removes a package. Pictures must have the same bytes as outside the trial
+/// system.
 pub fn try_package(deb: &Path, program: &Program) -> Outcome {
     let Some(trial) = new_debian()? else { return Ok(()) };
     let before = trial.files()?;
@@ -59,8 +59,8 @@ struct Trial {
     root: PathBuf,
 }
 
-/// Returns a copy of an empty Debian system, which is created only once, or `None` if it cannot be
-/// created.
+/// Returns a fresh copy of a minimal Debian system, or `None` if that system cannot be created. The
+/// original is created only once.
 fn new_debian() -> Result<Option<Trial>, String> {
     let is_root = capture_output(Command::new("id").arg("-u")).is_ok_and(|id| id.trim() == "0");
     let has_tool = Command::new("debootstrap").arg("--version").output().is_ok();

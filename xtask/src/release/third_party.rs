@@ -23,7 +23,7 @@ pub struct Dependency {
 }
 
 impl Dependency {
-    /// Returns whether it belongs to the project itself.
+    /// Returns whether the crate belongs to the project itself.
     pub fn is_ours(&self) -> bool {
         self.checksum.is_none()
     }

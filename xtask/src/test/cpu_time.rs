@@ -10,8 +10,8 @@ const TICKS_PER_SECOND: f64 = 100.0;
 /// The number of values that each of two threads sorts.
 const NUMBERS: usize = 1_000_000;
 
-/// The cost of [`machine_slowness`] on the reference machine of the budget, in CPU seconds: half
-/// its cost on a machine where a build took 302 s instead of 151 s.
+/// The CPU seconds that [`machine_slowness`] takes on the reference machine of the budget: half of
+/// its time on a machine where a build took 302 s instead of 151 s.
 const REFERENCE_SECONDS: f64 = 1.5;
 
 /// Returns the CPU seconds of this process and of all processes that it has started and waited for,

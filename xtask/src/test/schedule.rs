@@ -31,12 +31,12 @@ pub struct Run {
 /// Runs steps in order. Steps that share the machine may finish in a different order.
 pub fn run_steps(steps: &[&Step], limits: &Limits) -> Result<Run, String> {
     let start = Instant::now();
-    // Read the path before a build replaces this program, because then it would refer to a deleted
+    // Read the path now: after a build replaces this program, the path would refer to a deleted
     // file.
     let program = std::env::current_exe().map_err(|error| error.to_string())?;
     let mut run = Run { reports: Vec::new(), left_out: Vec::new(), seconds: 0.0 };
     let mut running: Vec<RunningStep> = Vec::new();
-    // The output of a single step is shown. With several steps, only failed steps show theirs.
+    // The output of a single step is shown; with several steps, only failures show their output.
     let is_watched = steps.len() == 1;
     let has_failed = |run: &Run| run.reports.iter().any(|report| report.failure.is_some());
     for step in steps {

@@ -12,9 +12,9 @@ use std::time::Instant;
 
 /// A test step.
 pub struct Step {
-    /// The name that selects it on the command line.
+    /// The name that selects the step on the command line.
     pub name: String,
-    /// Its description in the list of steps.
+    /// The description in the list of steps.
     pub about: String,
     /// The tier in which it runs.
     pub tier: Tier,
@@ -36,7 +36,7 @@ pub enum Tier {
 /// Whether other steps may run at the same time.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Sharing {
-    /// No: it uses all cores, mostly for Cargo builds.
+    /// No: the step uses all cores, mostly for Cargo builds.
     Alone,
     /// Yes: another step may run at the same time.
     Shared,
@@ -58,7 +58,7 @@ pub enum Action {
 
 /// The result of a step.
 pub struct StepReport {
-    /// The name that selects it on the command line.
+    /// The name that selects the step on the command line.
     pub name: String,
     /// The wall-clock time in seconds.
     pub seconds: f64,
@@ -66,9 +66,9 @@ pub struct StepReport {
     pub cpu_seconds: f64,
     /// The part of the CPU time spent in compilers.
     pub compile_seconds: f64,
-    /// The reason why it failed.
+    /// The reason why the step failed, if it did.
     pub failure: Option<String>,
-    /// Its skips: lines that begin with `SKIPPED`.
+    /// The skips: lines that begin with `SKIPPED`.
     pub skipped: Vec<String>,
 }
 
@@ -77,7 +77,7 @@ pub struct RunningStep {
     name: String,
     child: Child,
     start: Instant,
-    /// The file for its output, or `None` if the output is visible.
+    /// The file for the output, or `None` if the output is visible.
     log: Option<PathBuf>,
 }
 
@@ -141,8 +141,8 @@ impl Step {
         outcome.and(written.map_err(|error| error.to_string()))
     }
 
-    /// Starts the step in a new process of this program. Its output goes to a file unless it is
-    /// watched.
+    /// Starts the step in a new process of this program. The output is written to a file unless the
+    /// step is watched.
     pub fn start(&self, program: &Path, is_watched: bool) -> Result<RunningStep, String> {
         create_folder(&steps_folder())?;
         let with_name = |error: std::io::Error| format!("{}: {error}", self.name);

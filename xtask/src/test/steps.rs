@@ -115,7 +115,7 @@ fn suite_steps() -> Vec<Step> {
         suite("assemblies", "sheets of models with several parts: a tenth of the models"),
         suite("goldens", "every scene against its golden image, pixel by pixel"),
         suite("schemas", "every JSON document against its JSON Schema"),
-        suite("check", "the diagnostics of `alberti check` against those of the Khronos validator"),
+        suite("check", "the diagnostics of `alberti check` against the Khronos validator's"),
         suite("vectors", "the stage crates against exact answers"),
         suite("meshes", "triangles and bounds of STL, OBJ, PLY and 3MF files against a manifest"),
     ]

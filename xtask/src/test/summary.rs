@@ -96,7 +96,7 @@ fn check_budget(cpu_seconds: f64, slowness: f64) -> Outcome {
     let budget = FIRST_TIER_CPU_SECONDS * slowness;
     println!(
         "the first tier took {cpu_seconds:.0} s of CPU time; its budget here is {budget:.0} s \
-         ({FIRST_TIER_CPU_SECONDS} s times {slowness:.2} for the slower machine)"
+         ({FIRST_TIER_CPU_SECONDS} s times {slowness:.2}, the slowness of this machine)"
     );
     if cpu_seconds <= budget * BUDGET_EXCESS {
         return Ok(());

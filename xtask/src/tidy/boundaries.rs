@@ -26,8 +26,8 @@ const NAMED_BY: &[(&str, &[&str])] = &[
     ("clap", &["crates/alberti/src"]),
 ];
 
-/// The crates from the bottom up, each with the earlier crates that it may depend on: all, unless
-/// there is a list. These are the arrows in the crate map.
+/// The crates from the bottom up. Each may depend on the listed crates or, without a list, on all
+/// earlier crates. These are the arrows in the crate map.
 ///
 /// No stage depends on another stage. `model` does not depend on scenes. `shade`, `drawing` and
 /// `sheet` do not depend on the pipeline that uses them. `hidden-line` does not depend on pictures
@@ -74,8 +74,9 @@ pub const LAYERS: &[(&str, Option<&[&str]>)] = &[
     ("alberti", None),
 ];
 
-/// The stages, and the only third-party packages that they may depend on.
+/// The stages of the viewing pipeline.
 const STAGES: &[&str] = &["homog", "camera", "projection", "clip", "viewport", "raster"];
+/// The only third-party packages that all stages may depend on.
 const STAGE_DEPENDENCIES: &[&str] = &["glam", "libm", "thiserror"];
 
 /// Exceptions: vector instructions for the rasterizer, and the libraries whose types `homog`

@@ -1,8 +1,7 @@
 //! A small lexer that blanks comments and literals in Rust source, so that rules can search only
 //! code.
 
-/// Replaces comments and the contents of string and character literals with spaces. Line numbers do
-/// not change.
+/// Replaces comments, strings and character literals with spaces. Line numbers do not change.
 #[must_use]
 pub fn blank_comments_and_strings(source: &str) -> String {
     let mut rest = source;

@@ -17,7 +17,7 @@ const EMPTY_OPENINGS_LEFT: usize = 300;
 
 /// The file that lists the formulas.
 const FORMULAS: &str = "docs/formulas.md";
-/// Names that look like formula ids.
+/// Names that look like formula ids but are not.
 const NOT_FORMULAS: [&str; 7] =
     ["UTF-8", "UTF-16", "SHA-256", "AVX-512", "ECMA-48", "PDF-1", "SSE-2"];
 
@@ -57,7 +57,7 @@ fn unlisted_ids(sources: &[Source], list: &str) -> Vec<Violation> {
     violations
 }
 
-/// Returns the ids in text: two to five letters or digits, a hyphen and a number.
+/// Returns the ids in text: two to five capital letters or digits, a hyphen and a number.
 fn formula_ids(text: &str) -> impl Iterator<Item = &str> {
     let words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '-' && c != '_');
     words.filter(|word| {
@@ -80,7 +80,7 @@ fn lines_that(sources: &[Source], is_bad: impl Fn(&str) -> bool, message: &str) 
     violations
 }
 
-/// Returns no violations if there are at most `left`, the number of known violations that remain.
+/// Returns the violations if there are more than `left`, the known ones that remain, or else none.
 fn beyond_budget(violations: Vec<Violation>, left: usize) -> Vec<Violation> {
     if violations.len() <= left { Vec::new() } else { violations }
 }

@@ -5,7 +5,7 @@ use crate::program::capture_output;
 use crate::workspace::project_root;
 use std::process::Command;
 
-/// The rule applies to commits after this one.
+/// The last commit to which the rule does not apply.
 const SINCE: &str = "d734859d";
 
 /// The minimum number of changed lines for which a commit needs a body.

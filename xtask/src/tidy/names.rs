@@ -60,7 +60,7 @@ fn crate_name(path: &str) -> Option<&str> {
     rest.starts_with("src/").then_some(name)
 }
 
-/// Returns the name of a type that a line declares at the top level of a module.
+/// Returns the name of the type that a line declares. Associated types do not count.
 fn declared_type(line: &str) -> Option<&str> {
     let mut words = line.split_whitespace().skip_while(|word| word.starts_with("pub"));
     let keyword = words.next()?;

@@ -11,7 +11,7 @@ pub struct Source {
     pub path: String,
     /// The unchanged text of the file.
     pub text: String,
-    /// The lines with comments and string contents blanked out, so that only code remains.
+    /// The lines with comments and literals blanked out, so that only code remains.
     pub code: Vec<String>,
 }
 

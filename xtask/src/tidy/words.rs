@@ -3,13 +3,13 @@
 use super::Violation;
 use super::source::Source;
 
-/// The rules themselves, which must name the words that they forbid.
+/// The folder of the rules, which must name the words that they forbid.
 const EXEMPT: &str = "xtask/src/tidy";
 
 /// Markers of unfinished work, which belongs in an issue or in the README.
 const UNFINISHED: [&str; 3] = ["TODO", "FIXME", "XXX"];
 
-/// Macros that print or abort, which a library must not do.
+/// Macros that print or abort and must not be used in a library.
 const PRINTING: [&str; 7] =
     ["todo!", "dbg!", "println!", "eprintln!", "print!", "eprint!", "unimplemented!"];
 

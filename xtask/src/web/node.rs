@@ -68,7 +68,7 @@ pub fn write_single_file(site: &Path) -> Outcome {
     run_command(node.arg(site).arg(site.join("alberti.html")))
 }
 
-/// Returns the size of a file after `gzip -9`, which is how hosts send it.
+/// Returns the size of a file after `gzip -9`, which is how hosts compress it.
 ///
 /// # Errors
 /// Fails if Node or the file is missing.
@@ -79,7 +79,7 @@ pub fn gzip_size(path: &Path) -> Result<usize, String> {
     text.trim().parse().map_err(|_| format!("Node does not report a size for {}", path.display()))
 }
 
-/// Returns a message if Node is missing.
+/// Returns a message if Node or npm is missing.
 pub fn missing_node() -> Option<String> {
     let has = |program: &str| Command::new(program).arg("--version").output().is_ok();
     let missing = ["node", "npm"].into_iter().find(|program| !has(program))?;

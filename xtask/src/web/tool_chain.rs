@@ -1,8 +1,8 @@
 //! The tool chain that compiles Rust to WebAssembly, with the sources of the standard library.
 //!
 //! The standard library is compiled together with the explorer, which makes the module a sixth
-//! smaller. Panics omit their messages, which nobody would see because the page starts another
-//! worker, and sorting takes less code. The precompiled WebAssembly library from rustup offers
+//! smaller. Sorting takes less code, and panics omit their messages, which nobody would see because
+//! the page then starts another worker. The precompiled WebAssembly library from rustup offers
 //! neither.
 
 use crate::program::capture_output;

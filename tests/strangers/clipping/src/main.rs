@@ -53,7 +53,7 @@ fn main() -> Result<(), clip::VolumeError> {
         .map(|[x, y]| (Point::<Lamp>::new(x, y, -4.0), ()));
     let lit = cone.clip_polygon(&wall);
     let radius = lit.iter().map(|(place, ())| place.x().hypot(place.y())).fold(0.0, f64::max);
-    println!("{} corners, {radius:.4} from the middle", lit.len());
+    println!("{} corners, {radius:.4} from the center", lit.len());
     assert!(lit.len() == 60 && (2.0..2.01).contains(&radius));
     assert_eq!(
         cone.clip_segment([Point::<Lamp>::new(0.0, 0.0, 2.0), Point::new(0.0, 0.0, -2.0)]),

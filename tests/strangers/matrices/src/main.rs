@@ -7,7 +7,7 @@ use projection::{Convention, Decomposed, Fov, Intrinsics, Perspective, decompose
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let lens = Perspective::new(Fov::vertical_degrees(60.0), 1.5, 0.1, 100.0)?;
 
-    // Convert to glam 0.30 through mint, and to nalgebra. Both also provide OpenGL's perspective.
+    // Convert to glam 0.30 through mint, and to nalgebra. Both provide OpenGL's perspective matrix.
     let ours = lens.view_to_clip(Convention::OPENGL);
     let in_glam: glam::DMat4 = mint_of(ours).into();
     let theirs = glam::DMat4::perspective_rh_gl(60_f64.to_radians(), 1.5, 0.1, 100.0);

@@ -1,7 +1,7 @@
-//! Draws one textured mesh with three rasterizers. `ours.rs`, `euc.rs` and `retrofire.rs` are the
-//! same program. Their line counts and pictures are compared and, with `--time`, also their speed,
-//! as the best of several rounds in one process. They are complete programs, which project the
-//! vertices and clear the picture each time.
+//! Draws one textured mesh with three rasterizers. `ours.rs`, `euc.rs` and `retrofire.rs` contain
+//! the same program, which clears the picture and projects the vertices in every round. Line counts
+//! and pictures are compared and, with `--time`, also the best times of several rounds in one
+//! process.
 
 mod euc;
 mod ours;
@@ -46,7 +46,7 @@ fn compare(scene: &Scene) {
         let time =
             format!(", {:.2} ms, {ratio:.2} times the first", best[index].as_secs_f64() * 1e3);
         println!("{name:20} {apart} pixels differ{}", if rounds > 1 { &time } else { "" });
-        // Pixels at the edges of texels and bumps may fall on either side.
+        // Pixels at the edges of texels and bumps may differ.
         assert!(apart < pictures[0].len() / 10, "{name}: {apart}");
     }
     assert!(pictures[0] == pictures[1], "the number of threads changes the picture");

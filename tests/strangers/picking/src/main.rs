@@ -1,5 +1,5 @@
-//! Picks the point under the mouse in the conventions of four interfaces, and checks that the hit
-//! is the same in all of them.
+//! Picks the point under the mouse in five conventions, and checks that the hit is the same in all
+//! of them.
 
 use camera::{
     Camera,

@@ -1,5 +1,5 @@
 //! Draws a shadow map with only the rasterizer: first the depth seen from a light, then a picture
-//! that looks it up.
+//! that looks up this depth.
 
 use camera::{
     Camera,
@@ -47,7 +47,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let place = VertexAttribute::new(&TRIANGLES, &places);
     let is_lit = |p: Point<World>| {
         let [x, y, z, _] = <[f64; 4]>::from(to_map * p);
-        // Pixels and depth in the map; the depth is slightly nearer, to allow for rounding.
+        // The pixel and depth in the map, with the depth moved toward the light to allow for
+        // rounding.
         map.depth(((x + 1.0) * 256.0) as u32, ((1.0 - y) * 256.0) as u32)
             <= ((z + 1.0) / 2.0 + 0.004) as f32
     };

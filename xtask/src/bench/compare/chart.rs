@@ -1,6 +1,6 @@
 //! The chart: a bar for each ratio over all models, extending left or right from a line at 1.
 //!
-//! Positions are logarithmic: half the time is as far from the line as twice the time.
+//! Positions are logarithmic, so half the time is as far from the line as twice the time.
 
 use super::machine::Machine;
 use super::measurement::Measurement;
@@ -10,19 +10,19 @@ use super::variants::Group;
 use std::fmt::Write as _;
 
 const WIDTH: f64 = 900.0;
-/// The ends of the scale.
+/// The x coordinate of the left end of the scale, which extends to [`RIGHT`].
 const LEFT: f64 = 190.0;
 const RIGHT: f64 = 800.0;
 const BAR: f64 = 16.0;
 const HEADING: f64 = 34.0;
-/// The scale extends to this ratio and its inverse; longer bars are cut off there and labeled with
-/// their value.
+/// The scale extends at most to this ratio and its inverse; longer bars are cut off at its ends and
+/// labeled with their value.
 const GREATEST: f64 = 16.0;
 
 const GRAY: &str = "#9a9a9a";
 const BLUE: &str = "#2f6f9f";
 
-/// A ratio with its name.
+/// A bar: a ratio with its name.
 struct Bar<'a> {
     name: &'a str,
     ratio: Option<Spread>,
@@ -100,7 +100,7 @@ fn panel_height(panel: &Panel<'_>) -> f64 {
     HEADING + BAR * panel.bars.len() as f64
 }
 
-/// Returns the smallest power of two for which all medians are on the scale.
+/// Returns the smallest power of two for which all medians are on the scale, at most [`GREATEST`].
 fn scale_end(panels: &[Panel<'_>]) -> f64 {
     let ratios = panels.iter().flat_map(|panel| &panel.bars).filter_map(|bar| bar.ratio);
     let farthest = ratios.map(|ratio| ratio.median.max(1.0 / ratio.median)).fold(1.0, f64::max);

@@ -6,7 +6,7 @@ use super::run::Figures;
 use serde_json::{Map, Value, json};
 
 /// Returns the document. Times are in milliseconds and memory in MiB. A series is a list of rounds,
-/// or an object with the reason why the program refused.
+/// or an object with the reason why the program refused the call.
 pub fn to_json(machine: &Machine, measurements: &[Measurement]) -> Value {
     let rows: Vec<Value> = measurements.iter().map(measurement_json).collect();
     json!({

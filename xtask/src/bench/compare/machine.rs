@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use std::path::Path;
 use std::process::Command;
 
-/// The programs and the machine they ran on.
+/// The compared programs and the machine on which they ran.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Machine {
     /// The old commit: the user's name for it, and its hash.

@@ -15,7 +15,7 @@ use std::process::Command;
 /// The model name of a measurement over all models.
 pub const ALL_MODELS: &str = "all models";
 
-/// Shorter times, in milliseconds, are not compared, because the program prints only two decimals.
+/// Times in milliseconds below this are not compared, because the program prints only two decimals.
 const LEAST_COMPARED: f64 = 0.1;
 
 /// The rounds of a call by one program, or the reason why it refused the call.
@@ -69,7 +69,7 @@ fn figure_in(figures: &Figures, figure: &str) -> Option<f64> {
 #[derive(Debug)]
 pub struct Measurer {
     programs: [TimedProgram; 2],
-    /// The new program.
+    /// The path of the new program.
     path: PathBuf,
     folder: PathBuf,
     runs: usize,
@@ -123,7 +123,7 @@ impl Measurer {
         });
         let turns: Vec<(&TimedProgram, Vec<String>)> = turns.collect();
         let mut series: Vec<Series> = vec![Ok(Vec::new()); turns.len()];
-        // Settings are measured first for each model, when its files may not be cached yet.
+        // Settings come first for each model, when the model's files may not be cached yet.
         let warm_up = usize::from(variant.group == Group::Settings);
         for round in 0..self.runs + warm_up {
             for ((program, arguments), series) in turns.iter().zip(&mut series) {

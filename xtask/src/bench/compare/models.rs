@@ -26,15 +26,15 @@ pub struct BenchModel {
 pub enum ModelSelection {
     /// The default models.
     Default,
-    /// All models in a folder and its subfolders.
+    /// All models in a folder and its direct subfolders.
     Folder(PathBuf),
-    /// Shared models, or scene models.
+    /// Shared models or scene models, by name.
     Names(Vec<String>),
 }
 
 impl ModelSelection {
-    /// Parses the words after `--models`. A single word that names a folder means its contents; any
-    /// other words are model names.
+    /// Parses the words after `--models`. A single word that names a folder selects its contents;
+    /// any other words are model names.
     pub fn parse_words(words: Vec<String>) -> Self {
         match words.as_slice() {
             [] => Self::Default,
@@ -61,8 +61,8 @@ impl ModelSelection {
     }
 }
 
-/// Returns the model folder: the one named by the variable `ASSETS`, or the one next to the
-/// repository.
+/// Returns the folder `models` in the folder that the variable `ASSETS` names or, by default, in
+/// `../shared/assets`.
 fn shared_folder() -> PathBuf {
     let assets = std::env::var_os("ASSETS").unwrap_or_else(|| "../shared/assets".into());
     project_root().join(assets).join("models")
@@ -94,13 +94,13 @@ fn named_model(shared: &Path, name: &str) -> Result<BenchModel, String> {
         .ok_or_else(|| format!("no model `{name}` in {} or scenes/models", shared.display()))
 }
 
-/// Returns the first model in the shared folder with this name.
+/// Returns the first model in the subfolder of the shared folder with this name.
 fn shared_model(shared: &Path, name: &str) -> Option<BenchModel> {
     let path = models_in(&shared.join(name)).ok()?.into_iter().next()?;
     Some(BenchModel { name: name.to_owned(), path })
 }
 
-/// Returns the models in a folder and its subfolders, sorted by name.
+/// Returns the models in a folder and its direct subfolders, sorted by name.
 fn models_below(folder: &Path) -> Result<Vec<BenchModel>, String> {
     let mut paths = models_in(folder)?;
     let entries = std::fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;

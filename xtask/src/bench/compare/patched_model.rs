@@ -79,8 +79,8 @@ impl Bounds {
         }
     }
 
-    /// Returns the distance from which a cone of 0.5 rad around the center contains the whole box:
-    /// 2.5 radii.
+    /// Returns a distance from the center at which a cone with a half-angle of 0.5 rad contains the
+    /// whole box: 2.5 radii.
     fn light_distance(&self) -> f64 {
         let diagonal: f64 = (0..3).map(|i| self.max[i] - self.min[i]).map(|d| d * d).sum();
         1.25 * diagonal.sqrt()

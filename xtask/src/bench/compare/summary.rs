@@ -7,7 +7,7 @@ use super::run::PEAK_MEMORY;
 use super::spread::Spread;
 use super::variants::Group;
 
-/// The measurements of a variant: one, or one per model.
+/// The measurements of a variant, for one model or for all models.
 #[derive(Clone, Debug)]
 pub struct VariantSummary<'a> {
     pub group: Group,
@@ -17,7 +17,7 @@ pub struct VariantSummary<'a> {
 }
 
 impl VariantSummary<'_> {
-    /// Returns whether it has a counterpart, such as the picture without the feature.
+    /// Returns whether the variant has a counterpart, such as the picture without the feature.
     pub fn is_compared(&self) -> bool {
         self.measurements.iter().any(|measurement| measurement.new.off.is_some())
     }
@@ -119,8 +119,8 @@ pub fn summarize<'a>(
     summaries
 }
 
-/// Lists the refusals by a program, each with program, variant, model and reason. If a variant is
-/// refused for the same reason with several models, only the first model is listed.
+/// Lists the refused calls, each with program, model, variant and reason. If a variant is refused
+/// for the same reason with several models, only the first model is listed.
 pub fn refusals(measurements: &[Measurement]) -> Vec<String> {
     let mut seen: Vec<(&str, &str, &str)> = Vec::new();
     let mut lines = Vec::new();

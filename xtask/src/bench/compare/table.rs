@@ -28,7 +28,7 @@ pub fn report(machine: &Machine, measurements: &[Measurement]) -> String {
         text += &section(model, &summarize(measurements, Some(model)), true);
     }
     text += &match models.len() {
-        // Only the batch, because the rest would repeat the figures of the one model.
+        // Show only the batch, because the rest would repeat the figures for this model.
         1 => section(ALL_MODELS, &summarize(measurements, Some(ALL_MODELS)), true),
         _ => section("over all models", &summarize(measurements, None), false),
     };

@@ -61,7 +61,7 @@ const LIGHT_FEATURES: [(Addition, Feature); 3] = [
 const MATERIAL_FEATURES: [(Addition, &str); 2] =
     [(Addition::Transmission, "glass"), (Addition::Iridescence, "iridescence")];
 
-/// The kind of a variant. Each kind has its own section in the tables.
+/// The kind of a variant. Each kind has a separate section in the tables.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Group {
     /// The default settings with each number of samples, listed by stage.

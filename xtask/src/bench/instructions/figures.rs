@@ -8,7 +8,7 @@ use std::path::PathBuf;
 pub struct InstructionCount {
     /// The workload.
     pub name: String,
-    /// The number of instructions of the whole run.
+    /// The number of instructions in the whole run.
     pub count: u64,
     /// The reason for its last change.
     pub reason: String,

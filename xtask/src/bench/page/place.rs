@@ -21,9 +21,9 @@ pub struct Place {
     commit: String,
     date: String,
     euc: String,
-    /// The load before and after the measurement: the number of running threads, averaged over a
-    /// minute.
+    /// The load before the measurement: the number of running threads, averaged over a minute.
     load_before: Option<f64>,
+    /// The load after the measurement.
     pub load_after: Option<f64>,
 }
 
@@ -78,7 +78,7 @@ impl Place {
         text
     }
 
-    /// Returns whether the machine was busy at the start. Afterwards, the load includes this
+    /// Returns whether the machine was busy at the start. The load at the end includes this
     /// measurement itself.
     fn was_busy(&self) -> bool {
         self.load_before.is_some_and(|load| load > BUSY * self.cores as f64)

@@ -33,9 +33,9 @@ pub fn scene(scene: &Value) -> String {
             markdown,
             "\nCompared with {}: coverage differs in {} of {} pixels, color in {}.\n",
             text(&found["peer"]),
-            found["covered_otherwise"],
+            found["coverage_differs"],
             found["drawn"],
-            found["coloured_otherwise"]
+            found["color_differs"]
         );
     }
     markdown
@@ -49,7 +49,7 @@ pub fn contest(title: &str, series: &Value, bases: &[&str]) -> String {
     format!("\n## {title}\n\n{}", contestants(series, bases))
 }
 
-/// Formats times in milliseconds, and as multiples of the base times in the same round.
+/// Formats times in milliseconds and as multiples of the base times in the same round.
 fn contestants(series: &Value, bases: &[&str]) -> String {
     let over: String = bases.iter().map(|base| format!(" × {base} |")).collect();
     let mut markdown = format!("| | ms |{over}\n| --- | --- |{}\n", " --- |".repeat(bases.len()));
