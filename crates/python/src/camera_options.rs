@@ -3,7 +3,7 @@
 use crate::arrays;
 use crate::failure::{Failure, Fallible};
 use crate::keywords::{Keywords, not_a};
-use camera::{CameraAxes, Extrinsics, NamedView};
+use camera::{CameraAxes, CameraError, Extrinsics, NamedView};
 use homog::PixelCenters;
 use projection::Intrinsics;
 use pyo3::prelude::*;
@@ -75,7 +75,7 @@ fn read_extrinsics(options: &Keywords<'_, '_>, rotation: &Bound<'_, PyAny>) -> P
         rows = [0, 1, 2].map(|column| [0, 1, 2].map(|row: usize| rows[row][column]));
     }
     let checked = Extrinsics::new(rows, translation, axes);
-    checked.map_err(|error| Failure::argument("R", error.to_string()))?;
+    checked.map_err(|error| wrong_rotation("R", &error))?;
     let rotation = rotation_file(rows);
     Ok(ViewFile::Extrinsics { rotation, translation: Triple(translation), axes })
 }
@@ -122,8 +122,18 @@ fn read_pose(options: &Keywords<'_, '_>, pose: &Bound<'_, PyAny>) -> PyResult<Vi
     };
     let (rotation, eye) = (rows.map(|[x, y, z, _]| [x, y, z]), rows.map(|row| row[3]));
     let checked = Extrinsics::from_pose(rotation, eye, axes);
-    checked.map_err(|error| Failure::argument("pose", error.to_string()))?;
+    checked.map_err(|error| wrong_rotation("pose", &error))?;
     Ok(ViewFile::Pose { rotation: rotation_file(rotation), eye: Triple(eye), axes })
+}
+
+/// Returns the error for a matrix that is not a rotation, with a way to find the nearest one.
+fn wrong_rotation(argument: &str, error: &CameraError) -> Failure {
+    let failure = Failure::argument(argument, error.to_string());
+    if matches!(error, CameraError::NotRotation { .. }) {
+        return failure
+            .with_help("use the nearest rotation: U, _, Vt = np.linalg.svd(R); R = U @ Vt");
+    }
+    failure
 }
 
 /// Converts a rotation to the form used in scene files.

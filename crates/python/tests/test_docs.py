@@ -82,6 +82,7 @@ def namespace(folder):
         "center": (0, 0, 0),
         "up": (0, 1, 0),
     }
+    names = {**names, "intensity": 3, "inner": 0.1, "outer": 0.5, "a": 0.02}
     return {**names, "fx": 60, "fy": 60, "cx": 32, "cy": 24}
 
 

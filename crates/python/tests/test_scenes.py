@@ -168,6 +168,13 @@ def test_wrong_light_options_are_errors(teapot, options, pointer):
     assert "line 1" not in str(caught.value)
 
 
+def test_unlit_surfaces_show_their_color():
+    wall = square("wall", color=np.array([200, 100, 50], np.uint8), metallic=0.8)
+    camera = alberti.Camera.look_at((1, 2, 4), (0, 0, 0))
+    frame = alberti.render(wall, camera=camera, size=(33, 33), style="unlit", exposure=2)
+    assert frame.rgb[16, 16].tolist() == [200, 100, 50]
+
+
 def test_settings_of_a_scene_that_becomes_a_part_are_reported(models, teapot):
     lit = alberti.load_scene(models.parent / "lights.ron")
     with pytest.warns(alberti.AlbertiWarning, match=r"models\[0\].*lights"):
