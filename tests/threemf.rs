@@ -17,7 +17,7 @@ pub fn encode_3mf(part: &[u8]) -> Vec<u8> {
     file
 }
 
-/// Returns the CRC-32 used in zip archives, with the reflected polynomial 0xEDB88320.
+/// Returns the checksum (CRC) used in zip archives, with the reflected polynomial 0xEDB88320.
 fn checksum(bytes: &[u8]) -> u32 {
     let step = |crc: u32, _| if crc & 1 == 1 { crc >> 1 ^ 0xEDB8_8320 } else { crc >> 1 };
     !bytes.iter().fold(!0, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))

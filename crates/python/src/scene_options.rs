@@ -8,7 +8,6 @@ use pipeline::SceneFile;
 use pyo3::prelude::*;
 use scene::fixed_key_light;
 use scene_file::file::{BackgroundFile, Color, EnvironmentFile, Finite, StyleFile};
-use serde::de::DeserializeOwned;
 
 /// Applies the options of a call to the description of a subject's scene.
 ///
@@ -63,19 +62,24 @@ fn apply_light_options(
             apply_named_light(subject, &name, file)?;
         } else {
             let texts: Vec<String> = lights.extract()?;
-            let read =
-                |(index, text): (usize, &String)| read_json(&format!("lights[{index}]"), text);
+            let read = |(index, text): (usize, &String)| {
+                let light = serde_json::from_str(text);
+                light.map_err(|error| wrong_json(&format!("lights[{index}]"), &error))
+            };
             file.lights = Some(texts.iter().enumerate().map(read).collect::<Fallible<_>>()?);
         }
     }
     if let Some(text) = options.text("environment")? {
-        file.environment = Some(read_json("environment", &text)?);
+        let environment = serde_json::from_str(&text);
+        file.environment = Some(environment.map_err(|error| wrong_json("environment", &error))?);
     }
     if let Some(text) = options.text("shadows")? {
-        file.shadows = Some(read_json("shadows", &text)?);
+        let shadows = serde_json::from_str(&text);
+        file.shadows = Some(shadows.map_err(|error| wrong_json("shadows", &error))?);
     }
     if let Some(text) = options.text("ground")? {
-        file.ground = Some(read_json("ground", &text)?);
+        let ground = serde_json::from_str(&text);
+        file.ground = Some(ground.map_err(|error| wrong_json("ground", &error))?);
     }
     if let Some(stops) = options.number("exposure")? {
         file.image.exposure_ev = Finite::new(stops);
@@ -109,13 +113,11 @@ fn apply_named_light(subject: &Subject, name: &str, file: &mut SceneFile) -> Fal
     }
 }
 
-/// Reads a part of a scene file from JSON.
-fn read_json<T: DeserializeOwned>(argument: &str, text: &str) -> Fallible<T> {
-    serde_json::from_str(text).map_err(|error| {
-        let message = error.to_string();
-        let end = message.rfind(" at line ").unwrap_or(message.len());
-        Failure::argument(argument, &message[..end])
-    })
+/// Returns the error for a part of a scene file in JSON, without its position in the text.
+fn wrong_json(argument: &str, error: &serde_json::Error) -> Failure {
+    let message = error.to_string();
+    let end = message.rfind(" at line ").unwrap_or(message.len());
+    Failure::argument(argument, &message[..end])
 }
 
 /// Reads a background: transparent, the name of a color, or three channels as bytes.

@@ -82,11 +82,8 @@ fn planometric_words(turn: f64, height: f64, z_up: bool, onto_plane: bool) -> St
 fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
     Some(match meaning {
         MatrixMeaning::Perspective { frustum: f, .. } => {
-            format!(
-                "a perspective projection: {}, {}",
-                window_words(f.window()),
-                depth_words(f.near(), f.far())
-            )
+            let (window, depth) = (window_words(f.window()), depth_words(f.near(), f.far()));
+            format!("a perspective projection: {window}, {depth}")
         }
         MatrixMeaning::InversePerspective { frustum: f, .. } => {
             let (window, depth) = (window_words(f.window()), depth_words(f.near(), f.far()));
@@ -123,14 +120,12 @@ fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
             ..
         } => {
             let (window, depth) = (window_words(f.window()), depth_words(f.near(), f.far()));
-            let first = match camera {
-                Some(camera) => {
-                    format!("a camera ({}), a perspective projection", camera_words(camera))
-                }
-                None => "a perspective projection".to_owned(),
-            };
+            let camera = camera.map(|camera| format!("a camera ({}), ", camera_words(&camera)));
+            let camera = camera.unwrap_or_default();
             let viewport = image_words(*size, "", *y_down, *integer_centers);
-            format!("{first} and a viewport in one: {window}, {depth}, {viewport}")
+            format!(
+                "{camera}a perspective projection and a viewport in one: {window}, {depth}, {viewport}"
+            )
         }
         MatrixMeaning::CameraOrthographic { camera, volume: o, .. } => {
             let (window, depth) = (window_words(o.window()), depth_words(o.near(), o.far()));

@@ -338,8 +338,8 @@ def load(
             must not refer to other files.
         name: Name used in messages; a name such as ``part.obj`` also indicates the format.
         up: Up axis of the file; the model is rotated so that it becomes y. By default, coordinates
-            stay as in the file. Use ``z`` for STL and 3MF files that should stand upright; the
-            command-line program does so by default.
+            stay as in the file. Use ``z`` for STL and 3MF files; the command-line program does so by
+            default.
         unit: Unit of length, such as ``millimeter`` or ``meter``; by default the file's unit.
         crease: Maximum angle in degrees between faces that are shaded as one smooth surface if
             the file has no normals; 30 by default.
