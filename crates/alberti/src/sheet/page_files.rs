@@ -25,14 +25,14 @@ impl PageNames {
     /// Parses the file names from an output path.
     ///
     /// # Errors
-    /// If the output has an unknown field, or `{page}` in a PDF, which holds all pages.
+    /// If the name has an unknown field, or if it has `{page}` and is a PDF, which holds all pages.
     pub(super) fn parse(
         input: &Path,
         output: &Path,
         format: OutputFormat,
     ) -> Result<Self, CliError> {
         let name = output.to_string_lossy();
-        // Braces in a name without a field stay unchanged.
+        // In a name without `{page}`, braces stay unchanged.
         let is_template = name.contains("{page");
         if is_template && format == OutputFormat::Pdf {
             let help = "\n  = help: remove {page}; a PDF holds all pages";

@@ -6,7 +6,7 @@ use pipeline::CancelToken;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Time for the rendering to end by itself after cancellation.
+/// The time that a canceled rendering has to end by itself.
 const GRACE: Duration = Duration::from_millis(250);
 
 /// A time limit: a thread that cancels the rendering and then ends the process.
