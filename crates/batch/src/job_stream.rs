@@ -28,7 +28,7 @@ pub(super) struct JobSource<'a> {
 ///
 /// A list is read line by line, so memory use does not grow with its length.
 pub(super) struct JobStream {
-    /// The remaining inputs, and the original number of inputs.
+    /// The jobs of the remaining inputs.
     inputs: std::vec::IntoIter<JobGroup>,
     input_count: usize,
     /// The list, which follows the inputs.
