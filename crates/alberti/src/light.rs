@@ -87,7 +87,7 @@ impl LightArgs {
     /// radius, if it has one.
     ///
     /// # Errors
-    /// If the environment's file does not exist, or if there is no environment to rotate.
+    /// Returns an error if the environment's file is missing, or if no environment can be rotated.
     pub(super) fn apply_to(&self, origin: &Origin, file: &mut SceneFile) -> Result<(), CliError> {
         if let Some(environment) = &self.environment {
             environment.check_file()?;
@@ -175,7 +175,7 @@ fn given_flags(flags: &[(&'static str, bool)]) -> Vec<&'static str> {
 /// The rotation does not affect a uniform environment.
 ///
 /// # Errors
-/// If the scene has no environment.
+/// Returns an error if the scene has no environment.
 fn turn_environment(file: &mut Option<EnvironmentFile>, degrees: f64) -> Result<(), CliError> {
     match file {
         Some(
@@ -263,7 +263,7 @@ impl EnvironmentArg {
 /// file.
 ///
 /// # Errors
-/// If the text is neither a preset nor the name of a `.hdr` file.
+/// Returns an error if the text is neither a preset nor the name of a `.hdr` file.
 fn parse_environment(text: &str) -> Result<EnvironmentArg, String> {
     let path = PathBuf::from(text);
     match text {

@@ -31,7 +31,7 @@ const MAX_WARNINGS: usize = 8;
 /// Results are therefore printed as a whole, not piece by piece.
 ///
 /// # Errors
-/// If writing fails for a reason other than a closed pipe.
+/// Returns an error if writing fails for a reason other than a closed pipe.
 pub(crate) fn print_stdout(bytes: &[u8]) -> Result<(), CliError> {
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
@@ -112,8 +112,8 @@ fn color_length(text: &str) -> Option<usize> {
 /// Prints `LEVEL: MESSAGE` on the standard error stream.
 ///
 /// The level is `error`, `warning` or a word of the command, such as `failed` in `batch`;
-/// [`color::style_level`] colors it. Only messages about scene files are colored. Further lines of
-/// a message have no prefix.
+/// [`color::style_level`] colors it. The message itself is colored only if it is about a scene
+/// file. Further lines of a message have no prefix.
 pub(crate) fn print_message(level: &str, message: &str) {
     let colored = color::stderr_has_color();
     let level = color::style_level(level, colored);

@@ -48,7 +48,7 @@ impl ModelStateArgs {
     /// Only the camera moves, as in a sequence: lights stay where the scene's own camera puts them.
     ///
     /// # Errors
-    /// If the keyframes of the camera path are invalid, or if there is no view at that time.
+    /// Returns an error if the keyframes are invalid, or if there is no view at that time.
     pub(crate) fn place_camera(
         &self,
         origin: &Origin,

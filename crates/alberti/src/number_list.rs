@@ -3,7 +3,7 @@
 /// Parses a list of numbers such as `1, -2/3, 0.5` or `[1 0 0 4] [0 1 0 2]`.
 ///
 /// # Errors
-/// If something between the separators is not a finite number.
+/// Returns an error if something between the separators is not a finite number.
 pub(crate) fn parse_number_list(text: &str) -> Result<Vec<f64>, String> {
     let between = |c: char| c.is_whitespace() || "[](){},;|".contains(c);
     text.split(between).filter(|word| !word.is_empty()).map(parse_number).collect()

@@ -18,7 +18,7 @@ use std::path::Path;
 /// The progress line is removed before the first warning.
 ///
 /// # Errors
-/// If the output cannot be written; in that case, no warnings are printed.
+/// Returns an error if the output cannot be written; in that case, no warnings are printed.
 pub(super) fn finish_panels(
     output: &Path,
     panels: &Panels,
@@ -32,7 +32,7 @@ pub(super) fn finish_panels(
     Ok(())
 }
 
-/// Writes panels as HTML or a page; if the extension is unsupported, no file is written.
+/// Writes panels as HTML or as one page; if the extension is unsupported, no file is written.
 pub(super) fn write_panels(output: &Path, panels: &Panels) -> Result<(), CliError> {
     if is_html(output) {
         return Ok(pipeline::write_file(output, panels.to_html().as_bytes())?);

@@ -53,7 +53,7 @@ impl PassArgs {
 /// Writes passes to temporary files next to a picture; the caller renames the complete files.
 ///
 /// # Errors
-/// If a file cannot be created or written; the files created so far are then removed.
+/// Returns an error if a file cannot be written; the files created so far are then removed.
 pub(super) fn create_pass_files(
     output: &Path,
     buffers: &[PassBuffer],

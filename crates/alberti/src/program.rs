@@ -39,7 +39,7 @@ pub fn run_program(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 /// Returns a command that starts this program again.
 ///
 /// # Errors
-/// If the system does not report the program's path.
+/// Returns an error if the system does not report the program's path.
 pub(super) fn program_command() -> std::io::Result<Command> {
     if let Some([program, rest @ ..]) = PROGRAM_WORDS.get().map(Vec::as_slice) {
         let mut command = Command::new(program);

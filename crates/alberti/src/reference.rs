@@ -92,7 +92,7 @@ struct ReferenceEntry {
 /// Prints the reference for flags and scene files, a formula, or a schema.
 ///
 /// # Errors
-/// If nothing has the requested name.
+/// Returns an error if nothing has the requested name.
 pub(crate) fn run(args: &FullReferenceArgs, program: Command) -> Result<(), CliError> {
     if let Some(schema) = args.schema {
         return print_stdout(schema.schema_text().as_bytes());

@@ -59,7 +59,7 @@ fn render_all(args: &RenderArgs) -> Result<ExitCode, CliError> {
         let output =
             tasks.first().and_then(|task| task.output.as_deref()).unwrap_or(Path::new("-"));
         let message = format!(
-            "the picture is written to {}, not to the standard output; use `-o -` for that",
+            "the picture is written to {}, not to the standard output; `-o -` writes it there",
             visible_path(output)
         );
         print_message("warning", &message);
@@ -223,7 +223,7 @@ fn print_timings(timings: &Timings) {
 /// no lights. It is an ordinary scene file in memory, so all flags work on both kinds of input.
 ///
 /// # Errors
-/// If the scene or an include cannot be read or parsed, or if it is outside the allowed folders.
+/// Returns an error if the scene or an include is unreadable, invalid, or outside allowed folders.
 pub(super) fn open_input(
     input: &Path,
     options: &ImportOptions,

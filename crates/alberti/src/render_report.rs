@@ -34,7 +34,7 @@ const VERSION: u32 = 1;
 /// 0 to 1.
 ///
 /// # Errors
-/// If a written file cannot be read back, or if the standard output cannot be written.
+/// Returns an error if a file cannot be read back, or if the report cannot be printed.
 pub(super) fn print_report(
     job: &RenderJob<'_>,
     output: &RenderOutput,
@@ -128,7 +128,7 @@ fn models_json(job: &RenderJob<'_>) -> Vec<Value> {
 /// written, and large files need no more memory.
 ///
 /// # Errors
-/// If the file cannot be read.
+/// Returns an error if the file cannot be read.
 fn file_json(path: &Path) -> Result<Value, CliError> {
     let ContentDigest { bytes, sha256 } = ContentDigest::of_reader(&mut File::open(path)?)?;
     let sha256 = to_hexadecimal(&sha256);

@@ -97,7 +97,7 @@ impl SceneOverrideArgs {
     /// resolved.
     ///
     /// # Errors
-    /// If a flag does not fit the scene, such as `--fov` with a parallel projection.
+    /// Returns an error if a flag does not fit the scene, such as `--fov` in a parallel view.
     pub(crate) fn apply_to(&self, origin: &Origin, file: &mut SceneFile) -> Result<(), CliError> {
         if let Some(size) = self.size {
             file.image.size = size;
@@ -141,7 +141,7 @@ impl SceneOverrideArgs {
     /// unless another flag chooses the view.
     ///
     /// # Errors
-    /// If the keyframes of the camera path are invalid, or if there is no view at that time.
+    /// Returns an error if the keyframes are invalid, or if there is no view at that time.
     pub(crate) fn place_camera(
         &self,
         origin: &Origin,

@@ -38,7 +38,7 @@ impl SectionArgs {
 /// The normal need not have unit length.
 ///
 /// # Errors
-/// If the text has another form, if a number is not finite, or if the normal is zero.
+/// Returns an error if the text has another form or a nonfinite number, or if the normal is zero.
 fn parse_section_plane(text: &str) -> Result<SectionFile, String> {
     let fault = || {
         "expected a plane such as x=0.5 or -z=0, or six numbers: a point and the direction to remove".to_owned()

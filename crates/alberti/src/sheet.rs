@@ -213,7 +213,7 @@ fn warnings_of_pages(pages: &[SheetPage]) -> Vec<SheetWarning> {
 /// Returns the input's name with the extension `.pdf`, in the current folder.
 ///
 /// # Errors
-/// If the input's path has no file name, such as `..`.
+/// Returns an error if the input's path has no file name, such as `..`.
 fn default_output(args: &SheetArgs) -> Result<PathBuf, CliError> {
     let stem = args.input.file_stem();
     let stem = stem.ok_or_else(|| CliError::Usage("name the output with -o FILE".to_owned()))?;

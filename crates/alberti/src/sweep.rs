@@ -79,7 +79,7 @@ enum VaryArg {
 /// changes one of its parameters. Models are loaded once for all panels.
 ///
 /// # Errors
-/// If the input is invalid, or if the projection lacks the parameter or its value is out of range.
+/// Returns an error if the input is invalid, or if the parameter is out of range or does not apply.
 pub(crate) fn run(args: &SweepArgs) -> Result<(), CliError> {
     check_panel_output(&args.output)?;
     let progress = Progress::start("loading");

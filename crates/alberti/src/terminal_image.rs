@@ -35,7 +35,7 @@ const ASCII_RAMP: &[u8; 10] = b" .:-=+*#%@";
 /// the keyboard input.
 ///
 /// # Errors
-/// If the standard output cannot be written.
+/// Returns an error if the standard output cannot be written.
 pub(super) fn print_image(painted: &RenderOutput) -> Result<(), CliError> {
     let Some(picture) = &painted.picture else { return Ok(()) };
     let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());

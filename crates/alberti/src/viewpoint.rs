@@ -82,7 +82,7 @@ impl ViewpointArgs {
     /// Replaces the camera fields with the values of the flags.
     ///
     /// # Errors
-    /// If `--fov` is set for a projection without a field of view.
+    /// Returns an error if `--fov` is set for a projection without a field of view.
     pub(crate) fn apply_to(&self, file: &mut CameraFile) -> Result<(), CliError> {
         if self.azimuth.is_some() || self.elevation.is_some() {
             let [azimuth, elevation] =

@@ -12,7 +12,7 @@ use glam::DMat4;
 use projection::Convention;
 use recognition::parse_number;
 
-/// The sentence on near and far for all flags except `--p`, in the help and in messages.
+/// The text on near and far for all flags except `--p`, in the help and in messages.
 pub(super) const DISTANCES: &str = "near and far are distances ahead of the eye, with 0 < near < \
     far. --ortho and --oblique also accept near = 0 and, except with the conventions alberti and \
     chapter, a near plane behind the eye, as in glOrtho's -1,1. For the textbook's coordinates \
@@ -326,8 +326,8 @@ impl BuildArgs {
     /// returns `None` without flags.
     ///
     /// # Errors
-    /// If the number of parameters is wrong, if the builder rejects one, or if a modifier is
-    /// unused.
+    /// Returns an error if the number of parameters is wrong, if the builder rejects one, or if a
+    /// modifier is unused.
     pub(super) fn build(&self, options: BuildOptions) -> Option<Built> {
         (!self.calls.is_empty()).then(|| self.build_product(options))
     }

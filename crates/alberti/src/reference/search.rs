@@ -12,7 +12,7 @@ use scene_file::closest_name;
 /// with a type.
 ///
 /// # Errors
-/// If nothing has that name; the message suggests the most similar name.
+/// Returns an error if nothing has that name; the message suggests the most similar name.
 pub(super) fn find_sections(
     sections: &[ReferenceSection],
     word: &str,

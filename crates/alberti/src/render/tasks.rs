@@ -42,7 +42,7 @@ pub(crate) struct RenderTask {
 /// Plans all pictures, ordered by input, then by view.
 ///
 /// # Errors
-/// If an input is missing, if the template is invalid, or if two pictures would have one name.
+/// Returns an error if an input is missing, or if an output name is invalid or not unique.
 pub(super) fn plan_tasks(args: &RenderArgs) -> Result<Vec<RenderTask>, CliError> {
     refuse_output_as_input(&args.inputs)?;
     refuse_words_as_input(&args.inputs)?;

@@ -24,7 +24,7 @@ pub(crate) struct FmtArgs {
 /// command fails on a syntax error, earlier files have already been formatted.
 ///
 /// # Errors
-/// If a file cannot be read, parsed or written.
+/// Returns an error if a file cannot be read, parsed or written.
 pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, CliError> {
     let mut differ = Vec::new();
     for path in &args.files {

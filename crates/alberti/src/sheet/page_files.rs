@@ -25,7 +25,7 @@ impl PageNames {
     /// Parses the file names from an output path.
     ///
     /// # Errors
-    /// If the name has an unknown field, or if it has `{page}` and is a PDF, which holds all pages.
+    /// Returns an error if a field is unknown, or if the name of a PDF has `{page}`.
     pub(super) fn parse(
         input: &Path,
         output: &Path,
@@ -76,7 +76,7 @@ impl PageNames {
 /// Writes files. None appears under its final name until all have been written.
 ///
 /// # Errors
-/// If a file cannot be written; existing files with these names are then unchanged.
+/// Returns an error if a file cannot be written; existing files are then unchanged.
 pub(super) fn write_all(files: &[(PathBuf, Vec<u8>)]) -> Result<(), CliError> {
     let mut written = Vec::new();
     for (path, bytes) in files {

@@ -25,7 +25,7 @@ impl Deadline {
     /// Starts the timer.
     ///
     /// # Errors
-    /// If the system cannot create the timer thread.
+    /// Returns an error if the system cannot create the timer thread.
     pub(super) fn start(seconds: u32) -> Result<Self, CliError> {
         let deadline = Self { cancel: CancelToken::default(), is_done: Arc::default() };
         let (cancel, is_done) = (deadline.cancel.clone(), Arc::clone(&deadline.is_done));

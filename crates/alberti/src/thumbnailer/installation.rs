@@ -73,7 +73,7 @@ fn escape_value(text: &str) -> String {
 /// Writes both files, updates the database, and reports these steps.
 ///
 /// # Errors
-/// If there is no data folder, or if a file or the database cannot be written.
+/// Returns an error if there is no data folder, or if a file or the database cannot be written.
 pub(super) fn install_files(prefix: Option<&Path>) -> Result<(), CliError> {
     let folder = data_folder(prefix)?;
     let program = std::env::current_exe().map_err(|cause| {
@@ -102,7 +102,7 @@ pub(super) fn install_files(prefix: Option<&Path>) -> Result<(), CliError> {
 /// Removes both files, updates the database, and reports these steps.
 ///
 /// # Errors
-/// If there is no data folder, if a file cannot be removed, or if the database cannot be updated.
+/// Returns an error if there is no data folder, or if a file or the database cannot be changed.
 pub(super) fn remove_files(prefix: Option<&Path>) -> Result<(), CliError> {
     let folder = data_folder(prefix)?;
     let mut done = String::new();
