@@ -1,5 +1,5 @@
-//! A stream of the jobs of a run that belong to this shard: first from inputs and folders, then
-//! from a list.
+//! The stream of this shard's jobs: first the jobs from inputs and folders, then the jobs from a
+//! list.
 
 use super::flag_table::FlagTable;
 use super::inputs::find_jobs;

@@ -88,7 +88,7 @@ pub(super) struct ReportWriter {
 /// A report open for appending.
 struct OpenReport {
     file: File,
-    /// Whether it contains a record.
+    /// Whether the report contains a record.
     has_records: bool,
     /// The time of the last flush to disk.
     synced: Instant,
@@ -142,7 +142,7 @@ impl ReportWriter {
     /// Appends several records in one call.
     ///
     /// # Errors
-    /// Returns an error if they cannot be written; some of them may then be in the report.
+    /// Returns an error if the records cannot be written; the report may then contain some of them.
     pub(super) fn append_records(&self, records: &[JobRecord]) -> Result<(), BatchError> {
         let lines: String = records.iter().map(JobRecord::to_line).collect();
         let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
