@@ -11,7 +11,7 @@
 //!                   ‾‾‾──── lower side, of slope b
 //! ```
 //!
-//! Each side of the pyramid moves inward, with its own slope, until it touches a point. In
+//! Each side of the pyramid moves inward, keeping its slope, until it touches a point. In
 //! coordinates along u, v, w a point (x, y, z) is left of the right side, which has slope r, if x −
 //! ex ≤ r (ez − z), that is, if ex + r ez ≥ x + r z. Only the largest x + r z of all points, R,
 //! matters. For the left side, of slope l, only the smallest x + l z, L, matters. With ex + r ez ≥
@@ -104,7 +104,7 @@ pub struct Framing {
     /// The distance of the nearest point along the gaze, greater than 0, without padding.
     pub near: f64,
     /// The distance of the farthest point along the gaze, without padding. It equals `near` if the
-    /// points lie in one plane.
+    /// points are in one plane.
     pub far: f64,
     /// The constraint that determined the distance.
     pub constraint: FramingConstraint,

@@ -37,7 +37,7 @@ pub struct ParallelFraming {
     /// The distance of the nearest point along the gaze, greater than 0, without padding.
     pub near: f64,
     /// The distance of the farthest point along the gaze, without padding. It equals `near` if the
-    /// points lie in one plane.
+    /// points are in one plane.
     pub far: f64,
     /// The dimension of the picture that determined the size.
     pub constraint: FramingConstraint,
