@@ -62,14 +62,14 @@ const FLAGS: [BuilderFlag; 16] = [
         "L,R,B,T,NEAR,FAR",
         &[Conventions, Reversed],
         build_frustum,
-        "Perspective projection with this window on the near plane, like glFrustum; FAR may be `inf`",
+        "Perspective projection with this window at NEAR, like glFrustum; FAR may be `inf`",
     ),
     flag(
         "moved-apex",
         "L,R,B,T,NEAR,FAR",
         &[Conventions, Reversed],
         build_moved_apex,
-        "Perspective projection of the WebGL lesson, its apex moved behind the window's center",
+        "Perspective projection of the WebGL lesson: the apex moves behind the window's center",
     ),
     flag(
         "intrinsics",
@@ -100,7 +100,7 @@ const FLAGS: [BuilderFlag; 16] = [
         "ALPHA,BETA",
         &[OntoPlane],
         build_axonometric,
-        "Axonometric projection with these angles about y and x in degrees; 45,35.26439 is isometric",
+        "Axonometric projection with angles in degrees about y and x; 45,35.26439 is isometric",
     ),
     flag(
         "n-point",
@@ -114,16 +114,16 @@ const FLAGS: [BuilderFlag; 16] = [
         "EYE,TARGET[,UP]",
         &[Conventions],
         build_look_at,
-        "Camera at EYE that looks at TARGET, with the up direction UP (by default y); --conventions \
-         direct3d makes the world left-handed (XMMatrixLookAtLH)",
+        "Camera at EYE that looks at TARGET, with the up direction UP (by default y); \
+         --conventions direct3d makes the world left-handed (XMMatrixLookAtLH)",
     ),
     flag(
         "look-to",
         "EYE,DIRECTION[,UP]",
         &[Conventions],
         build_look_to,
-        "Camera at EYE that looks along DIRECTION (the gaze), with the up direction UP (by default \
-         y)",
+        "Camera at EYE that looks along DIRECTION (the gaze), with the up direction UP \
+         (by default y)",
     ),
     flag(
         "viewport",

@@ -83,7 +83,7 @@ fn perspective_of(subject: String, frustum: Frustum, options: BuildOptions) -> B
     let matrix = frustum.view_to_clip(volume).raw();
     let formula = perspective_formula(volume, false, frustum.far().is_infinite());
     let note = (volume == Convention::CHAPTER).then_some(
-        "-M_per: w is the distance ahead. The textbook prints the negative, M_per (PE-2), with w = z",
+        "-M_per: w is the distance ahead. The textbook prints the negative, M_per (PE-2): w = z",
     );
     let factors = vec![
         ("shear, the center line onto the line of sight", factors.shear.raw()),
