@@ -78,7 +78,7 @@ fn fields_are_found_by_name_type_and_path() {
 fn the_reference_is_also_available_as_markdown_and_html() {
     let sandbox = Sandbox::new("reference_formats");
     let markdown = sandbox.run(&["reference", "--format", "markdown"]).stdout;
-    assert!(markdown.starts_with("# Reference of Alberti\n\n## alberti\n"), "{markdown}");
+    assert!(markdown.starts_with("# Alberti reference\n\n## alberti\n"), "{markdown}");
     assert!(markdown.contains("\n## Camera\n") && markdown.contains("\n- `view`: View — "));
     let html = sandbox.run(&["scene", "doc", "--format", "html"]).stdout;
     assert!(html.starts_with("<!DOCTYPE html>") && html.trim_end().ends_with("</html>"));

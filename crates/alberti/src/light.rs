@@ -20,14 +20,14 @@ use std::path::PathBuf;
 pub(crate) struct LightArgs {
     /// Environment light: studio, sky, none, or a .hdr file
     ///
-    /// `studio` has strength 0.45, as for models without a scene file. A .hdr file is an
-    /// equirectangular Radiance map.
+    /// `studio` has strength 0.45, as it does for models without a scene file. A .hdr file contains
+    /// an equirectangular map in Radiance format.
     #[arg(long, value_name = "studio|sky|none|FILE", value_parser = parse_environment)]
     environment: Option<EnvironmentArg>,
     /// Rotate the environment by this angle, counterclockwise as seen from above
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, value_parser = parse_rotation)]
     environment_rotation: Option<Finite>,
-    /// Multiply the intensity of all lights by 0 to 1000; the environment keeps its strength
+    /// Multiply the intensity of all lights, but not of the environment, by a factor from 0 to 1000
     ///
     /// --exposure changes all light, including the environment.
     #[arg(long, value_name = "FACTOR", value_parser = parse_light_intensity)]
@@ -72,9 +72,9 @@ enum SwitchArg {
 /// The value of `--ground`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum GroundArg {
-    /// Shadow catcher: invisible except for the shadows on it, which the picture shows completely
+    /// Shadow catcher: invisible except for the shadows on it, all of which fit in the picture
     Shadow,
-    /// The same, but the picture frames only the models, so shadows may extend beyond it
+    /// The same, but only the models are framed, so shadows may extend beyond the picture
     CroppedShadow,
     /// No ground
     None,
@@ -87,7 +87,7 @@ impl LightArgs {
     /// radius, if it has one.
     ///
     /// # Errors
-    /// If there is no environment for `--environment-rotation` to rotate.
+    /// Returns an error if the environment's file is missing, or if no environment can be rotated.
     pub(super) fn apply_to(&self, origin: &Origin, file: &mut SceneFile) -> Result<(), CliError> {
         if let Some(environment) = &self.environment {
             environment.check_file()?;
@@ -153,7 +153,7 @@ impl LightArgs {
         given_flags(&[("--ground", matches!(self.ground, Some(GroundArg::Shadow)))])
     }
 
-    /// Returns the environment map, if the flag names a file; it may be in any folder.
+    /// Returns the path of the environment map if the flag names a file; any folder is allowed.
     ///
     /// A path in a scene file may be untrusted, so it is confined to the scene's folder. A path on
     /// the command line comes from the user, who may read any file.
@@ -175,7 +175,7 @@ fn given_flags(flags: &[(&'static str, bool)]) -> Vec<&'static str> {
 /// The rotation does not affect a uniform environment.
 ///
 /// # Errors
-/// If the scene has no environment.
+/// Returns an error if the scene has no environment.
 fn turn_environment(file: &mut Option<EnvironmentFile>, degrees: f64) -> Result<(), CliError> {
     match file {
         Some(
@@ -202,9 +202,9 @@ fn turn_environment(file: &mut Option<EnvironmentFile>, degrees: f64) -> Result<
 
 /// Enables or disables the shadows of all lights, and keeps the parameters that the scene sets.
 ///
-/// `off` disables them for the scene and for every light that overrides the scene. `on` keeps the
-/// parameters of lights that have shadows, and sets the defaults for other lights. Lights that only
-/// inherit the setting keep inheriting it.
+/// `off` disables them for the scene and for every light that overrides the scene's setting. `on`
+/// keeps the parameters of lights that have shadows, and sets the defaults for other lights. Lights
+/// that only inherit the setting keep inheriting it.
 fn switch_shadows(file: &mut SceneFile, switch: SwitchArg) {
     let switched_shadows = |known: Option<ShadowsFile>| match (switch, known) {
         (SwitchArg::Off, _) => Some(ShadowsFile::Off),
@@ -235,7 +235,7 @@ impl EnvironmentArg {
                 let folder = std::env::current_dir().unwrap_or_default();
                 let name = path.strip_prefix(folder).unwrap_or(path).display();
                 let message = if path.exists() {
-                    format!("--environment {name}: this is not a file; name a .hdr file")
+                    format!("--environment {name}: not a file; specify a .hdr file")
                 } else {
                     format!("--environment {name}: the file does not exist; check the name")
                 };
@@ -263,7 +263,7 @@ impl EnvironmentArg {
 /// file.
 ///
 /// # Errors
-/// If the text is neither a preset nor the name of a `.hdr` file.
+/// Returns an error if the text is neither a preset nor the name of a `.hdr` file.
 fn parse_environment(text: &str) -> Result<EnvironmentArg, String> {
     let path = PathBuf::from(text);
     match text {

@@ -1,8 +1,8 @@
-//! Model loading flags: leniency, allowed folders and limits on input size. Others give what a file
-//! may not specify: the up axis, the unit and the crease angle.
+//! Model loading flags: leniency, allowed folders, limits on input size, and properties that a file
+//! may lack (up axis, unit and crease angle).
 //!
-//! Models are not trusted: without limits, a file of a few kilobytes could demand terabytes. Every
-//! command that loads a model has these flags.
+//! Models are not trusted: without limits, a file of a few kilobytes could demand terabytes of
+//! memory. Every command that loads a model has these flags.
 
 use super::options::option_parser;
 use import::{ImportOptions, Limits};
@@ -30,16 +30,16 @@ pub(crate) struct LoadArgs {
     /// mm for STL and 3MF, m for all others]
     #[arg(long, value_parser = option_parser::<LengthUnit>())]
     pub(crate) unit: Option<LengthUnit>,
-    /// Crease angle, up to which adjacent faces are smooth [default: 30]
+    /// Crease angle: the largest angle at which adjacent faces appear smooth [default: 30]
     ///
-    /// It applies to shading if the file has no normals, and always to the edges of line drawings.
+    /// It always affects the edges of line drawings, but shading only if the file has no normals.
     #[arg(long, value_name = "DEGREES", value_parser = parse_crease_angle)]
     pub(crate) crease: Option<f64>,
     #[command(flatten)]
     limits: LimitArgs,
 }
 
-/// Limits on what an input may demand: one flag for each field of [`Limits`], with the same name.
+/// Limits on the resources an input may use: a flag `--max-…` for each field of [`Limits`].
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Limits (numbers may end in k, M, G, Ki, Mi, Gi, and B for bytes)")]
 struct LimitArgs {
@@ -82,7 +82,7 @@ struct LimitArgs {
 }
 
 impl LoadArgs {
-    /// Returns the options of the `model` crate for these flags.
+    /// Returns the options of the `import` crate for these flags.
     pub(crate) fn import_options(&self) -> ImportOptions {
         ImportOptions {
             limits: self.limits.to_limits(),
@@ -99,7 +99,7 @@ impl LoadArgs {
 impl LoadArgs {
     /// Applies the angle of `--crease` to the edges of a line drawing.
     ///
-    /// A vector file always shows lines, so `draws_lines` changes a surface style to a line style.
+    /// With `draws_lines`, a line style replaces a surface style, because vector files show lines.
     pub(crate) fn apply_crease_to(&self, file: &mut SceneFile, draws_lines: bool) {
         let Some(angle) = self.crease else { return };
         if draws_lines && !matches!(file.style, StyleFile::Lines(_) | StyleFile::Wireframe) {
@@ -112,7 +112,7 @@ impl LoadArgs {
 }
 
 impl LimitArgs {
-    /// Returns the limits for the `model` crate: those set by flags, and defaults for the others.
+    /// Returns the limits for the `import` crate: the flags' values, and defaults for the others.
     ///
     /// A number too large for its limit's type means that there is no limit.
     fn to_limits(&self) -> Limits {
@@ -153,7 +153,7 @@ fn parse_crease_angle(text: &str) -> Result<f64, String> {
 /// instead of `1.5G`.
 ///
 /// # Errors
-/// If the text is not such a number, or exceeds 64 bits.
+/// Returns an error if the text is not such a number, or if the number exceeds 64 bits.
 pub(crate) fn parse_byte_size(text: &str) -> Result<u64, String> {
     let fault = || "expected an integer such as 4096, 64k, 200M, 512MiB or 1GiB".to_owned();
     let start = text.find(|c: char| !c.is_ascii_digit() && c != '_').unwrap_or(text.len());

@@ -48,7 +48,7 @@ pub(crate) fn print_completions(args: &CompletionArgs, program: &Command) -> Res
 /// own `help` command is omitted.
 ///
 /// # Errors
-/// If there is no such command, or a file cannot be written.
+/// Returns an error if there is no such command, or if a file cannot be written.
 pub(crate) fn print_man_pages(args: &ManArgs, program: Command) -> Result<(), CliError> {
     let mut program = program.disable_help_subcommand(true);
     program.build();
@@ -75,7 +75,7 @@ pub(crate) fn print_man_pages(args: &ManArgs, program: Command) -> Result<(), Cl
     print_stdout(&render_man_page(command, &name)?)
 }
 
-/// Writes the page of a command and of its subcommands, recursively, as `NAME.1`.
+/// Writes the pages of a command and, recursively, of its subcommands as `NAME.1`.
 fn write_man_pages(
     command: &Command,
     name: &str,

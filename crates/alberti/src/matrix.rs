@@ -1,8 +1,8 @@
 //! `alberti matrix`: identifies 4x4 and 3x3 matrices, and builds matrices from parameters.
 //!
 //! The numbers come from other programs, logs or books, so any brackets and separators are
-//! accepted. The report names the convention (handedness, depth range, row or column vectors) that
-//! fits them. With a flag such as `--perspective`, the matrix is built instead.
+//! accepted. The report names the matrix's convention (handedness, depth range, row or column
+//! vectors). If a flag such as `--perspective` is set, the matrix is built from parameters instead.
 
 mod build;
 mod builders;
@@ -21,7 +21,7 @@ use homog::HPoint;
 use recognition::{CodeLanguage, GivenMatrix, parse_matrix};
 use std::io::Read as _;
 
-/// The examples of the help.
+/// The examples in the help.
 const EXAMPLES: &str = "\
 Examples:
   alberti matrix 0.9743 0 0 0  0 1.7321 0 0  0 0 -1.002 -0.2002  0 0 -1 0
@@ -58,9 +58,9 @@ pub(crate) struct MatrixArgs {
     /// Sixteen or nine numbers, row by row [default: read from the standard input]
     ///
     /// Brackets and commas between them are ignored, and fractions such as 2/3 are allowed. Source
-    /// code in C, GLSL, Python and Rust is accepted in the form that --code prints. Its mat
-    /// constructors are read column by column, and other code in the order that the comments state,
-    /// by default row by row.
+    /// code in C, GLSL, Python and Rust is accepted in the form that --code prints. Constructors
+    /// such as mat4 are read column by column. Other code is read row by row, unless its comments
+    /// state another order.
     #[arg(allow_hyphen_values = true)]
     numbers: Vec<String>,
     /// Read the numbers column by column, as OpenGL, glTF and glam store them
@@ -72,7 +72,7 @@ pub(crate) struct MatrixArgs {
     /// Print only the matrix, as source code or LaTeX
     #[arg(long, value_name = "LANGUAGE", conflicts_with = "json", value_parser = code_parser())]
     code: Option<CodeLanguage>,
-    /// Map a point by the matrix; add W for a homogeneous point, or W = 0 for a direction
+    /// Map a point with the matrix; add W for a homogeneous point, or W = 0 for a direction
     #[arg(
         long,
         value_name = "X,Y,Z[,W]",
@@ -101,8 +101,8 @@ pub(crate) struct MatrixArgs {
 /// Prints the meaning of a matrix, or the matrix that the parameters describe.
 ///
 /// # Errors
-/// If there are neither sixteen nor nine numbers, a number is not finite, or a parameter is
-/// invalid.
+/// Returns an error if there are neither sixteen nor nine numbers, if a number is not finite, or if
+/// a parameter is invalid.
 pub(crate) fn run(args: &MatrixArgs) -> Result<(), CliError> {
     match flags_after_numbers(&args.numbers) {
         Some(reordered) => run_ordered(&reordered),
@@ -224,14 +224,14 @@ fn explain_built(built: &BuiltMatrix) -> Explanation {
         steps.push(step("inverse", "Inverse", None, inverse));
         "For column vectors, row by row."
     } else {
-        "For column vectors, row by row. A dimension is lost: there is no inverse."
+        "For column vectors, row by row. The matrix is singular, so it has no inverse."
     };
     Explanation { subject: built.subject.clone(), steps, verdict: verdict.to_owned() }
 }
 
-/// Reads the standard input as text, up to a limit that sixteen numbers cannot reach.
+/// Reads the standard input as text, up to a limit far above the length of sixteen numbers.
 ///
-/// Bytes beyond it are not read; surplus numbers cause an error about their count.
+/// Bytes beyond the limit are not read, because surplus numbers are an error anyway.
 fn read_stdin() -> Result<String, CliError> {
     const MAX_BYTES: u64 = 1 << 16;
     let mut bytes = Vec::new();

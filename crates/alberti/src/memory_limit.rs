@@ -8,11 +8,11 @@ use import::Limits;
 /// | --- | --- |
 /// | 1/4 | files, as stored |
 /// | 1/2 | arrays: vertices, indices, contents of 3MF archives |
-/// | 1/3 | texels of 4 bytes; their mip levels need another third of that, 1/9 |
+/// | 1/3 | texels of 4 bytes; their mip levels need a third as much in addition (1/9) |
 ///
 /// The limits on nodes, JSON values and triangles follow from their maximum sizes: 2,048, 256 and
 /// 64 bytes each. The parts add up to more than the total, because no model needs the maximum of
-/// everything; the system stops a model that was crafted to need it.
+/// everything; the system stops a model that was crafted to do so.
 pub(crate) fn import_limits(usual: &Limits, memory: u64) -> Limits {
     let count = |usual: usize, bytes: u64| {
         usize::try_from(memory / bytes).map_or(usual, |most| usual.min(most))
@@ -41,14 +41,14 @@ pub(crate) fn limit_process_memory(memory: u64) {
     let _ = setrlimit(Resource::Data, Rlimit { current, maximum });
 }
 
-/// Other systems have no such limit: the importer's limits must suffice.
+/// Does nothing: other systems have no such limit, so the importer's limits must suffice.
 #[cfg(not(target_os = "linux"))]
 pub(crate) fn limit_process_memory(_memory: u64) {}
 
-/// Parses the memory limit of a program, which needs some memory for itself.
+/// Parses a memory limit, which must leave enough memory for the program itself.
 ///
 /// # Errors
-/// If the text is not a size, or is less than 64 MiB.
+/// Returns an error if the text is not a size, or if the size is less than 64 MiB.
 pub(crate) fn parse_memory_size(text: &str) -> Result<u64, String> {
     let size = crate::load_options::parse_byte_size(text)?;
     if size >= 64 << 20 { Ok(size) } else { Err("the program needs at least 64MiB".to_owned()) }

@@ -3,7 +3,7 @@
 //! A closed pipe, as in `alberti info model.glb | head`, is not an error for either stream.
 //!
 //! The order on the standard error stream is: progress (removed before anything else is printed),
-//! notes such as `--verify` and `--timings`, then warnings, then the error, if any. Nothing on the
+//! notes from flags such as `--timings`, then warnings, then the error, if any. Nothing on the
 //! standard output depends on whether messages are printed, so results can be piped safely.
 //!
 //! Human-readable text shows control characters as codes, because names may come from any file.
@@ -31,7 +31,7 @@ const MAX_WARNINGS: usize = 8;
 /// Results are therefore printed as a whole, not piece by piece.
 ///
 /// # Errors
-/// If writing fails for a reason other than a closed pipe.
+/// Returns an error if writing fails for a reason other than a closed pipe.
 pub(crate) fn print_stdout(bytes: &[u8]) -> Result<(), CliError> {
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
@@ -48,8 +48,8 @@ pub(crate) fn print_text(text: &str) -> Result<(), CliError> {
     print_stdout(without_controls(text, color::stdout_has_color()).as_bytes())
 }
 
-/// Writes a JSON document to the standard output: control characters in its strings are escaped,
-/// which changes none of its values.
+/// Writes a JSON document to the standard output, with the control characters in its strings
+/// escaped, so that all values stay the same.
 ///
 /// # Errors
 /// The same as for [`print_stdout`].
@@ -74,8 +74,8 @@ fn must_be_escaped(character: char) -> bool {
     character != '\n' && is_terminal_control(character)
 }
 
-/// Writes control characters in multi-line text as codes, except for the colors of the program's
-/// own messages if they are `colored`.
+/// Returns multi-line text with control characters shown as codes, except for the colors of the
+/// program's own messages if they are `colored`.
 fn without_controls(text: &str, colored: bool) -> Cow<'_, str> {
     if !text.contains(must_be_escaped) {
         return Cow::Borrowed(text);
@@ -112,8 +112,8 @@ fn color_length(text: &str) -> Option<usize> {
 /// Prints `LEVEL: MESSAGE` on the standard error stream.
 ///
 /// The level is `error`, `warning` or a word of the command, such as `failed` in `batch`;
-/// [`color::style_level`] colors it. Messages are never colored, except those about scene files.
-/// Any further line of the message is printed unchanged.
+/// [`color::style_level`] colors it. The message itself is colored only if it is about a scene
+/// file. Further lines of a message have no prefix.
 pub(crate) fn print_message(level: &str, message: &str) {
     let colored = color::stderr_has_color();
     let level = color::style_level(level, colored);
@@ -144,14 +144,14 @@ pub(crate) fn print_note(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
-/// Prints the warnings of a drawing, then each model's.
+/// Prints the warnings of a drawing, then the warnings of each model.
 ///
 /// Several instances of a model have the same warnings, which are printed once.
 ///
 /// Two files with the same name count as one model here; `check` reports both. The order follows
 /// the scene, so the output is deterministic.
 ///
-/// Warnings about things the picture would not show anyway are omitted. `is_vector` is true if the
+/// Warnings about features that the picture would not show are omitted. `is_vector` is true if the
 /// output has lines regardless of style.
 pub(crate) fn print_warnings<W: Display>(scene: &Scene, drawing: &[W], is_vector: bool) {
     drawing.iter().for_each(|warning| print_message("warning", &warning.to_string()));
@@ -167,7 +167,7 @@ pub(crate) fn print_warnings<W: Display>(scene: &Scene, drawing: &[W], is_vector
     }
 }
 
-/// Whether a picture would show the feature that a warning says is missing.
+/// Whether a picture would show the feature that a warning reports as unsupported.
 ///
 /// Only some styles show materials, and only line drawings show the edges declared in a file.
 fn concerns_picture(scene: &Scene, is_vector: bool, warning: &Diagnostic) -> bool {

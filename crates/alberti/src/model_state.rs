@@ -1,6 +1,6 @@
 //! Flags that choose the state of a model: its glTF scene, material variant, animation and time.
 //!
-//! The flags apply to every model of a scene; scene files can choose the state of each model.
+//! The flags apply to every model of a scene; a scene file can set each model's state separately.
 
 use super::{CliError, print_message};
 use pipeline::{Origin, ResolveError, Scene, SceneFile};
@@ -16,14 +16,14 @@ pub(crate) struct ModelStateArgs {
     /// Material variant of the model (KHR_materials_variants), by name or index
     #[arg(help_heading = "Input", long, value_name = "NAME|INDEX", value_parser = parse_choice)]
     pub(crate) variant: Option<Choice>,
-    /// Animation that poses the model, by name or index [default: the first, with --time]
+    /// Animation that poses the model, by name or index [default: the first if --time is set]
     #[arg(help_heading = "Input", long, value_name = "NAME|INDEX", value_parser = parse_choice)]
     pub(crate) animation: Option<Choice>,
-    /// Time of the animation and of the scene's camera path, in seconds [default: 0, with
-    /// --animation]
+    /// Time of the animation and of the scene's camera path, in seconds [default: 0 if --animation
+    /// is set]
     ///
-    /// For a scene with a camera path, renders the frame that `animate` shows at that time. Models
-    /// move only if the scene or --animation names their animation.
+    /// For a scene with a camera path, the picture is the frame that `animate` shows at that time.
+    /// Models move only if the scene or --animation names their animation.
     #[arg(help_heading = "Input", long, value_name = "SECONDS", value_parser = parse_time, allow_hyphen_values = true)]
     pub(crate) time: Option<Finite>,
 }
@@ -48,7 +48,7 @@ impl ModelStateArgs {
     /// Only the camera moves, as in a sequence: lights stay where the scene's own camera puts them.
     ///
     /// # Errors
-    /// If the keyframes of the camera path are invalid, or there is no view at that time.
+    /// Returns an error if the keyframes are invalid, or if there is no view at that time.
     pub(crate) fn place_camera(
         &self,
         origin: &Origin,
@@ -79,7 +79,7 @@ impl ModelStateArgs {
 
     /// Replaces the fields of a scene's model with the values of the flags.
     ///
-    /// Choosing something that a model lacks is an error when the model is loaded.
+    /// Choosing something that a model lacks causes an error when the model is loaded.
     pub(crate) fn apply_to(&self, model: &mut ModelFile) {
         let replace = |flag: &Option<Choice>, field: &mut Option<Choice>| {
             if flag.is_some() {

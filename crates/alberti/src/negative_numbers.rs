@@ -1,16 +1,16 @@
 //! Negative numbers as values of flags: `--from -1`, `--section -.5,0,0`, `--scale -2`.
 //!
-//! A word that begins with a hyphen looks like a flag. After a flag that takes a value, a word that
-//! continues as a number is its value, so that the flag itself can report an invalid one. The two
-//! are joined to `--from=-1` before the command line is parsed. Words that are not numbers stay
-//! unchanged, for example a flag that follows another whose value was forgotten.
+//! A word that begins with a hyphen looks like a flag. After a flag that takes a value, such a word
+//! is the value if a digit or point follows the hyphen, so that the flag itself can report an
+//! invalid number. The two words are joined, as in `--from=-1`, before the command line is parsed.
+//! Other words stay unchanged, such as a flag that follows another flag whose value was forgotten.
 
 use clap::{Arg, ArgAction, Command};
 use std::ffi::OsString;
 
 /// Returns the words of a command line, with negative numbers joined to the preceding flags.
 ///
-/// The flags are built only if needed, because building them takes most of a short command's time.
+/// The commands are built only if needed, because this takes most of a short command's time.
 pub(crate) fn join_negative_numbers(
     words: impl IntoIterator<Item = OsString>,
     program: impl FnOnce() -> Command,
@@ -76,7 +76,7 @@ mod tests {
         join_negative_numbers(words, Args::command)
     }
 
-    /// Parses every command below this one with each of its flags and a negative number.
+    /// Parses this command and all its subcommands with each of their flags and a negative number.
     fn check_flags(command: &Command, path: &[String], checked: &mut usize) {
         for flag in command.get_arguments() {
             let Some(long) = flag.get_long() else { continue };

@@ -1,9 +1,9 @@
-//! Lists of numbers, as in textbooks: decimals and fractions with commas, spaces or brackets.
+//! Lists of decimals and fractions, separated by commas, spaces or brackets as in textbooks.
 
 /// Parses a list of numbers such as `1, -2/3, 0.5` or `[1 0 0 4] [0 1 0 2]`.
 ///
 /// # Errors
-/// If something between the separators is not a finite number.
+/// Returns an error if something between the separators is not a finite number.
 pub(crate) fn parse_number_list(text: &str) -> Result<Vec<f64>, String> {
     let between = |c: char| c.is_whitespace() || "[](){},;|".contains(c);
     text.split(between).filter(|word| !word.is_empty()).map(parse_number).collect()
@@ -12,7 +12,7 @@ pub(crate) fn parse_number_list(text: &str) -> Result<Vec<f64>, String> {
 /// Parses a list of exactly `N` numbers.
 ///
 /// # Errors
-/// If the count is not `N`, or a number is not finite.
+/// Returns an error if the count is not `N`, or if a number is not finite.
 pub(crate) fn parse_numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     let numbers = parse_number_list(text)?;
     let count = numbers.len();

@@ -9,7 +9,7 @@ use scene_file::options::NamedOption;
 /// Value names that are shorter in flags than in scene files.
 ///
 /// The first name of a pair is [`NamedOption::flag_name`], in kebab case; the second is the only
-/// name that flags accept. Scene files keep the long name, because it is read more often than
+/// name that flags accept. Scene files keep the long name, because they are read more often than
 /// typed.
 const SHORT_NAMES: [(&str, &str); 10] = [
     ("ag-x", "agx"),
@@ -37,8 +37,8 @@ fn flag_name<T: NamedOption>(value: T) -> String {
 /// Parses an option's value by its flag name; help and completions list all values.
 ///
 /// clap rejects a wrong value before the command runs, with the list of possible values and exit
-/// code 2. The final period of a summary is removed: help lines are phrases, reference entries are
-/// sentences.
+/// code 2. The final period of a summary is removed, because help lines are phrases, while
+/// reference entries are sentences.
 ///
 /// ```text
 /// --unit <UNIT>   [possible values: um, mm, cm, m, in, ft]
@@ -49,7 +49,7 @@ where
 {
     let value = |value: &T| {
         let name = flag_name(*value);
-        // As printed on drawings: A4, MM.
+        // Names in capitals are also accepted, as printed on drawings: A4, MM.
         let capitals = name.to_uppercase();
         PossibleValue::new(name).alias(capitals).help(value.summary().trim_end_matches('.'))
     };

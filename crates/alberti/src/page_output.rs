@@ -1,4 +1,4 @@
-//! Output of pages and panels as SVG, PDF, DXF, PNG or HTML, depending on the output's extension.
+//! Output of pages and panels as HTML, SVG, PDF, DXF or a raster image, according to the extension.
 //!
 //! An HTML page contains the panels as inline SVG and refers to no other file. The other formats
 //! put all panels on one page.
@@ -18,7 +18,7 @@ use std::path::Path;
 /// The progress line is removed before the first warning.
 ///
 /// # Errors
-/// If the output cannot be written; in that case, no warnings are printed.
+/// Returns an error if the output cannot be written; in that case, no warnings are printed.
 pub(super) fn finish_panels(
     output: &Path,
     panels: &Panels,
@@ -32,7 +32,7 @@ pub(super) fn finish_panels(
     Ok(())
 }
 
-/// Writes panels as .svg, .pdf, .dxf, .png or .html; for any other extension, no file is touched.
+/// Writes panels as HTML or as one page; if the extension is unsupported, no file is written.
 pub(super) fn write_panels(output: &Path, panels: &Panels) -> Result<(), CliError> {
     if is_html(output) {
         return Ok(pipeline::write_file(output, panels.to_html().as_bytes())?);
@@ -40,7 +40,7 @@ pub(super) fn write_panels(output: &Path, panels: &Panels) -> Result<(), CliErro
     write_page(output, &panels.to_page())
 }
 
-/// Writes a page as .svg, .pdf, .dxf or .png.
+/// Writes a page as SVG, PDF, DXF or a raster image.
 pub(super) fn write_page(output: &Path, page: &Page) -> Result<(), CliError> {
     let format = OutputFormat::from_path(output)?;
     let bytes = match format {
@@ -53,7 +53,7 @@ pub(super) fn write_page(output: &Path, page: &Page) -> Result<(), CliError> {
     Ok(pipeline::write_file(output, &bytes)?)
 }
 
-/// Rejects an output with another extension before any work is done.
+/// Rejects an output with an unsupported extension before any work is done.
 ///
 /// Drawing may take a minute, too long to wait for an error about a misspelled extension.
 pub(super) fn check_panel_output(output: &Path) -> Result<(), CliError> {

@@ -20,8 +20,8 @@ pub(crate) struct PassArgs {
     /// Each holds one property of the nearest surface at the center of each pixel. The depth (along
     /// the view axis) and the distance from the eye are in scene units. The normal and the position
     /// are in world space, the view-normal in view space. The others are uv, barycentric
-    /// coordinates, the id of the triangle, and the index of model, node, mesh and material (from
-    /// 1; 0 is the background). In addition, overdraw counts the fragments of the pixel, and
+    /// coordinates, the id of the triangle, and the indices of the model, node, mesh and material
+    /// (from 1; 0 is the background). In addition, overdraw counts the fragments of the pixel, and
     /// coverage is the fraction of its samples that are covered.
     #[arg(help_heading = "Output", long, value_name = "PASS,…", value_delimiter = ',', value_parser = option_parser::<Pass>())]
     passes: Vec<Pass>,
@@ -50,10 +50,10 @@ impl PassArgs {
     }
 }
 
-/// Writes passes to temporary files next to a picture, to be renamed when all are complete.
+/// Writes passes to temporary files next to a picture; the caller renames the complete files.
 ///
 /// # Errors
-/// If a file cannot be created or written; the files created so far are then removed.
+/// Returns an error if a file cannot be written; the files created so far are then removed.
 pub(super) fn create_pass_files(
     output: &Path,
     buffers: &[PassBuffer],

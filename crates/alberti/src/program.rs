@@ -1,4 +1,4 @@
-//! The command line that starts this program again, for batch workers and to limit memory.
+//! The command line that starts this program again, for batch workers and memory limits.
 
 #[cfg(target_os = "linux")]
 mod supervisor;
@@ -24,7 +24,7 @@ pub fn run_within(
 }
 
 /// Runs the program like [`run`](crate::run). If memory is limited, the command runs in a second
-/// process, so that it ends with a message if it exceeds the limit.
+/// process, so that exceeding the limit causes an error message.
 ///
 /// Use it only in the program itself, because it may start the program again.
 pub fn run_program(arguments: impl IntoIterator<Item = OsString>) -> u8 {
@@ -39,7 +39,7 @@ pub fn run_program(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 /// Returns a command that starts this program again.
 ///
 /// # Errors
-/// If the system does not report the program's path.
+/// Returns an error if the system does not report the program's path.
 pub(super) fn program_command() -> std::io::Result<Command> {
     if let Some([program, rest @ ..]) = PROGRAM_WORDS.get().map(Vec::as_slice) {
         let mut command = Command::new(program);

@@ -28,11 +28,11 @@ const REFRESH_INTERVAL: Duration = Duration::from_millis(100);
 pub(crate) struct Progress {
     /// The channel to the thread that draws the line, and its handle; `None` without a terminal.
     stages: Option<(Sender<&'static str>, JoinHandle<()>)>,
-    /// The finished percentage of the stage.
+    /// The completed percentage of the current stage.
     done: Arc<Percentage>,
 }
 
-/// The finished percentage of a stage; 0 while nothing is counted.
+/// The completed percentage of a stage; 0 if the stage does not report its progress.
 #[derive(Debug, Default)]
 struct Percentage(AtomicU64);
 
@@ -120,7 +120,7 @@ pub(crate) struct ProgressCounter {
     total: usize,
     /// The number of finished jobs.
     done: AtomicUsize,
-    /// When the first job started.
+    /// The time at which counting started.
     begin: Instant,
     /// Whether the line is shown.
     is_visible: bool,

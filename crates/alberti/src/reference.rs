@@ -89,10 +89,10 @@ struct ReferenceEntry {
     inner: Vec<Self>,
 }
 
-/// Prints the reference of the flags and of scene files, a formula, or a schema.
+/// Prints the reference for flags and scene files, a formula, or a schema.
 ///
 /// # Errors
-/// If nothing has the requested name.
+/// Returns an error if nothing has the requested name.
 pub(crate) fn run(args: &FullReferenceArgs, program: Command) -> Result<(), CliError> {
     if let Some(schema) = args.schema {
         return print_stdout(schema.schema_text().as_bytes());
@@ -127,10 +127,10 @@ pub(crate) fn run(args: &FullReferenceArgs, program: Command) -> Result<(), CliE
         },
         None => sections,
     };
-    print_sections(args, "Reference of Alberti", &found)
+    print_sections(args, "Alberti reference", &found)
 }
 
-/// Returns the hint for a word that matches nothing.
+/// The hint for a word that matches nothing.
 const FORMULAS_HINT: &str =
     "\n  = help: `alberti reference formulas` lists the formulas, with their ids";
 
@@ -154,7 +154,7 @@ pub(crate) fn run_fields(args: &ReferenceArgs) -> Result<(), CliError> {
         Some(word) => search::find_sections(&sections, word).map_err(CliError::Usage)?,
         None => sections,
     };
-    print_sections(args, "Reference of scene files", &sections)
+    print_sections(args, "Scene file reference", &sections)
 }
 
 /// Prints sections in the format that the flags select.

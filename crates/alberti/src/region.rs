@@ -7,8 +7,8 @@ use scene_file::file::SceneFile;
 
 /// The rectangle of pixels to render, and the bits per channel.
 ///
-/// A region has exactly the same pixels as that part of the whole picture, so bands rendered on
-/// several machines can be stacked.
+/// The pixels of a region are identical to the same pixels of the whole picture, so bands rendered
+/// on several machines can be stacked.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct RegionArgs {
     /// Bits per channel: 8 or 16
@@ -50,13 +50,13 @@ impl RegionArgs {
         self.crop.is_some() || self.band.is_some()
     }
 
-    /// Returns the rectangle of the picture to render: the crop, or its band.
+    /// Returns the rectangle to render: the crop (by default the whole picture), or a band of it.
     ///
     /// `--band` divides the crop if both are set. `nth_band` counts from 0, the flag from 1. Band
     /// heights differ by at most one row, and together the bands contain every row exactly once.
     ///
     /// # Errors
-    /// If the crop is not inside the picture, or the band has no rows.
+    /// Returns an error if the crop is not inside the picture, or if the band has no rows.
     pub(super) fn resolve_region(&self, image: ImageSpec) -> Result<PixelRect, CliError> {
         let whole = image.pixel_rect();
         let crop = self.crop.unwrap_or(whole);

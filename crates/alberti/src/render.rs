@@ -59,7 +59,7 @@ fn render_all(args: &RenderArgs) -> Result<ExitCode, CliError> {
         let output =
             tasks.first().and_then(|task| task.output.as_deref()).unwrap_or(Path::new("-"));
         let message = format!(
-            "the picture is written to {}, not to the standard output; use `-o -` for that",
+            "the picture is written to {}, not to the standard output; `-o -` writes it there",
             visible_path(output)
         );
         print_message("warning", &message);
@@ -94,14 +94,14 @@ fn render_all(args: &RenderArgs) -> Result<ExitCode, CliError> {
 ///
 /// After the progress line is removed, messages come in a fixed order. The results of `--verify`,
 /// `--timings` and `--show` come first, then the JSON report or the warnings, then the result of
-/// `--compare`. With `--json`, warnings and comparison are part of the report and not repeated.
+/// `--compare`. With `--json`, warnings and comparison are part of the report and are not repeated.
 ///
 /// Times are measured only if they will be printed: the stopwatch is cheap, but not free.
 ///
 /// # Errors
-/// If the input is invalid, flags contradict each other, or a file cannot be written. No output
-/// file has changed in that case, unless `--verify` or `--show` fails, which run after the files
-/// are written.
+/// Returns an error if the input is invalid, if flags contradict each other, or if a file cannot be
+/// written. The output files are then unchanged, except if `--verify`, `--show` or the report fails
+/// after they are written.
 fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
     let progress = Progress::start("loading");
     let is_measured = args.timings || args.json;
@@ -151,8 +151,8 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
     Ok(output.matches_reference(args.json))
 }
 
-/// Compares the scene's line drawing, with hidden lines removed (in `hidden-line/src/visibility`),
-/// with its z-buffer image.
+/// Compares the scene's line drawing without hidden lines (see `hidden-line/src/visibility`) with
+/// the scene's z-buffer image.
 ///
 /// The scene is drawn again without hidden lines, because hidden lines drawn solid or dashed would
 /// count as visible.
@@ -168,7 +168,7 @@ fn verify_drawing(scene: &Scene, threads: usize) -> Result<Agreement, CliError> 
         drawing::draw(&subject, &options, &fill, threads).map_err(pipeline::RenderError::from)?;
     let mut agreement = hidden_line::verify_with_z_buffer(&subject, &drawing.segments)
         .map_err(pipeline::RenderError::from)?;
-    // Interpolated contours run inside facets.
+    // Interpolated contours run inside facets, where the image shows no edge.
     if options.silhouettes == SilhouetteMethod::Interpolated {
         let is_contour = |index: usize| drawing.segments[index].class == EdgeClass::Silhouette;
         agreement.groundless_segments.retain(|(index, _)| !is_contour(*index));
@@ -181,7 +181,7 @@ fn verify_drawing(scene: &Scene, threads: usize) -> Result<Agreement, CliError> 
 ///
 /// The length is the total of all visible lines, in pixels; the percentage is the part behind the
 /// z-buffer's surface. Up to about 0.2% is normal, because the image resolves only a quarter of a
-/// pixel, while the drawing is exact. Lines across flat faces are false, and are reported if there
+/// pixel, while the drawing is exact. Lines across flat faces are errors, and are reported if there
 /// are any.
 fn agreement_message(agreement: &Agreement) -> String {
     let percent = 100.0 * agreement.disagreement_ratio();
@@ -223,7 +223,7 @@ fn print_timings(timings: &Timings) {
 /// no lights. It is an ordinary scene file in memory, so all flags work on both kinds of input.
 ///
 /// # Errors
-/// If the scene or an include cannot be read or parsed, or is outside the allowed folders.
+/// Returns an error if the scene or an include is unreadable, invalid, or outside allowed folders.
 pub(super) fn open_input(
     input: &Path,
     options: &ImportOptions,
@@ -245,7 +245,7 @@ pub(super) fn open_input(
     }
 }
 
-/// Refuses a folder or a missing file; for a missing file, suggests what was probably meant.
+/// Rejects a folder or a missing file; for a missing file, suggests what was probably meant.
 ///
 /// Other reasons why a file cannot be read are detected and explained where it is read.
 fn check_is_file(input: &Path) -> Result<(), CliError> {

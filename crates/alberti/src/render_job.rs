@@ -32,8 +32,8 @@ use std::path::{Path, PathBuf};
 
 /// A resolved scene, with everything else that its output files depend on.
 ///
-/// It borrows everything, because several pictures share the flags, and the report needs the scene
-/// after the files are written.
+/// It borrows the flags and the scene, because several pictures share the flags, and the report
+/// needs the scene after the files are written.
 pub(super) struct RenderJob<'a> {
     /// The flags of the command.
     pub(super) args: &'a RenderArgs,
@@ -79,7 +79,7 @@ impl RenderOutput {
 
 /// An encoded picture that is not yet in place, with its pixels if they are needed.
 struct EncodedPicture {
-    /// The encoded bytes.
+    /// The destination, which contains the encoded bytes.
     sink: PictureSink,
     /// The pixels, if they are compared or shown.
     picture: Option<Picture>,
@@ -120,13 +120,12 @@ impl RenderJob<'_> {
     /// picture is rendered and encoded, then its passes and comparison; all of them exist under
     /// temporary names before the first is renamed.
     ///
-    /// The standard output has no passes and no comparison, because there is no name from which to
-    /// derive their names; [`check_combination`](Self::check_combination) has already rejected
-    /// these flags.
+    /// A picture on the standard output has neither passes nor a comparison, because their names
+    /// derive from its name; [`check_combination`](Self::check_combination) rejects their flags.
     ///
     /// # Errors
-    /// If flags contradict each other, the reference cannot be read, rendering fails, or a file
-    /// cannot be written.
+    /// Returns an error if flags contradict each other, if the reference cannot be read, if
+    /// rendering fails, or if a file cannot be written.
     pub(super) fn write_files(&self, progress: &Progress) -> Result<RenderOutput, CliError> {
         let region = self.args.region.resolve_region(self.scene.image)?;
         self.check_combination()?;
@@ -203,7 +202,7 @@ impl RenderJob<'_> {
 
     /// Converts an I/O error to an error about the destination.
     ///
-    /// Encoders report errors without a path; the message must name the file or standard output.
+    /// Encoders report errors without a path; the message must name the destination.
     fn output_error(&self, cause: std::io::Error) -> CliError {
         match &self.task.output {
             Some(path) => OutputError { path: path.clone(), cause }.into(),
@@ -211,11 +210,10 @@ impl RenderJob<'_> {
         }
     }
 
-    /// Renders and encodes the region: as a PNG of 8 or 16 bits per channel, band by band; in other
-    /// formats, as a whole.
+    /// Renders and encodes the region: band by band for a PNG, as a whole for other formats.
     ///
-    /// The memory needed is one band plus the encoder, whatever the height of the picture; bands
-    /// have the same pixels as the whole picture. `--compare` and `--show` work on an 8-bit copy.
+    /// A PNG needs memory for one band and the encoder, regardless of its height; bands have the
+    /// same pixels as the whole picture. `--compare` and `--show` work on an 8-bit copy.
     ///
     /// Rendering and writing errors arrive as one type and are separated here, so that a full disk
     /// is reported with the file name.
@@ -280,8 +278,8 @@ impl RenderJob<'_> {
     /// Renders the passes and writes them to temporary files next to the picture.
     ///
     /// Passes are rendered separately: they have one property per pixel center and neither overlays
-    /// nor background. Nothing is rendered if no pass is requested. An error drops the created
-    /// files, which removes them.
+    /// nor background. Nothing is rendered if no pass is requested. After an error, the created
+    /// files are dropped, which removes them.
     fn create_pass_files(
         &self,
         output: &Path,

@@ -30,11 +30,11 @@ const VERSION: u32 = 1;
 /// Prints the report on one picture.
 ///
 /// `warnings` are about flags and the line drawing; each model has its own warnings. `milliseconds`
-/// lists the stages in alphabetical order. `share_beyond` is the fraction of differing pixels, 0 to
-/// 1.
+/// lists the stages in alphabetical order. `share_beyond` is the fraction of differing pixels, from
+/// 0 to 1.
 ///
 /// # Errors
-/// If a written file cannot be read back, or the standard output cannot be written.
+/// Returns an error if a file cannot be read back, or if the report cannot be printed.
 pub(super) fn print_report(
     job: &RenderJob<'_>,
     output: &RenderOutput,
@@ -99,8 +99,8 @@ fn camera_json(job: &RenderJob<'_>) -> Value {
 
 /// Returns the model instances, with their primitive counts and warnings.
 ///
-/// A model with several instances has one entry per instance, in the order of the scene. Counts
-/// include every node that draws a mesh.
+/// A model with several instances has one entry per instance, in the order of the scene. A mesh
+/// counts once for every node that draws it.
 fn models_json(job: &RenderJob<'_>) -> Vec<Value> {
     let model = |placed: &model::ModelInstance| {
         let model = &placed.model;
@@ -128,7 +128,7 @@ fn models_json(job: &RenderJob<'_>) -> Vec<Value> {
 /// written, and large files need no more memory.
 ///
 /// # Errors
-/// If the file cannot be read.
+/// Returns an error if the file cannot be read.
 fn file_json(path: &Path) -> Result<Value, CliError> {
     let ContentDigest { bytes, sha256 } = ContentDigest::of_reader(&mut File::open(path)?)?;
     let sha256 = to_hexadecimal(&sha256);

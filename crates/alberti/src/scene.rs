@@ -1,7 +1,7 @@
 //! `alberti scene`: creates, validates, formats and documents scene files.
 //!
-//! Exit codes: `check` exits with 1 if there are errors, `fmt --check` if a file is not formatted;
-//! `init` and `doc` fail only if they cannot do their work.
+//! `check` exits with 1 if there are errors, and `fmt --check` exits with 1 if a file is not
+//! formatted. `init` and `doc` fail only if they cannot do their work.
 
 mod fmt;
 mod init;
@@ -21,13 +21,13 @@ pub(crate) struct SceneArgs {
 /// The subcommands of `alberti scene`.
 #[derive(Debug, Subcommand)]
 enum SceneCommand {
-    /// Validate scenes and their models, with warnings about values that are probably unintended
+    /// Validate scenes and their models, and warn about values that are probably unintended
     Check(check::CheckScenesArgs),
     /// Create a commented scene file for a model
     Init(init::InitArgs),
     /// Format scene files, keeping comments
     Fmt(fmt::FmtArgs),
-    /// Print the reference of scene fields
+    /// Print the reference for scene fields
     Doc(ReferenceArgs),
 }
 

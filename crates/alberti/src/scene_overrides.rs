@@ -63,7 +63,7 @@ pub(crate) struct SceneOverrideArgs {
     pub(crate) viewpoint: ViewpointArgs,
     #[command(flatten)]
     pub(crate) calibrated: CalibratedCameraArgs,
-    /// Draw lines exactly and completely, even if very many surfaces make it slow
+    /// Draw lines exactly and completely, even if many surfaces make this slow
     #[arg(help_heading = "Lines", long)]
     pub(crate) no_line_limits: bool,
     /// Guides drawn over the picture; repeatable
@@ -97,7 +97,7 @@ impl SceneOverrideArgs {
     /// resolved.
     ///
     /// # Errors
-    /// If a flag does not fit the scene, such as `--fov` with a parallel projection.
+    /// Returns an error if a flag does not fit the scene, such as `--fov` in a parallel view.
     pub(crate) fn apply_to(&self, origin: &Origin, file: &mut SceneFile) -> Result<(), CliError> {
         if let Some(size) = self.size {
             file.image.size = size;
@@ -141,7 +141,7 @@ impl SceneOverrideArgs {
     /// unless another flag chooses the view.
     ///
     /// # Errors
-    /// If the keyframes of the camera path are invalid, or there is no view at that time.
+    /// Returns an error if the keyframes are invalid, or if there is no view at that time.
     pub(crate) fn place_camera(
         &self,
         origin: &Origin,
@@ -169,7 +169,7 @@ impl SceneOverrideArgs {
     /// The scene file is returned too, for commands that resolve it again or query it.
     ///
     /// # Errors
-    /// If the input or a file it refers to cannot be read or is invalid.
+    /// Returns an error if the input, or a file that it refers to, cannot be read or is invalid.
     pub(crate) fn open_scene(
         &self,
         input: &Path,
@@ -293,7 +293,7 @@ impl From<OverlayArg> for OverlayFile {
     }
 }
 
-/// Parses a view by its `camera` crate name; `iso` is short for `isometric`.
+/// Parses a view's name in the `camera` crate; `iso` is short for `isometric`.
 ///
 /// Help, completions and errors list the names; an alias is accepted, but not listed.
 pub(super) fn named_view_parser() -> impl TypedValueParser<Value = NamedView> {
@@ -330,7 +330,7 @@ fn parse_background(text: &str) -> Result<BackgroundFile, String> {
     // A shell treats a word that begins with # as a comment.
     let with_hash = format!("#{text}");
     color.ok_or_else(|| match Color::parse(&with_hash) {
-        Some(_) => format!("write '{with_hash}', with quotation marks around it"),
+        Some(_) => format!("write '{with_hash}', with the quotation marks"),
         None => {
             "expected transparent, environment, or a color such as '#f4f1ea' or white".to_owned()
         }
@@ -340,7 +340,7 @@ fn parse_background(text: &str) -> Result<BackgroundFile, String> {
 /// Parses a number of samples for which the rasterizer has a pattern.
 ///
 /// # Errors
-/// For any other number, such as 2, which has no pattern.
+/// Returns an error for any other number, such as 2.
 fn parse_samples(text: &str) -> Result<u32, String> {
     let samples = text.parse().ok().filter(|samples| [1, 4, 8, 16].contains(samples));
     samples.ok_or_else(|| "expected 1, 4, 8 or 16".to_owned())

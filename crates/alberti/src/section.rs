@@ -7,8 +7,8 @@ use scene_file::file::{SceneFile, SectionFile};
 pub(crate) struct SectionArgs {
     /// Cut the models in a line drawing open at a plane; repeatable
     ///
-    /// x=0.5 removes everything with a larger x, -x=0.5 everything with a smaller x. Six numbers,
-    /// such as 0,1,0,1,0,1, are a point on the plane and the direction to remove.
+    /// x=0.5 removes everything with a larger x, and -x=0.5 removes everything with a smaller x.
+    /// Six numbers, such as 0,1,0,1,0,1, are a point on the plane and the direction to remove.
     #[arg(
         help_heading = "Lines",
         long = "section",
@@ -38,7 +38,7 @@ impl SectionArgs {
 /// The normal need not have unit length.
 ///
 /// # Errors
-/// If the text has another form, a number is not finite, or the normal is zero.
+/// Returns an error if the text has another form or a nonfinite number, or if the normal is zero.
 fn parse_section_plane(text: &str) -> Result<SectionFile, String> {
     let fault = || {
         "expected a plane such as x=0.5 or -z=0, or six numbers: a point and the direction to remove".to_owned()

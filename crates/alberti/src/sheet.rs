@@ -1,7 +1,7 @@
 //! `alberti sheet`: orthographic views of a scene or a model on paper, to scale.
 //!
-//! The sheet is one page in a vector format; PNG is a rasterization of the same page. Without a
-//! sheet in the scene file, and for a bare model, all fields have their defaults.
+//! The pages are vector drawings; a PNG is a rasterization of such a page. If the scene file has no
+//! sheet, or if the input is a bare model, all fields have their defaults.
 
 mod assembly;
 mod page_files;
@@ -31,7 +31,7 @@ use viewport::{Paper, Resolution};
 
 /// The resolution of pages written as PNG, in dots per inch.
 ///
-/// An A4 page then has 1240 × 1754 pixels: legible on a screen, and a few hundred kilobytes.
+/// An A4 page then has 1240 × 1754 pixels, is legible on a screen, and takes less than a megabyte.
 pub(super) const DEFAULT_DPI: u32 = 150;
 
 /// Arguments of `alberti sheet`; each flag replaces the field of the scene's `sheet`.
@@ -125,8 +125,8 @@ pub(crate) struct SheetArgs {
 /// The output's extension is checked before the model is loaded.
 ///
 /// # Errors
-/// If the input is invalid, the views do not fit the paper at the requested scale, or the output
-/// cannot be written.
+/// Returns an error if the input is invalid, if the views do not fit the paper at the requested
+/// scale, or if the output cannot be written.
 pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     let output = args.output.clone().map_or_else(|| default_output(args), Ok)?;
     let format = OutputFormat::from_path(&output)?;
@@ -213,7 +213,7 @@ fn warnings_of_pages(pages: &[SheetPage]) -> Vec<SheetWarning> {
 /// Returns the input's name with the extension `.pdf`, in the current folder.
 ///
 /// # Errors
-/// If the input's path has no file name, such as `..`.
+/// Returns an error if the input's path has no file name, such as `..`.
 fn default_output(args: &SheetArgs) -> Result<PathBuf, CliError> {
     let stem = args.input.file_stem();
     let stem = stem.ok_or_else(|| CliError::Usage("name the output with -o FILE".to_owned()))?;
@@ -222,7 +222,7 @@ fn default_output(args: &SheetArgs) -> Result<PathBuf, CliError> {
 
 /// Rasterizes a page at a resolution in dots per inch.
 ///
-/// Other commands with pages use it with [`DEFAULT_DPI`]. The resolution must not depend on the
+/// Other commands with pages call it with [`DEFAULT_DPI`]. The resolution must not depend on the
 /// display: output is the same on every machine.
 pub(super) fn rasterize_page<W>(page: &Page<W>, dpi: u32) -> Result<Picture, CliError> {
     let size = || {

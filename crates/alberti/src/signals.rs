@@ -1,6 +1,6 @@
 //! Termination signals: unfinished files are removed before the program ends.
 
-/// Makes SIGINT, SIGTERM and SIGHUP remove the program's temporary files before they end it.
+/// Makes SIGINT, SIGTERM and SIGHUP remove temporary files before they end the program.
 ///
 /// Call it only in the program itself: inside another program, such as Python, signals are handled
 /// by that program. Signals ignored at the start, as with `nohup`, stay ignored. If no thread can
@@ -26,12 +26,12 @@ pub fn clean_up_on_signals() {
     }
 }
 
-/// Other systems have no such signals.
+/// Does nothing: other systems have no such signals.
 #[cfg(not(unix))]
 pub const fn clean_up_on_signals() {}
 
 /// Whether the process was started with a signal ignored. Only Linux reports this without changing
-/// it; on other systems, no signal counts as ignored.
+/// the signal's action; on other systems, no signal counts as ignored.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -23,7 +23,7 @@ pub(crate) struct SweepArgs {
     /// Parameter to vary
     #[arg(long, value_name = "WHAT")]
     vary: VaryArg,
-    /// First value, in degrees, scene units or as a plain number
+    /// First value, in degrees or scene units, or a plain number
     #[arg(long, value_name = "A", value_parser = parse_number, allow_hyphen_values = true)]
     from: f64,
     /// Last value
@@ -32,7 +32,7 @@ pub(crate) struct SweepArgs {
     /// Number of panels; their values are evenly spaced
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u32).range(1..=64))]
     steps: u32,
-    /// Draw the view volume and eye below each panel, seen from outside
+    /// Draw the view volume and the eye, seen from outside, below each panel
     #[arg(long)]
     view_volumes: bool,
     /// Panels per row [default: chosen for a roughly square page]
@@ -55,7 +55,7 @@ enum VaryArg {
     Fov,
     /// Height of the window of a parallel projection
     Height,
-    /// Aspect ratio of the window; the picture keeps its own, so other values distort it
+    /// Aspect ratio of the window; the picture keeps its aspect ratio, so other values distort it
     Aspect,
     /// Distance of the near plane
     Near,
@@ -79,7 +79,7 @@ enum VaryArg {
 /// changes one of its parameters. Models are loaded once for all panels.
 ///
 /// # Errors
-/// If the input is invalid, or the parameter does not apply to the projection or is out of range.
+/// Returns an error if the input is invalid, or if the parameter is out of range or does not apply.
 pub(crate) fn run(args: &SweepArgs) -> Result<(), CliError> {
     check_panel_output(&args.output)?;
     let progress = Progress::start("loading");

@@ -35,7 +35,7 @@ const ASCII_RAMP: &[u8; 10] = b" .:-=+*#%@";
 /// the keyboard input.
 ///
 /// # Errors
-/// If the standard output cannot be written.
+/// Returns an error if the standard output cannot be written.
 pub(super) fn print_image(painted: &RenderOutput) -> Result<(), CliError> {
     let Some(picture) = &painted.picture else { return Ok(()) };
     let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
@@ -119,7 +119,7 @@ fn half_blocks(picture: &Picture, columns: u32) -> String {
 /// Returns the picture as characters of [`ASCII_RAMP`], by luminance.
 ///
 /// The weights are from Rec. 709: 0.2126 red, 0.7152 green, 0.0722 blue. They are applied to the
-/// encoded values (luma), which is close to perceived lightness.
+/// encoded values, and the result (luma) is close to perceived lightness.
 fn ascii_art(picture: &Picture, columns: u32) -> String {
     let (columns, rows) = fit_columns(picture, columns, 0.5);
     let mut text = String::new();

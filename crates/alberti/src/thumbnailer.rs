@@ -42,7 +42,7 @@ pub(crate) struct ThumbnailerArgs {
     /// Width and height of the picture in pixels
     #[arg(long, value_name = "N", default_value = "256", value_parser = clap::value_parser!(u32).range(1..=4096))]
     size: u32,
-    /// Time limit in seconds; the program then exits without a picture
+    /// Time limit in seconds, after which the program exits without a picture
     #[arg(long, value_name = "N", default_value = "10", value_parser = clap::value_parser!(u32).range(1..=86_400))]
     max_seconds: u32,
     /// Memory limit, at least 64MiB; it also limits the sizes of files, arrays and images
@@ -62,7 +62,7 @@ pub(crate) struct ThumbnailerArgs {
     /// Remove the files that --install writes
     #[arg(long, conflicts_with_all = ["input", "print"])]
     uninstall: bool,
-    /// Folder to install in, such as /usr/local; the files go below DIR/share
+    /// Folder to install in, such as /usr/local; the files are written below DIR/share
     #[arg(long, value_name = "DIR", conflicts_with_all = ["input", "print"])]
     prefix: Option<PathBuf>,
     /// Print one of the two files that --install writes, for packages
@@ -82,7 +82,7 @@ enum InstalledFile {
 /// Renders one thumbnail, or installs, removes or prints the thumbnailer files.
 ///
 /// # Errors
-/// If the input cannot be shown within the limits, or a file cannot be written.
+/// Returns an error if the input cannot be shown within the limits, or if a file cannot be written.
 pub(crate) fn run(args: &ThumbnailerArgs) -> Result<(), CliError> {
     let prefix = args.prefix.as_deref();
     match (&args.input, &args.output) {

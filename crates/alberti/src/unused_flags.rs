@@ -125,7 +125,7 @@ const fn has_shadows(style: Style) -> bool {
     matches!(style, Style::Shaded | Style::Flat)
 }
 
-/// Returns the flag's name for a surface style.
+/// Returns the name of a style as a value of `--style`.
 const fn style_name(style: Style) -> &'static str {
     match style {
         Style::Shaded => "shaded",

@@ -1,4 +1,4 @@
-//! Advice on wrong command lines: flags and values from other programs are translated to their
+//! Advice on wrong command lines: flags and values from other programs are translated into their
 //! counterparts here.
 //!
 //! clap compares words letter by letter, which finds misspellings but misleads otherwise:
@@ -30,7 +30,7 @@ use wrong_value::advise_on_value;
 /// Parses the command line.
 ///
 /// # Errors
-/// If the command line is wrong; the message contains advice.
+/// Returns an error with advice if the command line is wrong.
 pub(crate) fn parse_args(words: &[OsString]) -> Result<Args, Error> {
     let program = help_groups::group_commands(Args::command());
     let parsed = program.try_get_matches_from(words).and_then(|matches| {
@@ -77,7 +77,7 @@ fn advise(mut error: Error, words: &[OsString], program: &Command) -> Error {
     }
 }
 
-/// Returns the message with the user's model instead of the example's.
+/// Returns the message with the name of the user's model instead of the example's.
 fn with_given_model(message: &str, words: &[OsString]) -> String {
     let is_model = |word: &&str| FileFormat::from_extension(Path::new(word)).is_some();
     let words: Vec<&str> = words.iter().filter_map(|word| word.to_str()).collect();
@@ -89,7 +89,7 @@ fn with_given_model(message: &str, words: &[OsString]) -> String {
     }
 }
 
-/// Returns advice on `-hide_banner`, which clap reads as `-h`.
+/// Returns advice on words that clap reads as `-h`, such as `-hide_banner`.
 fn advise_on_help(error: &Error, words: &[OsString], program: &Command) -> Option<String> {
     let is_long = |word: &&str| {
         word.starts_with("-h")
@@ -293,7 +293,7 @@ mod tests {
                 .collect();
             assert!(accepted_value(row.owner, value, render).is_some(), "{value}");
             for word in row.words() {
-                assert!(!names.iter().any(|name| name == word), "{word} is a value itself");
+                assert!(!names.iter().any(|name| name == word), "{word} is already a value");
             }
         }
     }
@@ -313,7 +313,7 @@ mod tests {
             for quoted in help.split('`').skip(1).step_by(2) {
                 let command = quoted.split(" > ").next().unwrap_or(quoted);
                 let words: Vec<&str> = command.split(' ').collect();
-                // The program's own flags, such as `--version`, end it after printing.
+                // Flags such as `--version` print something and end the program.
                 if words.iter().any(|word| ["--help", "--version"].contains(word)) {
                     continue;
                 }

@@ -1,4 +1,4 @@
-//! Camera flags: a direction around the models or a position, the field of view, the zoom.
+//! Camera flags: a direction around the models or a position, the field of view and the zoom.
 
 use super::CliError;
 use super::messages::print_message;
@@ -65,7 +65,7 @@ pub(crate) struct ViewpointArgs {
         requires = "eye"
     )]
     view_up: Option<Triple>,
-    /// Vertical field of view of a perspective, between 0 and 180 [default: 35]
+    /// Vertical field of view of a perspective projection, between 0 and 180 [default: 35]
     #[arg(help_heading = "Camera", long, value_name = "DEGREES", value_parser = parse_field_of_view, conflicts_with = "intrinsics")]
     fov: Option<FieldOfView>,
     /// Magnify the view by this factor, about the center of the picture
@@ -82,7 +82,7 @@ impl ViewpointArgs {
     /// Replaces the camera fields with the values of the flags.
     ///
     /// # Errors
-    /// If `--fov` is set for a projection without a field of view.
+    /// Returns an error if `--fov` is set for a projection without a field of view.
     pub(crate) fn apply_to(&self, file: &mut CameraFile) -> Result<(), CliError> {
         if self.azimuth.is_some() || self.elevation.is_some() {
             let [azimuth, elevation] =
@@ -103,7 +103,7 @@ impl ViewpointArgs {
     }
 }
 
-/// Sets the vertical field of view of a perspective, replacing any other.
+/// Sets the vertical field of view of a perspective projection, replacing any other.
 fn set_field_of_view(file: &mut CameraFile, angle: FieldOfView) -> Result<(), CliError> {
     match file.projection.get_or_insert(ProjectionFile::PERSPECTIVE) {
         ProjectionFile::Perspective {

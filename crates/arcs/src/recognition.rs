@@ -5,10 +5,10 @@ use glam::DVec2;
 /// The minimum number of points in an arc.
 const MIN_ARC_POINTS: usize = 8;
 
-/// Steps of this angle or more are corners.
+/// The angle at and above which a step is a corner.
 const MAX_STEP_DEGREES: f64 = 29.5;
 
-/// The relative tolerance for differences between steps. The grid adds to it.
+/// The relative tolerance for differences between steps. Rounding to the grid adds to it.
 const STEP_TOLERANCE: f64 = 0.02;
 
 /// The maximum radius, as a multiple of the extent of the points. Flatter runs are too uncertain.
@@ -220,8 +220,8 @@ fn fit_circle([a, b, c]: [DVec2; 3]) -> Option<Circle> {
     (doubled != 0.0 && radius.is_finite()).then_some(Circle { center: a + center, radius })
 }
 
-/// Returns the least-squares circle through points (Kåsa 1976). For precision, `about` is a point
-/// near its center.
+/// Returns the least-squares circle through points (Kåsa 1976). For precision, `about` must be near
+/// the center.
 fn best_circle(points: &[DVec2], about: DVec2) -> Option<Circle> {
     let count = points.len() as f64;
     let mean = points.iter().fold(DVec2::ZERO, |sum, point| sum + (*point - about)) / count;
@@ -238,7 +238,7 @@ fn best_circle(points: &[DVec2], about: DVec2) -> Option<Circle> {
     (radius.is_finite() && radius > 0.0).then_some(Circle { center, radius })
 }
 
-/// Returns the angles of the two ends of an arc. The second is larger by the angle of the arc.
+/// Returns the angles of an arc's two endpoints. The second is larger by the angle of the arc.
 fn arc_angles(circle: Circle, [from, to]: [DVec2; 2], bulge: f64) -> [f64; 2] {
     let angle = |point: DVec2| {
         let arm = point - circle.center;
@@ -249,6 +249,5 @@ fn arc_angles(circle: Circle, [from, to]: [DVec2; 2], bulge: f64) -> [f64; 2] {
     [start, start + sweep]
 }
 
-/// The README example, compiled as a documentation test.
 #[cfg(test)]
 mod tests;

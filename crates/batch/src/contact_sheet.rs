@@ -1,7 +1,7 @@
-//! The contact sheet: HTML pages with all pictures and the failures.
+//! The contact sheet: HTML pages with all pictures and failures.
 //!
 //! The pages are static and need no script; pictures load when scrolled into view. A page holds up
-//! to 500 of them, so a browser can open it no matter how many there are in total:
+//! to 500 pictures and failures, so that any browser can open it:
 //!
 //! ```text
 //! index.html  index-2.html  index-3.html …
@@ -97,7 +97,7 @@ impl<'a> ContactSheet<'a> {
         };
     }
 
-    /// Writes the last page, which exists even if there are no records.
+    /// Writes the last page, which exists even without records, and removes surplus pages.
     fn finish(mut self) -> Result<(), BatchError> {
         self.write_page()?;
         (self.page + 1..)
@@ -190,7 +190,7 @@ mod tests {
     use crate::merge::merge_reports;
     use crate::test_records::{ReportFolder, done_record, failed_record};
 
-    /// Returns the page names for a report with this many pictures and failures.
+    /// Writes the sheet of a report with these counts, and returns the names of its pages.
     fn write_sheet(folder: &ReportFolder, done: usize, failed: usize) -> Vec<String> {
         let records: Vec<_> = (0..done)
             .map(|at| done_record(&format!("{at:04}.png"), "k"))

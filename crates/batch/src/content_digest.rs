@@ -1,4 +1,4 @@
-//! File content sizes and SHA-256 hashes, in hexadecimal.
+//! Sizes and SHA-256 hashes of file contents, with hexadecimal text.
 
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;

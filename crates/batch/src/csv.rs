@@ -1,6 +1,6 @@
 //! Comma-separated values (RFC 4180), record by record.
 
-/// A reader for one record, fed line by line: a quoted field may span several lines.
+/// A reader for one record, fed line by line because a quoted field may span several lines.
 #[derive(Debug, Default)]
 pub(super) struct CsvRecord {
     /// The complete fields, and the one being read.

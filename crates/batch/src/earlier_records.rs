@@ -11,21 +11,21 @@ const MAX_TARS: usize = 1 << 16;
 /// The result of a job in an earlier run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum EarlierRecord {
-    /// Its picture was rendered.
+    /// The picture was rendered.
     Done {
         /// The size of the picture.
         bytes: u64,
         /// Whether the picture is in an existing tar file.
         is_in_tar: bool,
     },
-    /// It failed.
+    /// The job failed.
     Failed,
 }
 
 /// The records of earlier runs, by output and key.
 ///
 /// A picture is either a separate file or part of a tar file. An output file holds the picture of
-/// its last record, whatever the key. An older record with another key, for example from other
+/// its last record, regardless of the key. An older record with another key, for example from other
 /// flags, is superseded and no longer counts, even if both pictures have the same size. Tar files
 /// are never rewritten, and each picture in them counts.
 ///
@@ -246,7 +246,7 @@ mod tests {
         let earlier = report(10, done_record("a.png", "red"));
         assert_eq!((earlier.find("a.png", "red"), earlier.find("a.png", "blue")), (DONE, None));
         let earlier = report(11, failed_record("a.png", "green"));
-        assert_eq!(earlier.find("a.png", "red"), DONE, "a failure leaves the picture as it was");
+        assert_eq!(earlier.find("a.png", "red"), DONE, "a failure leaves the picture unchanged");
         let earlier = report(12, done_record("a.png", "blue"));
         assert_eq!((earlier.find("a.png", "red"), earlier.find("a.png", "blue")), (None, DONE));
         assert_eq!(earlier.find("a.png", "green"), Some(EarlierRecord::Failed));

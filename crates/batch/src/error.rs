@@ -1,4 +1,4 @@
-//! Errors that end a batch. Errors in individual jobs are recorded in its report instead.
+//! Errors that end a batch. Errors in individual jobs are recorded in the report instead.
 
 use files::OutputError;
 

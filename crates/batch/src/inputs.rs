@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// The maximum depth of the folder search. No real folder is that deep.
 const MAX_DEPTH: usize = 64;
 
-/// Finds the jobs of all inputs, sorted, so that every shard sees the same order.
+/// Finds and sorts the jobs of all inputs, so that every shard sees the same order.
 ///
 /// A file that is found twice under the same path and name is one job. Files named directly are
 /// accepted with any extension; the importer then reports those it cannot read.
@@ -76,8 +76,8 @@ fn lowercase_extension(path: &Path) -> Option<String> {
 
 /// Adds the files in a list, relative to its folder. Empty lines and `#` comments are skipped.
 ///
-/// Each pair holds the path to read and the name below the output folder. A line is a literal path,
-/// without quotes or escapes; spaces at both ends are removed.
+/// Each pair in `found` holds the path to read and the name below the output folder. A line is a
+/// literal path, without quotes or escapes; spaces at both ends are removed.
 fn add_listed(list: &str, folder: &Path, found: &mut Vec<(PathBuf, PathBuf)>) {
     let lines =
         list.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
@@ -92,7 +92,7 @@ fn add_listed(list: &str, folder: &Path, found: &mut Vec<(PathBuf, PathBuf)>) {
 /// folder is visited once, under its real path if that is below the root. Symbolic links are
 /// followed last, so that the names do not depend on the order on disk.
 struct FolderSearch<'a> {
-    /// The name of a picture is its path below the root, so the output has the same subfolders.
+    /// The folder to search. A picture is named by the model's path below it.
     root: &'a Path,
     /// The visited folders, by their real paths.
     visited: BTreeSet<PathBuf>,

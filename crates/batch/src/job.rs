@@ -13,13 +13,13 @@ pub(super) struct BatchJob {
     pub(super) input: PathBuf,
     /// The picture's path below the output folder, with `/` between its parts.
     pub(super) output: String,
-    /// The scene whose model `{input}` is replaced by the input.
+    /// The scene in which the input replaces the model `{input}`.
     pub(super) scene: Option<PathBuf>,
-    /// The flags of its line, such as `--size=64x64`, which override the command's.
+    /// The flags of the job's line, such as `--size=64x64`, which override the command's.
     pub(super) flags: Vec<String>,
-    /// The line of a list that describes it.
+    /// The list line that describes the job.
     pub(super) line: Option<ListLine>,
-    /// The error in its line, if any; the job then fails with this message before it starts.
+    /// The error in the job's line, if any; the job then fails with this message before it starts.
     pub(super) fault: Option<String>,
 }
 

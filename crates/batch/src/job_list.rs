@@ -5,8 +5,8 @@
 //! {"input": "fox.glb", "pictures": [{"view": "front", "output": "f.png"}, {"view": "top"}]}
 //! ```
 //!
-//! Members that do not belong to the list itself are picture flags. An invalid line becomes a job
-//! that fails; the others run.
+//! Members other than `input`, `output`, `scene`, `bytes` and `pictures` are picture flags. An
+//! invalid line becomes a job that fails; the others run.
 
 use super::csv::CsvRecord;
 use super::job::{BatchJob, JobGroup, ListLine};
@@ -29,9 +29,9 @@ const MAX_LINE_BYTES: u64 = 16 << 20;
 pub(super) struct JobList {
     /// The unread rest of the list.
     reader: Box<dyn BufRead + Send>,
-    /// Its name in messages.
+    /// The list's name in messages.
     name: Arc<str>,
-    /// The context of its lines: folder, scene and name template.
+    /// The context of the lines: folder, scene, name template and flags.
     context: ListContext,
     /// The columns of a CSV file; `None` for JSON lines.
     columns: Option<Vec<String>>,
@@ -46,15 +46,14 @@ pub(super) struct JobList {
 impl JobList {
     /// Opens a list; `-` is the standard input. `flags` are the flags that lines may set.
     ///
-    /// A file whose name ends in `.csv` is read as CSV, any other file as JSON lines. Standard
-    /// input is read as JSON lines if it begins with a brace.
+    /// A file whose name ends in `.csv` is read as CSV, any other file as JSON lines. The standard
+    /// input is read as JSON lines if it begins with a brace, otherwise as CSV.
     ///
-    /// A file is read once beforehand to find lines with the same output. In a pipe, the second of
-    /// two such lines is an error.
+    /// A file is read once beforehand to find lines with the same output. A pipe cannot be read
+    /// twice, so there the second of two such lines becomes a job that fails.
     ///
     /// # Errors
-    /// Returns an error if it cannot be read, a CSV has no column `input`, or two outputs are
-    /// equal.
+    /// Returns an error if the list cannot be read, lacks the column `input`, or repeats an output.
     pub(super) fn open(
         path: &Path,
         scene: Option<PathBuf>,
@@ -72,7 +71,7 @@ impl JobList {
     /// Reads the list to its end and checks its outputs.
     ///
     /// # Errors
-    /// Returns an error if it cannot be read, or two lines have the same output.
+    /// Returns an error if the list cannot be read, or if two lines have the same output.
     fn check_outputs(mut self) -> Result<(), BatchError> {
         let mut outputs = OutputNames::default();
         while let Some((number, members)) = self.next_members()? {
@@ -116,7 +115,7 @@ impl JobList {
             position: (0, length),
             outputs: None,
         };
-        // Standard input has no extension, but JSON lines begin with a brace.
+        // The standard input has no extension, but JSON lines begin with a brace.
         let has_brace = |list: &mut Self| -> Result<bool, BatchError> {
             let start = list.reader.fill_buf().map_err(|cause| list_error(&list.name, &cause))?;
             Ok(start.trim_ascii_start().first().is_none_or(|byte| *byte == b'{'))
@@ -171,7 +170,7 @@ impl JobList {
     /// Returns the next line with its line break, or `None` at the end.
     ///
     /// # Errors
-    /// Returns an error if the list cannot be read, or the line is too long.
+    /// Returns an error if the list cannot be read, or if the line is too long.
     fn next_line(&mut self) -> Result<Option<Vec<u8>>, BatchError> {
         let mut line = Vec::new();
         let mut limited = self.reader.by_ref().take(MAX_LINE_BYTES + 1);
@@ -188,8 +187,8 @@ impl JobList {
         Ok((length > 0).then_some(line))
     }
 
-    /// Returns the fields of the CSV record that begins with a line; the inner error concerns the
-    /// record.
+    /// Returns the fields of the CSV record that begins with this line; an inner error means that
+    /// the record is invalid.
     fn read_record(&mut self, first: Vec<u8>) -> Result<Result<Vec<String>, String>, BatchError> {
         let (mut record, mut line) = (CsvRecord::default(), first);
         loop {

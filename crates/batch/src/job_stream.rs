@@ -1,5 +1,5 @@
-//! A stream of the jobs of a run that belong to this shard: first from inputs and folders, then
-//! from a list.
+//! The stream of this shard's jobs: first the jobs from inputs and folders, then the jobs from a
+//! list.
 
 use super::flag_table::FlagTable;
 use super::inputs::find_jobs;
@@ -28,7 +28,7 @@ pub(super) struct JobSource<'a> {
 ///
 /// A list is read line by line, so memory use does not grow with its length.
 pub(super) struct JobStream {
-    /// The remaining inputs, and the original number of inputs.
+    /// The jobs of the remaining inputs.
     inputs: std::vec::IntoIter<JobGroup>,
     input_count: usize,
     /// The list, which follows the inputs.

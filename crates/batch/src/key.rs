@@ -1,8 +1,8 @@
 //! Content keys: a hash of everything that a picture depends on.
 //!
-//! It covers the program version, the settings, the picture's name, and the contents of the model,
-//! the scene and all files they refer to. If its key is unchanged, a picture is up to date, and a
-//! failed job would fail again.
+//! The hash covers the program version, the settings, the picture's name, and the contents of the
+//! model, the scene and all files they refer to. If its key is unchanged, a picture is up to date,
+//! and a failed job would fail again.
 //!
 //! Content is hashed because modification times are unreliable: copying, checking out or mounting a
 //! model changes its time but not its bytes.
@@ -38,7 +38,7 @@ type ContentHash = [u8; 32];
 pub(super) struct KeyMaker {
     /// The hash of everything common to all jobs: version, settings, files named by flags.
     common: ContentHash,
-    /// The files and folders outside their own folder that scenes may read.
+    /// The files and folders that scenes may read in addition to the scene's folder.
     allowed: Vec<PathBuf>,
     /// The hashes of the most recent models and scenes.
     cache: Mutex<HashCache>,
@@ -56,8 +56,8 @@ struct HashCache {
 impl KeyMaker {
     /// Prepares to compute the keys of jobs with these settings.
     ///
-    /// `settings` is the debug output of the flags. A new flag changes it, so everything is
-    /// rendered again, which is the safe choice. Files in `allowed`, such as the `--environment`
+    /// `settings` is the debug output of the flags. A new flag changes this output, so everything
+    /// is rendered again, which is the safe choice. Files in `allowed`, such as the `--environment`
     /// file, count by their content.
     pub(super) fn new(settings: &str, allowed: Vec<PathBuf>) -> Self {
         let mut hash = Sha256::new();
@@ -245,7 +245,7 @@ mod tests {
         let keys = [of("style.ron", "()"), of("style.ron", "(style: Flat)"), of("a.gltf", "{}")];
         assert!(keys[0] != keys[1] && keys[1] != keys[2] && keys[2] == of("a.gltf", "{}"));
         let broken = [of("style.ron", "(sty: 1)"), of("style.ron", "(stile: 1)")];
-        assert!(!keys.contains(&broken[0]) && broken[0] != broken[1], "a mistake was corrected");
+        assert!(!keys.contains(&broken[0]) && broken[0] != broken[1], "the mistake changed");
     }
 
     #[test]
@@ -317,9 +317,9 @@ mod tests {
             content_key(&folder.path().join("a.glb"), "")
         };
         let first = of("a.glb", &glb);
-        assert_ne!(first, of("a.bin", b"1"), "the buffer it names changed");
+        assert_ne!(first, of("a.bin", b"1"), "the key depends on the buffer");
         *glb.last_mut().unwrap() = 8;
-        assert_ne!(of("a.bin", b"1"), of("a.glb", &glb), "its last byte changed");
+        assert_ne!(of("a.bin", b"1"), of("a.glb", &glb), "the key depends on the last byte");
     }
 
     #[test]

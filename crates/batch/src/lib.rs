@@ -6,19 +6,19 @@
 //!                                     records of earlier runs ◄── report ◄── counts, metrics
 //! ```
 //!
-//! A job is done if a report lists it with the same content and settings and its picture has the
-//! recorded size. A run that was stopped or killed can therefore resume. A model that is broken,
-//! hangs, crashes its worker or exhausts memory becomes one line in the report and does not stop
-//! the others.
+//! A job is done if a report lists it with the same content and settings, and if its picture has
+//! the recorded size. A run that was stopped or killed can therefore be resumed. A model that is
+//! broken, hangs, crashes its worker or exhausts memory becomes one line in the report and does not
+//! stop the others.
 //!
 //! Apart from the pictures, the output folder holds:
 //!
 //! - `reports/`: the reports of all runs, one JSON object per job;
-//! - `report.jsonl`: the merged report, and `index.html`, the contact sheet; a run without shards
-//!   and [`merge_reports`] write both.
+//! - `report.jsonl`, the merged report, and `index.html`, the contact sheet: a run without shards
+//!   writes both, as does [`merge_reports`].
 //!
-//! Picture names and the assignment of jobs to shards depend only on the inputs, so the number of
-//! threads or shards does not change the names.
+//! Picture names depend only on the inputs, and the assignment of jobs to shards only on the inputs
+//! and the number of shards.
 //!
 //! | module | subject |
 //! | --- | --- |

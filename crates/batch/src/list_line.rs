@@ -19,7 +19,7 @@ pub(super) struct ListContext {
     pub(super) scene: Option<PathBuf>,
     /// The template from `--name`.
     pub(super) picture_name: Option<PictureName>,
-    /// The flags of a picture.
+    /// The flags that a line may set.
     pub(super) flags: FlagTable,
 }
 
@@ -54,7 +54,7 @@ impl LineReader<'_> {
     /// Returns the jobs of a line.
     ///
     /// # Errors
-    /// Returns an error if a member is unknown, missing, or of the wrong type.
+    /// Returns an error if a member is unknown, missing or of the wrong type.
     pub(super) fn read_group(&self, members: &Map<String, Value>) -> Result<JobGroup, String> {
         let given = text_member(members, "input")?;
         let given = given.ok_or("missing member `input`")?;
@@ -75,8 +75,7 @@ impl LineReader<'_> {
             Some(_) => return Err("`pictures` must be a list of pictures".to_owned()),
         };
         if members.contains_key("output") {
-            return Err("`output` does not go with `pictures`; give each picture its own `output`"
-                .to_owned());
+            return Err("`output` conflicts with `pictures`; set it for each picture".to_owned());
         }
         let mut jobs: Vec<BatchJob> = Vec::new();
         for (at, picture) in pictures.iter().enumerate() {
@@ -90,7 +89,7 @@ impl LineReader<'_> {
         Ok(JobGroup { jobs, bytes })
     }
 
-    /// Returns the job for one of several pictures; its members override the line's.
+    /// Returns the job for one of several pictures; the picture's members override the line's.
     fn read_picture(
         &self,
         given: &Path,

@@ -7,8 +7,8 @@
 //!  report.jsonl ───────────┘   (in a temporary file, if there are many)
 //! ```
 //!
-//! It needs memory for only one chunk, no matter how many records there are. No report is removed:
-//! an unfinished run may still append to it.
+//! Merging needs memory for only one chunk, regardless of the number of records. No report is
+//! removed, because an unfinished run may still append to it.
 
 mod sorted_chunks;
 
@@ -39,9 +39,9 @@ pub struct MergeCounts {
     pub longest: Option<(f64, String)>,
 }
 
-/// The jobs of a run, used to restrict a merged report to them.
+/// The jobs of a run, used to restrict a merged report to these jobs.
 ///
-/// It uses only eight bytes per job, because a folder may have millions of jobs.
+/// The set needs only eight bytes per job, because a folder may have millions of jobs.
 #[derive(Clone, Default, Debug)]
 pub(super) struct CurrentJobs {
     /// The hashes of outputs and keys.
@@ -70,7 +70,7 @@ impl CurrentJobs {
 /// the same key. With `current`, records of other jobs and keys are omitted.
 ///
 /// # Errors
-/// Returns an error if a report cannot be read, or the merged report cannot be written; the old
+/// Returns an error if a report cannot be read, or if the merged report cannot be written; the old
 /// merged report is then unchanged.
 pub(super) fn merge_reports(
     out_dir: &Path,
@@ -212,8 +212,8 @@ mod tests {
         (output.to_owned(), key.to_owned(), status.to_owned())
     }
 
-    /// Returns three runs: a model that changed, one that failed and then succeeded, one that did
-    /// the opposite, and one that failed again after it changed.
+    /// Returns three runs of four models: one changed, one failed and then succeeded, one did the
+    /// opposite, and one failed after it changed.
     fn three_runs(name: &str) -> ReportFolder {
         let folder = ReportFolder::new(name);
         let first = [

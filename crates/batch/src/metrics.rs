@@ -27,8 +27,8 @@ pub struct RunCounts {
     pub bytes: u64,
     /// The total job time of this run in seconds.
     pub seconds: f64,
-    /// The number of jobs in this run that took at most each bound from 0.01 s to 1000 s, but
-    /// longer than the previous bound.
+    /// For each bound from 0.01 s to 1000 s, the number of jobs in this run that took at most that
+    /// long, but longer than the previous bound.
     pub histogram: [u64; BOUNDS.len()],
 }
 
@@ -113,10 +113,10 @@ impl MetricsFile {
     /// It is not flushed to disk, because the next version follows within a second.
     ///
     /// # Errors
-    /// Returns an error if it cannot be written.
+    /// Returns an error if the file cannot be written.
     pub(super) fn write_counts(&self, counts: RunCounts, elapsed: f64) -> Result<(), BatchError> {
         let mut name = self.path.file_name().unwrap_or_default().to_owned();
-        // A collector reads files that end in .prom.
+        // A collector reads only files that end in .prom.
         name.push(format!(".{}.part", std::process::id()));
         let partial = self.path.with_file_name(name);
         let written = std::fs::write(&partial, counts.to_metrics(elapsed))

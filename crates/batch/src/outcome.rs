@@ -130,8 +130,8 @@ pub(super) fn worker_end_message(end: &WorkerEnd, text: &str, policy: JobPolicy)
             return format!("timed out after {seconds} s\n  = help: raise --job-seconds");
         }
         WorkerEnd::Signal(9) => {
-            "the worker was killed twice (SIGKILL), which is what the system does to programs that \
-             use up the memory"
+            "the worker was killed twice (SIGKILL), probably by the system because it was out of \
+             memory"
                 .to_owned()
         }
         WorkerEnd::Signal(signal) => {

@@ -39,7 +39,7 @@ impl PictureName {
     /// Parses the `--name` template.
     ///
     /// # Errors
-    /// Returns an error if a field is unknown, or the name does not end in `.png`.
+    /// Returns an error if a field is unknown, or if the name does not end in `.png`.
     pub fn parse(text: &str) -> Result<Self, String> {
         if !has_png_extension(text) {
             return Err("pictures are PNG files; end the name in .png".to_owned());
@@ -59,8 +59,8 @@ impl PictureName {
 
     /// Returns the name of a picture.
     ///
-    /// `{prefix}` is computed from the name without it, so it stays the same when the name is
-    /// computed again.
+    /// `{prefix}` is computed from the name without the prefix, so a name always gets the same
+    /// prefix.
     pub(super) fn name_picture(&self, source: NameSource<'_>) -> String {
         let plain = self.expand(source, "");
         if !self.has_field("prefix") {
@@ -103,7 +103,7 @@ pub(super) fn normal_parts(path: &Path) -> String {
 /// Checks the name that a list assigns to a picture.
 ///
 /// # Errors
-/// Returns an error if it points outside the output folder, or does not end in `.png`.
+/// Returns an error if the name points outside the output folder or does not end in `.png`.
 pub(super) fn check_picture_name(name: &str) -> Result<(), String> {
     let (path, shown) = (Path::new(name), visible_text(name));
     let is_normal = path.components().all(|part| matches!(part, Component::Normal(_)));

@@ -86,7 +86,7 @@ impl BatchRun<'_> {
         });
     }
 
-    /// Runs jobs until there are no more, or the run is stopped.
+    /// Runs jobs until there are no more, or until the run is stopped.
     fn work(&self, slot: usize) {
         let mut worker = None;
         while let Some(group) = self.next_group() {
@@ -114,7 +114,7 @@ impl BatchRun<'_> {
     /// Runs those jobs of a group that are not up to date.
     ///
     /// The key is computed before rendering: if the model changes in the meantime, the record has
-    /// the old key, and the next run renders it again.
+    /// the old key, and the next run renders the picture again.
     fn run_group(
         &self,
         slot: usize,
@@ -136,8 +136,8 @@ impl BatchRun<'_> {
                 },
             }
         }
-        // The number of jobs left when a worker ended for a reason that may not concern the first
-        // of them.
+        // The number of open jobs when a worker last ended for a reason that may not concern the
+        // first job.
         let mut doubted = None;
         while !open.is_empty() {
             let running = match worker {
@@ -237,7 +237,7 @@ impl BatchRun<'_> {
 /// Creates the record for an answer.
 ///
 /// # Errors
-/// Returns an error if the output folder cannot be written, which is not a job error.
+/// Returns an error if the output folder cannot be written, which is not the job's fault.
 fn answered_record(job: &BatchJob, key: String, answer: WorkAnswer) -> Result<JobRecord, RunStop> {
     match answer {
         WorkAnswer::Done { seconds, warnings, message, bytes, sha256 } => Ok(JobRecord {

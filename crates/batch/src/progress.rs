@@ -28,7 +28,8 @@ const METRICS_INTERVAL: Duration = Duration::from_secs(1);
 pub struct ProgressDisplay {
     /// The stream, such as the standard error stream.
     pub stream: Box<dyn Write + Send>,
-    /// Whether it is a terminal, on which one line is rewritten; a log gets one line per minute.
+    /// Whether the stream is a terminal, on which one line is rewritten; a log gets one line per
+    /// minute.
     pub is_terminal: bool,
 }
 
@@ -64,7 +65,7 @@ impl RunProgress {
     /// Starts counting and starts the display thread.
     ///
     /// # Errors
-    /// Returns an error if the `--metrics` file cannot be written, before any work is done.
+    /// Returns an error before any work is done if the `--metrics` file cannot be written.
     pub(super) fn start(
         metrics: Option<&Path>,
         display: ProgressDisplay,
@@ -186,12 +187,11 @@ impl DisplayLoop {
 
 /// The number of jobs per second over the last one or two minutes.
 ///
-/// The period is short so that a large first model does not dominate for long.
-/// Jobs that were up to date do not count.
+/// The period is short so that a large first model does not dominate the rate for long. Jobs that
+/// were up to date do not count.
 #[derive(Default)]
 struct JobRate {
-    /// For each of the last two marks, the time in seconds and the jobs done in this run until
-    /// then.
+    /// For each of the last two marks, the time in seconds and the number of jobs run until then.
     marks: [(f64, u64); 2],
 }
 

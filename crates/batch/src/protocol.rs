@@ -33,7 +33,7 @@ pub struct PictureRequest {
 #[derive(Serialize, Deserialize, Debug)]
 #[serde(rename_all = "snake_case")]
 pub enum PictureTarget {
-    /// To a file, which is first written under a temporary name.
+    /// A file, which is first written under a temporary name.
     File {
         /// The file.
         #[serde(with = "any_path")]
@@ -42,7 +42,7 @@ pub enum PictureTarget {
         #[serde(with = "any_path")]
         partial: PathBuf,
     },
-    /// Through the pipe, right after the answer line.
+    /// The pipe, right after the answer line.
     Pipe,
 }
 
@@ -59,7 +59,7 @@ pub struct FramedAnswer {
 #[derive(Serialize, Deserialize, PartialEq, Debug)]
 #[serde(rename_all = "snake_case")]
 pub enum WorkAnswer {
-    /// It was rendered, and written unless it follows through the pipe.
+    /// The picture was rendered, and written unless it follows through the pipe.
     Done {
         /// Time in seconds, including loading if this picture triggered it.
         seconds: f64,
@@ -69,7 +69,7 @@ pub enum WorkAnswer {
         message: String,
         /// The size of the picture.
         bytes: u64,
-        /// Its SHA-256 in hexadecimal.
+        /// The picture's SHA-256 in hexadecimal.
         sha256: String,
     },
     /// The model, the scene or a flag is wrong.

@@ -39,7 +39,7 @@ pub(super) struct JobRecord {
     pub(super) output: String,
     /// `done` or `failed`.
     pub(super) status: String,
-    /// The content key from which the picture was rendered.
+    /// The key of the content from which the picture was rendered.
     ///
     /// A job whose key has changed is run again.
     pub(super) key: String,
@@ -88,7 +88,7 @@ pub(super) struct ReportWriter {
 /// A report open for appending.
 struct OpenReport {
     file: File,
-    /// Whether it contains a record.
+    /// Whether the report contains a record.
     has_records: bool,
     /// The time of the last flush to disk.
     synced: Instant,
@@ -99,7 +99,7 @@ impl ReportWriter {
     /// runs left there.
     ///
     /// # Errors
-    /// Returns an error if the file cannot be created, before any work is done.
+    /// Returns an error before any work is done if the file cannot be created.
     pub(super) fn create(out_dir: &Path, shard: Shard) -> Result<Self, BatchError> {
         let folder = out_dir.join(REPORTS_FOLDER);
         std::fs::create_dir_all(&folder).map_err(|cause| write_error(&folder, &cause))?;
@@ -134,7 +134,7 @@ impl ReportWriter {
     /// half-written state.
     ///
     /// # Errors
-    /// Returns an error if it cannot be written, for example because the disk is full.
+    /// Returns an error if the record cannot be written, for example because the disk is full.
     pub(super) fn append_record(&self, record: &JobRecord) -> Result<(), BatchError> {
         self.append_records(std::slice::from_ref(record))
     }
@@ -142,7 +142,7 @@ impl ReportWriter {
     /// Appends several records in one call.
     ///
     /// # Errors
-    /// Returns an error if they cannot be written; some of them may then be in the report.
+    /// Returns an error if the records cannot be written; the report may then contain some of them.
     pub(super) fn append_records(&self, records: &[JobRecord]) -> Result<(), BatchError> {
         let lines: String = records.iter().map(JobRecord::to_line).collect();
         let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
@@ -155,10 +155,10 @@ impl ReportWriter {
         written.map_err(|cause| write_error(&self.path, &cause))
     }
 
-    /// Flushes the report to disk; an empty one is removed.
+    /// Flushes the report to disk; an empty report is removed.
     ///
     /// # Errors
-    /// Returns an error if it cannot be written.
+    /// Returns an error if the report cannot be written.
     pub(super) fn finish(self) -> Result<(), BatchError> {
         let open = self.open.into_inner().unwrap_or_else(PoisonError::into_inner);
         if open.has_records {

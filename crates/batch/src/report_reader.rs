@@ -1,7 +1,6 @@
 //! Reads the reports of an output folder line by line, without keeping them in memory.
 //!
-//! Reading a report of a million records takes a second or two, and no more memory than its longest
-//! line.
+//! A report of a million records is read in a second or two, with memory for only one line.
 
 use super::report::{DONE, FAILED, REPORTS_FOLDER, run_number};
 use crate::BatchError;
@@ -69,8 +68,9 @@ impl<'a> RecordLine<'a> {
 /// Calls `visit` for each record with its line, which has no line break.
 ///
 /// # Errors
-/// Returns an error if a report cannot be read, or `visit` fails. Skipped records would be rendered
-/// again, or be missing from a merged report. A folder that does not exist yet has no reports.
+/// Returns an error if a report cannot be read, or if `visit` fails. An unreadable report is not
+/// skipped: its pictures would be rendered again or be missing. A folder that does not exist yet
+/// has no reports.
 pub(super) fn read_reports(
     out_dir: &Path,
     mut visit: impl FnMut(&RecordLine<'_>, &[u8]) -> Result<(), BatchError>,
@@ -84,7 +84,7 @@ pub(super) fn read_reports(
 /// Reads one report, if it exists and is a file; see [`read_reports`].
 ///
 /// # Errors
-/// Returns an error if it cannot be read, or `visit` fails.
+/// Returns an error if the report cannot be read, or if `visit` fails.
 pub(super) fn read_report(
     path: &Path,
     mut visit: impl FnMut(&RecordLine<'_>, &[u8]) -> Result<(), BatchError>,
@@ -95,7 +95,7 @@ pub(super) fn read_report(
     }
     let file = match File::open(path) {
         Ok(file) => file,
-        // The run has just removed its empty report.
+        // A run may have just removed its empty report.
         Err(cause) if cause.kind() == ErrorKind::NotFound => return Ok(()),
         Err(cause) => return Err(read_error(path, &cause)),
     };

@@ -95,14 +95,14 @@ impl std::fmt::Debug for ShardJobs {
 pub enum RunEnd {
     /// All jobs were run, with these counts.
     Finished(RunCounts),
-    /// This signal interrupted it; the next run resumes.
+    /// This signal interrupted the run; the next run resumes it.
     Interrupted(i32),
 }
 
 /// Merges the reports of all runs, and writes the contact sheet.
 ///
 /// # Errors
-/// Returns an error if a report cannot be read, or the results cannot be written.
+/// Returns an error if a report cannot be read, or if the results cannot be written.
 pub fn merge_reports(out_dir: &Path) -> Result<MergeCounts, BatchError> {
     let counts = merge::merge_reports(out_dir, None)?;
     contact_sheet::write_contact_sheet(out_dir, &counts)?;
@@ -113,7 +113,7 @@ pub fn merge_reports(out_dir: &Path) -> Result<MergeCounts, BatchError> {
 /// one line per picture, and then the counts. Returns true if there are no problems.
 ///
 /// # Errors
-/// Returns an error if a list or a report cannot be read, or `tell` fails.
+/// Returns an error if a list or a report cannot be read, or if `tell` fails.
 pub fn verify_jobs<E: From<BatchError>>(
     options: &BatchOptions,
     jobs: ShardJobs,
@@ -128,7 +128,7 @@ pub fn verify_jobs<E: From<BatchError>>(
 /// different number of shards.
 ///
 /// # Errors
-/// Returns an error if a list cannot be read, or the output folder cannot be written. A job that
+/// Returns an error if a list cannot be read, or if the output folder cannot be written. A job that
 /// fails is not an error: it is a record in the report.
 pub fn run_jobs(
     options: &BatchOptions,
@@ -173,7 +173,7 @@ pub fn run_jobs(
     let stop = run.stop.into_inner().unwrap_or_else(PoisonError::into_inner);
     let current = run.current.map(|jobs| jobs.into_inner().unwrap_or_else(PoisonError::into_inner));
     let failures = run.failures.into_inner().unwrap_or_else(PoisonError::into_inner);
-    // Finished pictures are kept, no matter what stopped the run.
+    // Finished pictures are kept, regardless of what stopped the run.
     let tar = tar.map_or(Ok(()), |tar| tar.finish(&report));
     let closed = tar.and_then(|()| report.finish());
     let counts = progress.finish()?;

@@ -1,7 +1,7 @@
 //! Shards, which divide the jobs of a batch among several machines.
 //!
-//! Every machine runs the same command with its own shard, and needs nothing from the others except
-//! the same inputs. Each machine goes through all jobs in the same order and takes the jobs that
+//! Every machine runs the same command with a different shard, and shares only the inputs with the
+//! others. Each machine goes through all jobs in the same order and takes the jobs that
 //! [`ShardBalance`] assigns to its shard.
 //!
 //! ```text
@@ -76,8 +76,8 @@ impl ShardBalance {
     /// Assigns the next group of jobs, whose input has this many bytes; returns whether it belongs
     /// to this shard.
     ///
-    /// An input of 0 bytes, such as a missing file, counts as 1: otherwise all such inputs would go
-    /// to one shard.
+    /// An input of 0 bytes, such as a missing file, counts as 1 byte: otherwise one shard would get
+    /// all such inputs.
     pub(super) fn takes_group(&mut self, bytes: u64) -> bool {
         let Some(mut least) = self.loads.peek_mut() else { return true };
         let Reverse((load, index)) = *least;
@@ -89,8 +89,8 @@ impl ShardBalance {
 /// Parses `I/N`; `auto` and `auto/N` take the index from the environment.
 ///
 /// # Errors
-/// Returns an error if the text is not `I/N` with `1 <= I <= N`. Also returns an
-/// error if `auto` is used outside an array job, or if the array job does not have `N` tasks.
+/// Returns an error if the text is not `I/N` with `1 <= I <= N`, if `auto` is used outside an array
+/// job, or if the array job does not have `N` tasks.
 pub fn parse_shard(text: &str) -> Result<Shard, String> {
     parse_shard_with(text, |name| std::env::var(name).ok().as_deref().and_then(parse_count))
 }
@@ -126,7 +126,7 @@ struct Scheduler {
     first: FirstIndex,
     /// The number of tasks.
     count: TaskCount,
-    /// The difference between successive indices, which is 1 if there is no variable for it.
+    /// The difference between successive indices; 1 if no variable holds it.
     step: Option<&'static str>,
 }
 
@@ -146,7 +146,7 @@ enum TaskCount {
     Variable(&'static str),
     /// The variable holds the index of the last task; the count follows from the first index.
     Last(&'static str),
-    /// The scheduler does not report it, so `auto/N` must specify it.
+    /// The scheduler does not report the number, so `auto/N` must specify it.
     Unknown,
 }
 
@@ -313,7 +313,7 @@ mod tests {
             assert_eq!(
                 loads[takers[0]],
                 *loads.iter().min().unwrap(),
-                "the shard with the fewest bytes has it"
+                "the shard with the fewest bytes takes it"
             );
             loads[takers[0]] += bytes;
         }

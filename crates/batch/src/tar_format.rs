@@ -1,9 +1,9 @@
 //! Reads and writes tar archives (POSIX.1-1988 `ustar`) of regular files.
 //!
 //! A file is a header of 512 bytes, then its content, padded to a multiple of 512 bytes; two blocks
-//! of zeros end the archive. A name that is too long for the header goes in a separate record
-//! before it (POSIX.1-2001 `pax`, type `x`). Owner, permissions and time are the same for all
-//! files, so that the same files give the same bytes.
+//! of zeros end the archive. A name that is too long for the header is stored in a separate record
+//! before the header (POSIX.1-2001 `pax`, type `x`). Owner, permissions and time are the same for
+//! all files, so that the same files give the same bytes.
 
 use std::io::{Error, ErrorKind, Read, Result, Write};
 use std::ops::Range;
@@ -28,7 +28,7 @@ const PREFIX: Range<usize> = 345..500;
 /// Appends a file to an archive.
 ///
 /// # Errors
-/// Returns an error if it cannot be written, or has 8 GiB or more.
+/// Returns an error if the file cannot be written, or if it has 8 GiB or more.
 pub(super) fn append_file(writer: &mut impl Write, name: &str, content: &[u8]) -> Result<()> {
     let mut header = [0; BLOCK_BYTES];
     if let Some((prefix, name)) = split_name(name) {
@@ -51,7 +51,7 @@ pub(super) fn append_file(writer: &mut impl Write, name: &str, content: &[u8]) -
 /// Finishes an archive.
 ///
 /// # Errors
-/// Returns an error if it cannot be written.
+/// Returns an error if the archive cannot be written.
 pub(super) fn finish_archive(writer: &mut impl Write) -> Result<()> {
     writer.write_all(&[0; 2 * BLOCK_BYTES])
 }
@@ -96,8 +96,8 @@ fn header_sum(header: &[u8; BLOCK_BYTES]) -> u32 {
     all - own + spaces
 }
 
-/// Splits a name into the two fields of a header, which are joined by a slash; returns `None` if it
-/// is too long.
+/// Splits a name into the two fields of a header, which are joined by a slash; returns `None` if
+/// the name is too long.
 fn split_name(name: &str) -> Option<(&str, &str)> {
     if name.len() <= NAME.len() {
         return Some(("", name));
@@ -123,7 +123,7 @@ fn pax_record(key: &str, value: &str) -> String {
 /// and need not read the content to the end.
 ///
 /// # Errors
-/// Returns an error if it cannot be read, is truncated, or has a damaged header.
+/// Returns an error if the archive cannot be read, is truncated, or has a damaged header.
 pub(super) fn read_archive(
     reader: &mut impl Read,
     mut visit: impl FnMut(&str, &mut dyn Read) -> Result<()>,
@@ -191,7 +191,7 @@ mod tests {
         Ok(files)
     }
 
-    /// Names with all lengths around the field limits, and contents around one block.
+    /// Returns names with lengths around the field limits, and contents around the block size.
     fn test_files() -> Vec<(String, Vec<u8>)> {
         let deep =
             |folder: usize, name: usize| format!("{}/{}", "f".repeat(folder), "n".repeat(name));
@@ -246,7 +246,7 @@ mod tests {
 
     #[test]
     fn pax_records_count_their_own_length() {
-        // 97 + 3 digits is 100, one more than with 2 digits.
+        // 98 bytes and 2 digits make 100 bytes, which needs a third digit.
         for length in 85..100 {
             let record = pax_record("path", &"n".repeat(length));
             let digits = record.split(' ').next().unwrap();

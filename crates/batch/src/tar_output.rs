@@ -39,7 +39,7 @@ struct TarState {
     next: u32,
 }
 
-/// An unnamed tar file, and the records of its samples.
+/// A tar file under its temporary name, and the records of its samples.
 struct OpenTar {
     writer: BufWriter<File>,
     records: Vec<JobRecord>,
@@ -168,8 +168,8 @@ impl Drop for TarOutput {
 /// Returns the name of an output in a tar file.
 ///
 /// Readers take the part of a file name before the first dot as the sample's key. Dots before the
-/// last are therefore written as `%2E`, and `%` as `%25`, so that different outputs have different
-/// keys:
+/// last dot are therefore written as `%2E`, and `%` as `%25`, so that different outputs have
+/// different keys:
 ///
 /// ```text
 /// more/fox.glb.png  ─►  more/fox%2Eglb.png
@@ -275,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn sample_names_have_one_dot_and_are_different() {
+    fn sample_names_have_one_dot_and_stay_distinct() {
         let outputs = ["a.b.png", "a%2Eb.png", "a_b.png", "x.y/a.png", "a", "..png"];
         let names = outputs.map(sample_name);
         let expected = ["a%2Eb.png", "a%252Eb.png", "a_b.png", "x.y/a.png", "a.", "%2E.png"];

@@ -28,7 +28,7 @@ enum TemplatePart {
     Number(&'static str, usize),
 }
 
-/// Returns the replacement for `%04d` (printf, ffmpeg) or `####` (Blender), if a name contains one.
+/// Returns the error for a counter such as `%04d` (printf, ffmpeg) or `####` (Blender) in a name.
 fn counter_of_others(text: &str, number: &str) -> Option<String> {
     let hashes =
         text.find("##").map(|at| at..at + text[at..].chars().take_while(|c| *c == '#').count());
@@ -58,8 +58,8 @@ impl NameTemplate {
     /// a field up to the next `}`.
     ///
     /// # Errors
-    /// Returns an error if a brace is unmatched, a field is unknown, or the name contains another
-    /// program's counter, `%04d` or `####`. The message lists the known fields.
+    /// Returns an error if a brace is unmatched, if a field is unknown, or if the name contains
+    /// another program's counter, `%04d` or `####`. The message lists the known fields.
     pub fn parse(
         text: &str,
         words: &[&'static str],
@@ -142,7 +142,7 @@ fn push_text(parts: &mut Vec<TemplatePart>, text: &str) {
 ///
 /// # Errors
 ///
-/// Returns an error, with a fix, if the field is unknown or a text field has digits.
+/// Returns an error with a fix if the field is unknown, or if a text field has digits.
 fn parse_field(
     text: &str,
     field: &str,

@@ -18,7 +18,7 @@ use std::path::Path;
 const BUFFER_BYTES: usize = 1 << 16;
 
 /// Verifies the jobs and reports the problems, one line per picture, then the counts; returns true
-/// if there are none.
+/// if there are no problems.
 ///
 /// ```text
 /// more/fox.png: missing: the picture does not exist
@@ -27,7 +27,7 @@ const BUFFER_BYTES: usize = 1 << 16;
 /// The models are hashed as for a run, and the pictures are read completely.
 ///
 /// # Errors
-/// Returns an error if a list or a report cannot be read, or `tell` fails.
+/// Returns an error if a list or a report cannot be read, or if `tell` fails.
 pub(super) fn verify_jobs<E: From<BatchError>>(
     groups: impl Iterator<Item = Result<JobGroup, BatchError>>,
     keys: &KeyMaker,
@@ -51,9 +51,9 @@ pub(super) fn verify_jobs<E: From<BatchError>>(
 /// The state of a job's picture.
 #[derive(Clone, PartialEq, Eq, Debug)]
 enum Verdict {
-    /// It exists and has the recorded bytes.
+    /// The picture exists and has the recorded bytes.
     Whole,
-    /// Its record or the picture itself is missing, for this reason.
+    /// The record or the picture is missing, for this reason.
     Missing(&'static str),
     /// The picture does not match its record, for this reason.
     Wrong(String),
@@ -100,7 +100,7 @@ impl VerdictCounts {
 /// The records of all runs, and the tar file contents read so far.
 struct Verifier<'a> {
     out_dir: &'a Path,
-    /// The hashes of output and key with the pictures, sorted.
+    /// The hash of each output and key, with the picture; sorted.
     records: Vec<(u64, RecordedPicture)>,
     /// The tar file names.
     tars: Vec<String>,
@@ -114,7 +114,7 @@ type TarContent = Result<BTreeMap<u64, ContentDigest>, String>;
 /// A picture as recorded. Rendered pictures sort first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 enum RecordedPicture {
-    /// It was rendered, and is in the tar file with this index, if any.
+    /// The picture was rendered, and is in the tar file with this index, if any.
     Done(ContentDigest, Option<u32>),
     Failed,
 }

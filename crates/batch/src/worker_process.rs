@@ -15,7 +15,7 @@ const MAX_ERROR_BYTES: usize = 2_048;
 /// The maximum size of a picture that is sent through the pipe.
 const MAX_PICTURE_BYTES: u64 = 1 << 32;
 
-/// A function that creates the command; its hidden subcommand `batch-worker` runs a worker.
+/// A function that creates the command to which the hidden subcommand `batch-worker` is added.
 pub type WorkerProgram<'a> = &'a (dyn Fn() -> std::io::Result<Command> + Sync);
 
 /// A running worker.
@@ -23,7 +23,7 @@ pub(super) struct WorkerProcess {
     child: Child,
     requests: ChildStdin,
     answers: Receiver<(WorkAnswer, Vec<u8>)>,
-    /// The end of its standard error output, and the thread that reads it.
+    /// The end of the worker's standard error output, read by `error_reader`.
     error_text: Arc<Mutex<Vec<u8>>>,
     error_reader: Option<JoinHandle<()>>,
     /// The number of answers so far.
@@ -35,7 +35,7 @@ pub(super) struct WorkerProcess {
 pub(super) enum WorkerEnd {
     /// It exceeded its time limit and was killed.
     TimedOut,
-    /// A signal ended it, sent by itself or by another process.
+    /// A signal from the worker itself or from another process ended it.
     Signal(i32),
     /// It exited with this code.
     Exit(Option<i32>),
@@ -44,7 +44,7 @@ pub(super) enum WorkerEnd {
 impl WorkerProcess {
     /// Starts a worker: this program with the hidden command `batch-worker`.
     ///
-    /// The worker ends with the thread that starts it, so this thread must live as long.
+    /// The worker ends with the thread that starts it, so this thread must outlive it.
     ///
     /// # Errors
     /// Returns an error if the system cannot start another process.
@@ -98,7 +98,7 @@ impl WorkerProcess {
     /// Returns the next answer and the picture that follows it.
     ///
     /// # Errors
-    /// Returns an error if the worker does not answer in time or has ended; it is then gone.
+    /// Returns an error if the worker has ended, or if it does not answer in time and is killed.
     pub(super) fn next_answer(
         &mut self,
         limit: Option<Duration>,
@@ -166,7 +166,7 @@ fn start_thread(work: impl FnOnce() + Send + 'static) -> std::io::Result<JoinHan
     std::thread::Builder::new().name("batch pipe".to_owned()).spawn(work)
 }
 
-/// Forwards the answers of a worker until it ends or sends something else.
+/// Forwards the answers of a worker until it ends or sends invalid output.
 fn read_answers(stdout: ChildStdout, sender: &Sender<(WorkAnswer, Vec<u8>)>) {
     let mut stdout = BufReader::new(stdout);
     let mut line = String::new();

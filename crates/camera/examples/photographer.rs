@@ -38,7 +38,7 @@ fn main() -> Result<(), FramingError> {
         );
     }
 
-    println!("\nSheet size for a scale of 1:100, in cm:");
+    println!("\nSheet width at a scale of 1:100, in cm:");
     for view in NamedView::PRINCIPAL {
         let sheet = frame_parallel(house, view.basis(), 1.0, 0.0)?;
         println!("  {view:<13} {:.1}", sheet.right - sheet.left);

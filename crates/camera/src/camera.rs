@@ -54,8 +54,8 @@ impl Camera {
     /// top.
     ///
     /// # Errors
-    /// Returns an error if the eye and the target are the same, `up` is zero or parallel to the
-    /// gaze, or a coordinate is not finite.
+    /// Returns an error if the eye and the target are the same, if `up` is zero or parallel to the
+    /// gaze, or if a coordinate is not finite.
     pub fn look_at(
         eye: Point<World>,
         target: Point<World>,
@@ -68,8 +68,8 @@ impl Camera {
     /// The lengths of the vectors do not matter.
     ///
     /// # Errors
-    /// Returns an error if the gaze or `up` is zero, they are parallel, or a coordinate is not
-    /// finite.
+    /// Returns an error if the gaze or `up` is zero, if they are parallel, or if a coordinate is
+    /// not finite.
     pub fn look_to(
         eye: Point<World>,
         gaze: Vector<World>,

@@ -18,7 +18,7 @@
 use crate::{Basis, Camera, CameraError};
 use homog::{Point, Vector, World};
 
-/// The tolerance for dot products of rotation rows: matrices are often written with six digits.
+/// The tolerance for dot products of rotation rows; matrices are often written with six digits.
 const ROTATION_TOLERANCE: f64 = 1e-4;
 
 /// The directions of the camera axes in the picture.
@@ -183,7 +183,7 @@ impl Extrinsics {
         Self { rotation, translation, axes }
     }
 
-    /// Returns R, row by row, which maps world axes to camera axes.
+    /// Returns R row by row: the rotation from world axes to camera axes.
     #[must_use]
     pub const fn rotation(self) -> [[f64; 3]; 3] {
         self.rotation

@@ -11,13 +11,13 @@
 //!                   ‾‾‾──── lower side, of slope b
 //! ```
 //!
-//! Each side of the pyramid moves inward, with its own slope, until it touches a point. In
+//! Each side of the pyramid moves inward, keeping its slope, until it touches a point. In
 //! coordinates along u, v, w a point (x, y, z) is left of the right side, which has slope r, if x −
-//! ex ≤ r (ez − z), that is, if ex + r ez ≥ x + r z. This gives one number per side and point, and
-//! only the largest, R, matters. With the smallest, L, for the left side, ex + r ez ≥ R and ex + l
-//! ez ≤ L. Hence ez ≥ (R − L)/(r − l), the smallest distance at which the width fits. The height
-//! gives a second distance. The larger distance is used, and the picture is centered in the other
-//! direction. No bounding sphere, iteration or safety margin is involved, and no point is cropped.
+//! ex ≤ r (ez − z), that is, if ex + r ez ≥ x + r z. Only the largest x + r z of all points, R,
+//! matters. For the left side, of slope l, only the smallest x + l z, L, matters. With ex + r ez ≥
+//! R and ex + l ez ≤ L, ez ≥ (R − L)/(r − l), the smallest distance at which the width fits. The
+//! height gives a second distance. The larger one is used, and the picture is centered in the other
+//! direction. No bounding sphere or safety margin is needed, and no point is cropped.
 
 use crate::point_coordinates::PointCoordinates;
 use crate::{Basis, Camera, FramingError};
@@ -52,8 +52,8 @@ impl Slopes {
     /// ratio, width/height (FOV-1).
     ///
     /// # Errors
-    /// Returns an error if the angle is out of range, the aspect is not positive and finite, or the
-    /// slopes are too extreme to represent.
+    /// Returns an error if the angle is out of range, if the aspect is not positive and finite, or
+    /// if the slopes are too extreme to represent.
     pub fn vertical_angle(radians: f64, aspect: f64) -> Result<Self, FramingError> {
         if !(radians > 0.0 && radians < core::f64::consts::PI) {
             return Err(FramingError::Angle { radians });
@@ -65,7 +65,7 @@ impl Slopes {
         slopes.padded(0.0)
     }
 
-    /// Returns the frame reduced by `padding` of its width at the left and right, and of its height
+    /// Returns the frame reduced by `padding` of its width on the left and right, and of its height
     /// at the top and bottom.
     ///
     /// # Errors
@@ -90,8 +90,8 @@ pub enum FramingConstraint {
     Width,
     /// The points touch the lower and upper sides of the padded frame, and fit within its width.
     Height,
-    /// The points do not touch any side: otherwise, their image would have no size, or the eye
-    /// would coincide with the nearest point.
+    /// The points do not touch any side, because otherwise their image would have no size, or the
+    /// eye would coincide with the nearest point.
     Loose,
 }
 
@@ -104,7 +104,7 @@ pub struct Framing {
     /// The distance of the nearest point along the gaze, greater than 0, without padding.
     pub near: f64,
     /// The distance of the farthest point along the gaze, without padding. It equals `near` if the
-    /// points lie in one plane.
+    /// points are in one plane.
     pub far: f64,
     /// The constraint that determined the distance.
     pub constraint: FramingConstraint,
@@ -122,9 +122,9 @@ pub struct Framing {
 /// distance. The eye stays at least 1/64 of the diagonal of the points away from the nearest point.
 ///
 /// # Errors
-/// Returns an error if there are no points, a point is not finite, the window is empty or mirrored,
-/// or the padding is outside [0, ½). It is also an error if the points are so far away, or the
-/// frame is so narrow or so far off the axis, that f64 cannot represent the eye.
+/// Returns an error if there are no points, if a point is not finite, if the window is empty or
+/// mirrored, or if the padding is outside [0, ½). It is also an error if the points are so far
+/// away, or the frame is so narrow or so far off the axis, that f64 cannot represent the eye.
 ///
 /// ```
 /// use camera::{NamedView, Slopes, frame_perspective};
@@ -132,7 +132,7 @@ pub struct Framing {
 /// let cube = Bounds::from_points([[-1.0; 3], [1.0; 3]].map(Point::from)).expect("a cube");
 /// let slopes = Slopes { left: -0.5, right: 0.5, bottom: -0.5, top: 0.5 };
 /// let framing = frame_perspective(cube.corners(), NamedView::Front.basis(), slopes, 0.0)?;
-/// // Its front face, 2 wide, is at distance 2.
+/// // The cube's front face, 2 wide, is at distance 2.
 /// assert_eq!(framing.camera.eye(), Point::new(0.0, 0.0, 3.0));
 /// assert_eq!((framing.near, framing.far), (2.0, 4.0));
 /// # Ok::<(), camera::FramingError>(())
@@ -207,8 +207,8 @@ impl SupportPlanes {
 
 impl<I: Iterator<Item = Point<World>> + Clone> PointCoordinates<I> {
     /// Returns the coordinate of the eye within `range` at which the outermost slopes add up to
-    /// `sum`, which makes the margins equal. `along` selects x or y of a point; the eye is at
-    /// height `z`.
+    /// `sum`, which makes the margins equal. `along` selects x or y of a point; `z` is the third
+    /// coordinate of the eye.
     ///
     /// The slope (x − e)/D of each point falls linearly with e, so the sum of the largest and the
     /// smallest also falls and is piecewise linear. The loop finds the correct piece and solves one

@@ -37,9 +37,9 @@ pub enum NamedView {
     Front,
     /// From −z.
     Back,
-    /// From −x, the viewer's left hand in the front view.
+    /// From −x, which is on the viewer's left in the front view.
     Left,
-    /// From +x, the viewer's right hand in the front view.
+    /// From +x, which is on the viewer's right in the front view.
     Right,
     /// From +y, looking down. The front of the model is at the bottom of the picture.
     Top,
@@ -146,7 +146,7 @@ impl fmt::Display for NamedView {
     }
 }
 
-/// The string is not the name of a view.
+/// The error for a string that is not the name of a view.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 #[error(
     "unknown view: use front, back, left, right, top, bottom, isometric, dimetric, \

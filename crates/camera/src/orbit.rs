@@ -19,7 +19,7 @@ use crate::{Basis, Camera, CameraError};
 use core::f64::consts::TAU;
 use homog::{Point, Vector, World};
 
-/// An orbit camera: a position on a sphere around a target, looking at it.
+/// An orbit camera, which looks at a target from a position on a sphere around it.
 ///
 /// ```
 /// use camera::Orbit;
@@ -60,7 +60,7 @@ impl Orbit {
     }
 
     /// Returns `frames` positions, evenly spaced around the vertical axis and starting with this
-    /// position. The last is one step before the first.
+    /// position. The last position is one step before the first.
     pub fn turntable(self, frames: u32) -> impl ExactSizeIterator<Item = Self> + Clone {
         let step = TAU / f64::from(frames.max(1));
         (0..frames).map(move |i| {

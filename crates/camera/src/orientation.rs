@@ -27,9 +27,9 @@ use homog::{Vector, World};
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Orientation {
-    /// The rotation about +y; a positive angle looks to the left.
+    /// The rotation about +y; a positive angle turns the gaze to the left.
     pub yaw: f64,
-    /// The rotation about the right axis; a positive angle looks up.
+    /// The rotation about the right axis; a positive angle raises the gaze.
     pub pitch: f64,
     /// The rotation about the axis out of the picture; a positive angle tips the camera
     /// counterclockwise, as seen from behind it.

@@ -23,8 +23,8 @@ use homog::{Point, Vector, View, World};
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct ParallelFraming {
-    /// The camera. Its eye is on the projector through the center of the picture. Its distance from
-    /// the nearest point is the diagonal of the points.
+    /// The camera. Its eye is on the projector through the center of the picture. The eye's
+    /// distance from the nearest point is the diagonal of the points.
     pub camera: Camera,
     /// The left side of the window in view space, in the plane z = 0 of the eye: −`right`.
     pub left: f64,
@@ -37,7 +37,7 @@ pub struct ParallelFraming {
     /// The distance of the nearest point along the gaze, greater than 0, without padding.
     pub near: f64,
     /// The distance of the farthest point along the gaze, without padding. It equals `near` if the
-    /// points lie in one plane.
+    /// points are in one plane.
     pub far: f64,
     /// The dimension of the picture that determined the size.
     pub constraint: FramingConstraint,
@@ -53,9 +53,9 @@ pub struct ParallelFraming {
 /// cube with side 1 around it, or with a millionth of its distance from the origin if that is more.
 ///
 /// # Errors
-/// Returns an error if there are no points, a point is not finite, the aspect is not positive and
-/// finite, or the padding is outside [0, ½). It is also an error if the points are so far away, or
-/// the aspect or the projectors are so extreme, that f64 cannot represent the eye.
+/// Returns an error if there are no points, if a point is not finite, if the aspect is not positive
+/// and finite, or if the padding is outside [0, ½). It is also an error if the points are so far
+/// away, or the aspect or the projectors are so extreme, that f64 cannot represent the eye.
 ///
 /// ```
 /// use camera::{NamedView, frame_parallel};
@@ -81,8 +81,8 @@ where
 }
 
 /// Like [`frame_parallel`], but with projectors along `projectors`, a direction in view space that
-/// points away from the viewer (z < 0). Its length does not matter; (0, 0, −1) is the orthographic
-/// projection.
+/// points away from the viewer (z < 0). Its length does not matter; (0, 0, −1) gives the
+/// orthographic projection.
 ///
 /// The window is in the plane of the eye, z = 0: a point (x, y, z) of view space has its image at
 /// (x − z a/c, y − z b/c) for projectors (a, b, c).
@@ -153,8 +153,8 @@ impl ImageBounds {
         self.min * 0.5 + self.max * 0.5
     }
 
-    /// Returns half the width and height of the padded window, and the constraint that determined
-    /// them.
+    /// Returns half the width and half the height of the padded window, and the constraint that
+    /// determined them.
     fn padded_window<I: Iterator<Item = Point<World>> + Clone>(
         &self,
         points: &PointCoordinates<I>,

@@ -15,7 +15,7 @@ const MAX_COORDINATE: f64 = 1e300;
 const SINGLE_POINT_TOLERANCE: f64 = 1e-12;
 /// An upper bound for the relative rounding error of the eye's coordinates.
 const EYE_PRECISION: f64 = 1e-14;
-/// The side of the cube that frames a single point, if its coordinates are small enough.
+/// The side of the cube that frames a single point, if the point's coordinates are small enough.
 const SINGLE_POINT_SIDE: f64 = 1.0;
 /// The minimum side as a fraction of the point's distance from the origin.
 const SINGLE_POINT_RELATIVE_SIDE: f64 = 1e-6;
@@ -95,8 +95,8 @@ impl<I: Iterator<Item = Point<World>> + Clone> PointCoordinates<I> {
     }
 
     /// Returns the camera whose eye has the given coordinates. `smallest` is the smallest length
-    /// that the position of the eye must resolve. Returns an error if the eye is too far away for
-    /// that.
+    /// that the position of the eye must resolve. Returns an error if the eye is too far away to
+    /// resolve it.
     pub(crate) fn camera_at(
         &self,
         eye: Vector<View>,

@@ -16,8 +16,8 @@
 //!
 //! [`apex_moved_view`] treats an off-axis window like `createFrustum` in one lesson (LW-1, misprint
 //! M12): it moves the eye until it is opposite the center of the window, and keeps the frustum
-//! symmetric. The two agree only in the plane of the window, and a stereo pair made this way does
-//! not have the requested plane of zero parallax. It is provided for comparison.
+//! symmetric. The two pictures agree only in the plane of the window, and a stereo pair made this
+//! way does not have the requested plane of zero parallax. It is provided for comparison.
 
 use crate::window::{check_finite, check_positive};
 use crate::{Camera, CameraError, ViewWindow};

@@ -21,12 +21,12 @@ impl ViewProjection {
         self.camera.world_to_view().then_project(self.view_to_clip)
     }
 
-    /// Returns the viewer: the eye, or in a parallel projection the direction toward it, a point at
-    /// infinity.
+    /// Returns the viewer: the eye, or in a parallel projection a point at infinity, opposite to
+    /// the gaze.
     ///
-    /// It is the only point without an image: the x, y and w rows of the matrix all give 0 for it.
-    /// Its sign is chosen so that depth grows toward the viewer: `viewer.xyz − p·viewer.w` is the
-    /// vector from a visible point p to the viewer.
+    /// The viewer is the only point without an image: the x, y and w rows of the matrix all give 0
+    /// for it. Its sign is chosen so that depth grows toward the viewer: `viewer.xyz − p·viewer.w`
+    /// is the vector from a visible point p to the viewer.
     ///
     /// w is 1 for an eye and 0 for a direction. It is −1 in reverse perspective, for example with
     /// the bottom row (p, q, r, 1) and r > 0: the lines of sight meet *behind* the scene, and
@@ -39,10 +39,10 @@ impl ViewProjection {
     }
 
     /// Returns whether the picture is mirrored, as by a window with left and right (or bottom and
-    /// top) exchanged.
+    /// top) swapped.
     ///
-    /// This is the sign of the matrix's determinant, which equals the z row times the point without
-    /// an image. It is unambiguous because depth grows toward the viewer.
+    /// The result follows from the sign of the matrix's determinant, which equals the z row times
+    /// the point without an image. It is unambiguous because depth grows toward the viewer.
     #[must_use]
     pub fn is_mirrored(&self) -> bool {
         self.world_to_clip().raw().row(2).dot(self.blind_point()) > 0.0
@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn the_viewer_of_a_perspective_is_the_eye() {
+    fn the_viewer_of_a_perspective_projection_is_the_eye() {
         let viewer = perspective(-0.5, 3.0).viewer().divide().expect("a place");
         assert!((viewer - Point::new(4.0, 3.0, 6.0)).length() < 1e-12, "{viewer:?}");
     }
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn only_exchanged_sides_mirror_the_picture() {
+    fn only_swapped_sides_mirror_the_picture() {
         assert!(!perspective(-0.5, 3.0).is_mirrored());
         assert!(perspective(3.0, -0.5).is_mirrored());
     }

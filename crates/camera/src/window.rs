@@ -11,7 +11,7 @@
 
 use crate::{CameraError, Slopes};
 
-/// The limit of a window's numbers up to which rays through pixels far outside it are finite.
+/// The largest number in a window for which rays through pixels far outside it are finite.
 const WINDOW_LIMIT: f64 = 1e290;
 
 /// A rectangle on the plane at `distance` in front of an eye, in view space.

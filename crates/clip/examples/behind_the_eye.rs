@@ -13,8 +13,8 @@ const WIDTH: usize = 41;
 const HEIGHT: usize = 13;
 
 fn main() {
-    // The perspective of the textbook (Shirley and Marschner, ch. 8) with w > 0 in front of the eye
-    // (PE-3): window [−1, 1]², n = −1, f = −9.
+    // The perspective projection of the textbook (Shirley and Marschner, ch. 8) with w > 0 in front
+    // of the eye (PE-3): window [−1, 1]², n = −1, f = −9.
     let view_to_clip = Projective::<View, Clip>::from_rows([
         [1.0, 0.0, 0.0, 0.0],
         [0.0, 1.0, 0.0, 0.0],
@@ -51,7 +51,7 @@ fn show(point: HPoint<Clip>) -> String {
     format!("({:5.2}, {:5.2}, {:5.2}; w = {:5.2})", point.x(), point.y(), point.z(), point.w())
 }
 
-/// Draws a segment of the canonical square in characters; parts outside the square are omitted.
+/// Draws a segment in the canonical square in characters; parts outside the square are omitted.
 fn draw(p: Point<Ndc>, q: Point<Ndc>) {
     let mut picture = vec![vec![' '; WIDTH]; HEIGHT];
     for step in 0..=400 {

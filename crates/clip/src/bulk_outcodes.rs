@@ -1,8 +1,8 @@
 //! Arrays of points: projection and outcodes in one pass.
 //!
 //! Most meshes are completely visible or completely hidden. [`OutcodeSummary`] detects both cases
-//! with two comparisons. For other meshes, the outcodes of the corners sort the triangles before
-//! any clipping:
+//! with two comparisons. For other meshes, the outcodes of a triangle's corners decide whether to
+//! clip it:
 //!
 //! ```
 //! use clip::{OutcodeSummary, Outcode, Volume};
@@ -30,7 +30,7 @@ pub struct OutcodeSummary {
     pub count: usize,
     /// The planes that at least one point is outside of.
     pub any_outside: Outcode,
-    /// The planes that all points are outside of. It is empty if there are no points.
+    /// The planes that all points are outside of; empty if there are no points.
     pub all_outside: Outcode,
 }
 

@@ -16,12 +16,12 @@ use alloc::vec::Vec;
 use homog::{Plane, Point, Space};
 
 impl<S: Space> Outline<S> {
-    /// Returns the triangles of the cut face. They are counterclockwise seen from the removed side,
-    /// where the normal of the plane points away from the viewer.
+    /// Returns the triangles of the cut face. They are counterclockwise as seen from the removed
+    /// side; the normal of the plane points to the other side.
     ///
     /// Areas within an odd number of loops are filled, and the direction of a loop does not matter
-    /// (even-odd rule). Loops that cross each other, which never happens for a solid, are only
-    /// partly covered. The time grows with the square of the number of points.
+    /// (even-odd rule). If loops cross each other, which never happens for a solid, they are only
+    /// partly filled. The time grows with the square of the number of points.
     ///
     /// ```
     /// use clip::Outline;

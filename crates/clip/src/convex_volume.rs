@@ -100,7 +100,7 @@ impl<S: Space> ConvexVolume<S> {
     /// ```
     ///
     /// # Errors
-    /// Returns [`VolumeError::NoPlane`] if the map is not finite or one of the planes degenerates.
+    /// Returns [`VolumeError::NoPlane`] if the map is not finite, or if a plane degenerates.
     pub fn from_projection(
         source_to_clip: Projective<S, Clip>,
         range: impl Into<ClipRange>,
@@ -155,11 +155,11 @@ impl<S: Space> ConvexVolume<S> {
     }
 
     /// Returns the part of a convex polygon that is inside: its corners with their attributes, in
-    /// the same order (CL-3; Sutherland and Hodgman, 1974). Corners are points or homogeneous
+    /// the same order (CL-3; Sutherland and Hodgman, 1974). Corners may be points or homogeneous
     /// points.
     ///
-    /// The result is empty if nothing is left or a corner is not finite. Corners that are inside
-    /// are unchanged, and an edge shared by two polygons is cut at bit-identical points.
+    /// The result is empty if nothing is left, or if a corner is not finite. Corners that are
+    /// inside are unchanged, and an edge shared by two polygons is cut at bit-identical points.
     #[must_use]
     pub fn clip_polygon<P, A>(&self, polygon: &[(P, A)]) -> Vec<(P, A)>
     where
@@ -195,7 +195,7 @@ impl<S: Space> ConvexVolume<S> {
     }
 
     /// Returns the part of a segment that is inside, as the fractions at which it enters and
-    /// leaves, or 0 and 1 where its ends are inside (Cyrus and Beck, 1978). Returns `None` if
+    /// leaves, or 0 and 1 where its endpoints are inside (Cyrus and Beck, 1978). Returns `None` if
     /// nothing is inside.
     #[must_use]
     pub fn clip_segment(&self, ends: [impl Into<HPoint<S>>; 2]) -> Option<[f64; 2]> {
@@ -217,7 +217,7 @@ impl<S: Space> ConvexVolume<S> {
     }
 }
 
-/// Plain points without attributes also work.
+/// Clipping of points without attributes.
 impl<S: Space> ConvexVolume<S> {
     /// Returns the part of a triangle that is inside, as a polygon. This is
     /// [`clip_polygon`](Self::clip_polygon) with the weights of the triangle's corners as
@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hundred_planes_around_a_circle_cut_a_square_to_a_disc() {
+    fn a_hundred_planes_around_a_circle_cut_a_square_into_a_disc() {
         let mut ball = Room::new();
         for step in 0..100 {
             let (s, c) = libm::sincos(f64::from(step) * core::f64::consts::TAU / 100.0);

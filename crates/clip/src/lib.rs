@@ -23,9 +23,9 @@
 //!
 //! | shape | function | result |
 //! | --- | --- | --- |
-//! | a point | [`clip_point`], [`Volume::outcode`] | inside or not, planes it is outside of |
+//! | a point | [`clip_point`], [`Volume::outcode`] | inside or outside; the planes it is outside of |
 //! | many points | [`Volume::project_positions`] | outcodes; whether all are inside or all outside |
-//! | a segment | [`clip_segment`] | its ends with their fractions, and the clipping planes |
+//! | a segment | [`clip_segment`] | its endpoints with their fractions, and the clipping planes |
 //! | a polyline | [`clip_polyline`] | unbroken runs |
 //! | a triangle | [`clip_triangle`] | a convex polygon with weights, without allocation |
 //! | a convex polygon | [`clip_convex`] | the same, for any number of corners |
@@ -43,7 +43,7 @@
 //! use clip::{PlaneOutcome, PlaneIndex, Volume, clip_triangle};
 //! use homog::{Clip, Point, Projective, View};
 //!
-//! // The textbook's perspective with w > 0 in front (PE-3): window [−1, 1]², n = −1, f = −9.
+//! // The textbook's perspective projection, w > 0 ahead (PE-3): window [−1, 1]², n = −1, f = −9.
 //! let view_to_clip = Projective::<View, Clip>::from_rows([
 //!     [1.0, 0.0, 0.0, 0.0],
 //!     [0.0, 1.0, 0.0, 0.0],

@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn trivial_acceptance_and_rejection() {
+    fn outcodes_decide_trivial_acceptance_and_rejection() {
         let [a, b] = [0b01, 0b11].map(Outcode::from_bits);
         assert_eq!(Outcode::trivially_rejects(&[a, b]), a);
         assert!(Outcode::trivially_rejects(&[a, Outcode::INSIDE]).is_inside());

@@ -16,7 +16,7 @@ pub struct Outline<S: Space> {
 }
 
 impl<S: Space> Outline<S> {
-    /// Joins edges whose ends are exactly equal, such as the edges from
+    /// Joins edges whose endpoints are exactly equal, such as the edges from
     /// [`crate::CutTriangle::edge`].
     ///
     /// Edges are joined end to start where possible. Where the winding of the surface is
@@ -71,7 +71,7 @@ fn point_key<S: Space>(point: Point<S>) -> PointKey {
 
 struct EdgeChains<'a, S: Space> {
     edges: &'a [[Point<S>; 2]],
-    /// The edges at a point, starting with the edges that start there.
+    /// The edges at each point, beginning with the edges that start there.
     at: BTreeMap<PointKey, Vec<usize>>,
     used: Vec<bool>,
 }

@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn a_polygon_around_the_volume_becomes_its_square() {
+    fn a_polygon_around_the_volume_is_clipped_to_a_square() {
         let ring: Vec<HPoint<Clip>> = (0..16)
             .map(|i| libm::sincos(f64::from(i) * core::f64::consts::PI / 8.0))
             .map(|(s, c)| HPoint::new(5.0 * c, 5.0 * s, 0.25, 1.0))

@@ -10,10 +10,10 @@ use homog::{Clip, HPoint};
 pub struct PolylinePoint {
     /// The position before the divide.
     pub point: HPoint<Clip>,
-    /// The index of the source segment that contains it, which runs from point `segment` to point
-    /// `segment + 1`.
+    /// The index of the source segment that contains the point, which runs from point `segment` to
+    /// point `segment + 1`.
     pub segment: usize,
-    /// The fraction along that segment. Use it to interpolate attributes of the ends.
+    /// The fraction along that segment. Use it to interpolate attributes of the endpoints.
     pub t: f64,
 }
 
@@ -22,7 +22,7 @@ pub struct PolylinePoint {
 ///
 /// While the line stays inside, the run continues, so dash patterns and joins can follow it. A
 /// closed line repeats its first point as its last; if that point is inside, the first and last
-/// runs meet there. Segments with an end that is not finite are skipped.
+/// runs meet there. Segments with an endpoint that is not finite are skipped.
 ///
 /// ```
 /// use clip::{Volume, clip_polyline};

@@ -16,10 +16,10 @@ use homog::{Clip, HPoint};
 /// The visible part of a segment from p to q.
 ///
 /// # Guarantees
-/// - 0 ≤ `t0` ≤ `t1` ≤ 1; both ends are finite, have w > 0 and are inside the volume's box or on
-///   its boundary.
-/// - An end that is inside is unchanged. The segment from q to p gives the same two points, bit for
-///   bit.
+/// - 0 ≤ `t0` ≤ `t1` ≤ 1; both endpoints are finite, have w > 0 and are inside the volume's box or
+///   on its boundary.
+/// - An endpoint that is inside is unchanged. The segment from q to p gives the same two points,
+///   bit for bit.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct ClippedSegment {
@@ -28,7 +28,7 @@ pub struct ClippedSegment {
     /// The last point that is inside. It equals `start` if only one point is left.
     pub end: HPoint<Clip>,
     /// The fraction at `start` of the way from p to q. Use it to interpolate attributes of the
-    /// ends; no further correction is needed.
+    /// endpoints; no further correction is needed.
     pub t0: f64,
     /// The fraction at `end`.
     pub t1: f64,
@@ -59,7 +59,7 @@ impl ClippedSegment {
 }
 
 /// Returns the part of the segment from `p` to `q` inside a volume, or `None` if nothing is inside
-/// or an end is not finite.
+/// or an endpoint is not finite.
 ///
 /// Clipping comes before the divide, so segments that cross w = 0, start behind the eye or end at
 /// infinity are handled correctly.
@@ -110,7 +110,7 @@ struct PlaneCrossing {
 }
 
 impl PlaneCrossing {
-    /// Returns the crossing point, given the end inside the plane and the end outside.
+    /// Returns the crossing point, given the endpoint inside the plane and the endpoint outside.
     fn crossing_point(
         self,
         inner: HPoint<Clip>,

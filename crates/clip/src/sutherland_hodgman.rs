@@ -71,7 +71,7 @@ pub(crate) fn safe_scale<'a>(points: impl IntoIterator<Item = &'a DVec4>) -> f64
     if is_huge { SCALE_DOWN } else { 1.0 }
 }
 
-/// Undoes the scale. If rounding exceeds the largest finite number, the result is that number.
+/// Undoes the scale; coordinates beyond the largest finite number are clamped to it.
 pub(crate) fn unscaled(point: DVec4, scale: f64) -> DVec4 {
     (point / scale).clamp(DVec4::MIN, DVec4::MAX)
 }

@@ -13,7 +13,7 @@ use crate::{MAX_PLANES, Outcode, PlaneIndex, PlaneOutcomes, Volume};
 use core::fmt;
 use homog::{Clip, HPoint};
 
-/// A triangle has 3 vertices and each plane adds at most one.
+/// The maximum number of vertices: the triangle has 3, and each plane adds at most one.
 const MAX_VERTICES: usize = 3 + MAX_PLANES;
 
 /// A vertex of a clipped triangle.
@@ -53,7 +53,7 @@ pub struct ClippedPolygon {
     pub outcomes: PlaneOutcomes,
 }
 
-/// Most triangles stay whole, so copying them need not copy the buffer for clipped vertices.
+/// The vertices. Most triangles are unclipped, so copying them need not copy the large buffer.
 #[derive(Clone, Copy, Debug)]
 #[expect(clippy::large_enum_variant, reason = "stays on the stack to avoid allocation")]
 enum PolygonVertices {
@@ -238,7 +238,7 @@ impl VertexBuffer {
     }
 
     /// Appends a vertex if there is space. Rounding may make a ring slightly concave. Only such a
-    /// ring could outgrow its storage; it then drops a vertex that is on a line.
+    /// ring could exceed the storage; a vertex on a straight line is then dropped.
     fn push(&mut self, vertex: ClipVertex) {
         if let Some(place) = self.vertices.get_mut(self.count) {
             *place = vertex;

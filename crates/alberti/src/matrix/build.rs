@@ -1,4 +1,4 @@
-//! Matrices from parameters: the flags, and products of the matrices they build.
+//! Flags that build a matrix from parameters, and products of such matrices.
 //!
 //! ```text
 //!  --viewport 4,3 --ortho … --p -1,-3     =     M_vp M_orth P: the rightmost is applied first
@@ -12,10 +12,10 @@ use glam::DMat4;
 use projection::Convention;
 use recognition::parse_number;
 
-/// The sentence on near and far for all flags except `--p`, in the help and in messages.
-pub(super) const DISTANCES: &str = "near and far are distances ahead of the eye, 0 < near < far \
-    (--ortho and --oblique also accept near = 0 and, except with the conventions alberti and \
-    chapter, a near plane behind the eye, as in glOrtho's -1,1); for the textbook's coordinates \
+/// The text on near and far for all flags except `--p`, in the help and in messages.
+pub(super) const DISTANCES: &str = "near and far are distances ahead of the eye, with 0 < near < \
+    far. --ortho and --oblique also accept near = 0 and, except with the conventions alberti and \
+    chapter, a near plane behind the eye, as in glOrtho's -1,1. For the textbook's coordinates \
     0 > n > f, use near = -n and far = -f";
 
 /// Options that change the matrices of some flags.
@@ -55,75 +55,75 @@ const FLAGS: [BuilderFlag; 16] = [
         "FOVY,ASPECT,NEAR,FAR",
         &[Conventions, Reversed],
         build_perspective,
-        "Perspective from its vertical field of view in degrees; FAR may be `inf`",
+        "Perspective projection with this vertical field of view in degrees; FAR may be `inf`",
     ),
     flag(
         "frustum",
         "L,R,B,T,NEAR,FAR",
         &[Conventions, Reversed],
         build_frustum,
-        "Perspective from its window on the near plane, like glFrustum; FAR may be `inf`",
+        "Perspective projection with this window at NEAR, like glFrustum; FAR may be `inf`",
     ),
     flag(
         "moved-apex",
         "L,R,B,T,NEAR,FAR",
         &[Conventions, Reversed],
         build_moved_apex,
-        "Perspective of the WebGL lesson, with its apex moved behind the window's center",
+        "Perspective projection of the WebGL lesson: the apex moves behind the window's center",
     ),
     flag(
         "intrinsics",
         "FX,FY,CX,CY,WIDTH,HEIGHT,NEAR,FAR",
         &[Conventions, Reversed],
         build_intrinsics,
-        "Perspective of a calibrated camera from its matrix K, for pictures of WIDTH x HEIGHT \
-         pixels; pixel centers are at whole numbers, as in OpenCV",
+        "Perspective projection of a calibrated camera with the matrix K, for pictures of WIDTH x \
+         HEIGHT pixels; pixel centers have integer coordinates, as in OpenCV",
     ),
     flag(
         "ortho",
         "L,R,B,T,NEAR,FAR",
         &[Conventions, Reversed],
         build_ortho,
-        "Orthographic box, like glOrtho",
+        "Orthographic projection of this box, like glOrtho",
     ),
-    flag("p", "N,F", &[], build_p, "The textbook's P from its signed n and f, such as -1,-10"),
+    flag("p", "N,F", &[], build_p, "The textbook's P with signed n and f, such as -1,-10"),
     flag(
         "oblique",
         "LENGTH,ANGLE[,L,R,B,T,NEAR,FAR]",
         &[Conventions, Reversed, OntoPlane],
         build_oblique,
-        "Oblique projection from the drawn length of a unit of depth and its angle in degrees; six \
-         more numbers define the whole volume",
+        "Oblique projection that draws a unit of depth with this length and angle in degrees; six \
+         more numbers define the view volume",
     ),
     flag(
         "axonometric",
         "ALPHA,BETA",
         &[OntoPlane],
         build_axonometric,
-        "Axonometric projection from the angles about y and x in degrees; 45,35.26439 is isometric",
+        "Axonometric projection with angles in degrees about y and x; 45,35.26439 is isometric",
     ),
     flag(
         "n-point",
         "P,Q,R",
         &[OntoPlane],
         build_n_point,
-        "One-, two- or three-point perspective from its bottom row (p, q, r, 1)",
+        "One-, two- or three-point perspective with the bottom row (p, q, r, 1)",
     ),
     flag(
         "look-at",
         "EYE,TARGET[,UP]",
         &[Conventions],
         build_look_at,
-        "Camera from its eye, the point it looks at and, unless it is y, the up direction; with \
-         --conventions direct3d in a left-handed world (XMMatrixLookAtLH)",
+        "Camera at EYE that looks at TARGET, with the up direction UP (by default y); \
+         --conventions direct3d makes the world left-handed (XMMatrixLookAtLH)",
     ),
     flag(
         "look-to",
         "EYE,DIRECTION[,UP]",
         &[Conventions],
         build_look_to,
-        "Camera from its eye, its viewing direction (the gaze) and, unless it is y, the up \
-         direction",
+        "Camera at EYE that looks along DIRECTION (the gaze), with the up direction UP \
+         (by default y)",
     ),
     flag(
         "viewport",
@@ -177,8 +177,8 @@ impl clap::FromArgMatches for BuildArgs {
 
 impl clap::Args for BuildArgs {
     fn augment_args(command: Command) -> Command {
-        let heading = "Matrix from parameters (when several are given, they are multiplied; the \
-                       rightmost is applied first)";
+        let heading = "Matrix from parameters (several matrices are multiplied; the rightmost is \
+                       applied first)";
         let arg = |flag: &BuilderFlag| {
             Arg::new(flag.name)
                 .long(flag.name)
@@ -250,7 +250,7 @@ impl BuildOptions {
         .filter_map(|(modifier, name, given)| given.then_some((modifier, name)))
     }
 
-    /// Refuses modifiers without a matrix to build.
+    /// Rejects modifiers if no flag builds a matrix.
     pub(super) fn check_unused(self) -> Result<(), CliError> {
         self.given().next().map_or(Ok(()), |(_, name)| {
             let message = format!(
@@ -260,7 +260,7 @@ impl BuildOptions {
         })
     }
 
-    /// Refuses the modifiers of view volumes for a matrix that has no view volume.
+    /// Rejects the modifiers of view volumes for a matrix without a view volume.
     pub(super) fn refuse_volume(self, what: &str) -> Result<(), CliError> {
         let refused = self.given().find(|(modifier, _)| *modifier != OntoPlane);
         refused.map_or(Ok(()), |(_, name)| {
@@ -268,7 +268,7 @@ impl BuildOptions {
         })
     }
 
-    /// Refuses a modifier that affects none of the flags.
+    /// Rejects a modifier that affects none of the flags.
     fn check(self, calls: &[(usize, NumberList)]) -> Result<(), CliError> {
         for (modifier, name) in self.given() {
             let obeys = |flag: &BuilderFlag| flag.uses.contains(&modifier);
@@ -290,14 +290,14 @@ impl BuildOptions {
 /// A matrix with its factors.
 #[derive(Debug)]
 pub(super) struct BuiltMatrix {
-    /// Its name with the parameters.
+    /// The name of the matrix, with its parameters.
     pub(super) subject: String,
-    /// The ids of its formulas.
+    /// The ids of the matrix's formulas.
     pub(super) formula: Option<&'static str>,
     pub(super) matrix: DMat4,
     /// A remark on the matrix.
     pub(super) note: Option<&'static str>,
-    /// Names and matrices, in the order in which they are applied; the product is the matrix.
+    /// The names and matrices of the factors, in order of application.
     pub(super) factors: Vec<(&'static str, DMat4)>,
     /// The ids of the factors' formulas.
     pub(super) factor_formula: Option<&'static str>,
@@ -326,13 +326,14 @@ impl BuildArgs {
     /// returns `None` without flags.
     ///
     /// # Errors
-    /// If the number of parameters is wrong, the builder rejects one, or a modifier has no effect.
+    /// Returns an error if the number of parameters is wrong, if the builder rejects one, or if a
+    /// modifier is unused.
     pub(super) fn build(&self, options: BuildOptions) -> Option<Built> {
         (!self.calls.is_empty()).then(|| self.build_product(options))
     }
 
-    /// Rejects numbers next to a flag that builds a matrix: a list with a space, or a second
-    /// matrix.
+    /// Rejects numbers next to a flag that builds a matrix; the cause is a space in a list, or a
+    /// second matrix.
     pub(super) fn check_alone(&self, numbers: &[String]) -> Result<(), CliError> {
         let (Some((at, list)), false) = (self.calls.last(), numbers.is_empty()) else {
             return Ok(());
@@ -351,7 +352,7 @@ impl BuildArgs {
         )))
     }
 
-    /// Formats a flag with its numbers as written.
+    /// Formats a flag and its numbers as on a command line.
     fn as_written(at: usize, list: &NumberList) -> String {
         let numbers: Vec<String> = list.0.iter().map(f64::to_string).collect();
         format!("--{} {}", FLAGS[at].name, numbers.join(","))

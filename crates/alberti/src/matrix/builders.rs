@@ -1,4 +1,4 @@
-//! The library's builder for each flag of `alberti matrix`, with factors and formulas.
+//! Builders for the flags of `alberti matrix`: they call the library and add factors and formulas.
 
 use super::super::CliError;
 use super::build::{BuildOptions, Built, BuiltMatrix, DISTANCES, NumberList, wrong_count};
@@ -21,8 +21,8 @@ fn refused(error: impl std::error::Error) -> CliError {
     CliError::Usage(error.to_string())
 }
 
-/// Refuses coordinates in place of distances. An orthographic box may begin at or behind the eye,
-/// except in the textbook's convention, where -1 would be taken as a coordinate.
+/// Rejects coordinates in place of distances. In the textbook's conventions, an orthographic box
+/// must not begin behind the eye, because -1 would be a coordinate.
 fn check_distances(flag: &str, near: f64, far: f64, least: f64) -> Result<(), CliError> {
     if near >= least && far > 0.0 {
         return Ok(());
@@ -37,7 +37,7 @@ fn least_near(options: BuildOptions) -> f64 {
     if textbook.contains(&options.conventions()) { 0.0 } else { f64::NEG_INFINITY }
 }
 
-/// Returns the formula id of a perspective in a convention.
+/// Returns the formula id of a perspective matrix in a convention.
 fn perspective_formula(volume: Convention, by_angle: bool, infinite: bool) -> &'static str {
     let either = |angle, window| if by_angle { angle } else { window };
     let right_handed = volume.ahead() < 0.0;
@@ -53,7 +53,7 @@ fn perspective_formula(volume: Convention, by_angle: bool, infinite: bool) -> &'
     }
 }
 
-/// Returns the formula id of an orthographic box in a convention; WI-3 for rare conventions.
+/// Returns the formula id of an orthographic matrix in a convention; WI-3 for rare conventions.
 fn box_formula(volume: Convention) -> &'static str {
     match volume {
         Convention::CHAPTER => "OR-1",
@@ -83,7 +83,7 @@ fn perspective_of(subject: String, frustum: Frustum, options: BuildOptions) -> B
     let matrix = frustum.view_to_clip(volume).raw();
     let formula = perspective_formula(volume, false, frustum.far().is_infinite());
     let note = (volume == Convention::CHAPTER).then_some(
-        "-M_per: w is the distance ahead. The textbook prints M_per (PE-2), the negative, w = z",
+        "-M_per: w is the distance ahead. The textbook prints the negative, M_per (PE-2): w = z",
     );
     let factors = vec![
         ("shear, the center line onto the line of sight", factors.shear.raw()),
@@ -98,7 +98,7 @@ pub(super) fn build_perspective(list: &NumberList, options: BuildOptions) -> Bui
     check_distances("perspective", near, far, 0.0)?;
     let lens = Perspective::new(Fov::vertical_degrees(fovy), aspect, near, far).map_err(refused)?;
     let subject = format!(
-        "A perspective: vertical field of view {fovy}°, aspect {aspect}, near {near}, far {far}"
+        "A perspective projection: vertical field of view {fovy}°, aspect {aspect}, near {near}, far {far}"
     );
     let matrix = lens.view_to_clip(options.volume()).raw();
     let formula = Some(perspective_formula(options.volume(), true, far.is_infinite()));
@@ -114,7 +114,8 @@ pub(super) fn build_frustum(list: &NumberList, options: BuildOptions) -> Built {
     let [l, r, b, t, n, f] = numbers;
     check_distances("frustum", n, f, 0.0)?;
     let frustum = Frustum::new(l, r, b, t, n, f).map_err(refused)?;
-    Ok(perspective_of(format!("A perspective: {}", volume_words(numbers)), frustum, options))
+    let subject = format!("A perspective projection: {}", volume_words(numbers));
+    Ok(perspective_of(subject, frustum, options))
 }
 
 pub(super) fn build_moved_apex(list: &NumberList, options: BuildOptions) -> Built {
@@ -129,7 +130,7 @@ pub(super) fn build_moved_apex(list: &NumberList, options: BuildOptions) -> Buil
         ("Eq3, x and y onto the near plane", steps.project.raw()),
         ("Eq6, the window to 2 × 2", steps.scale_window.raw()),
     ];
-    let subject = format!("A perspective with its apex moved: {}", volume_words(numbers));
+    let subject = format!("A perspective projection, apex moved: {}", volume_words(numbers));
     let matrix = frustum.view_to_clip(options.volume()).raw();
     Ok(BuiltMatrix { factors, ..built(subject, "LW-1", matrix) })
 }
@@ -237,7 +238,7 @@ pub(super) fn build_n_point(list: &NumberList, options: BuildOptions) -> Built {
         1 => "one vanishing point".to_owned(),
         count => format!("{count} vanishing points"),
     };
-    let subject = format!("A perspective of {points}: ({p}, {q}, {r}, 1)");
+    let subject = format!("A perspective projection with {points}: ({p}, {q}, {r}, 1)");
     let formula = match projection.count() {
         1 => "ONE-1",
         2 => "TWO-1",
@@ -275,7 +276,7 @@ pub(super) fn build_look_to(list: &NumberList, options: BuildOptions) -> Built {
 }
 
 fn camera_of(subject: String, camera: Camera, options: BuildOptions) -> BuiltMatrix {
-    // A left-handed world has the same up vector and line of sight, but right points the other way.
+    // A left-handed world has the same up vector and line of sight, but the opposite right vector.
     let left_handed = options.volume().ahead() > 0.0;
     let side = if left_handed { -1.0 } else { 1.0 };
     let turn = DMat4::from_diagonal(glam::DVec4::new(side, 1.0, side, 1.0));

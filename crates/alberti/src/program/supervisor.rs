@@ -22,14 +22,14 @@ use std::os::unix::process::ExitStatusExt as _;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Stdio};
 
-/// The environment variable that marks the limited process: the bytes it may use, or 0 if another
-/// limit is in force.
+/// The environment variable that marks the limited process; its value is the number of bytes that
+/// the process may use, or 0 if another limit applies.
 const LIMITED: &str = "ALBERTI_LIMITED_PROCESS";
 /// The message that the standard library prints before it aborts.
 const LAST_WORDS: &str = "memory allocation of";
 
-/// Runs the command in a second process if its memory is limited. Returns `None` without a limit,
-/// and in the second process.
+/// Runs the command in a second process if its memory is limited. Returns `None` if there is no
+/// limit, and in the second process.
 pub(super) fn supervise(words: &[OsString]) -> Option<u8> {
     if let Some(bytes) = std::env::var(LIMITED).ok().and_then(|text| text.parse().ok()) {
         // Ends this process if the waiting process is killed.
@@ -53,8 +53,8 @@ pub(super) fn supervise(words: &[OsString]) -> Option<u8> {
     Some(1)
 }
 
-/// Returns the bytes that the command may use, or 0 if another limit is in force, and the message
-/// for a command that exceeds it. Returns `None` without a limit.
+/// Returns the number of bytes that the command may use (0 if another limit applies), and the
+/// message for a command that exceeds the limit. Returns `None` if there is no limit.
 fn memory_limit(words: &[OsString]) -> Option<(u64, String)> {
     let limits = [Resource::As, Resource::Data].map(|resource| getrlimit(resource).current);
     let of_system = limits.into_iter().flatten().min();
@@ -65,7 +65,7 @@ fn memory_limit(words: &[OsString]) -> Option<(u64, String)> {
     if !may_ask && of_system.is_none() {
         return None;
     }
-    // Mistakes in the words are reported when the second process parses them.
+    // Invalid words need no second process: this process reports them.
     let words = negative_numbers::join_negative_numbers(words.iter().cloned(), Args::command);
     let args = usage_advice::parse_args(&words).ok()?;
     let size = |bytes: u64| format!("{} MiB", bytes >> 20);
@@ -102,7 +102,7 @@ fn forward_messages(mut child: Child) -> std::io::Result<std::process::ExitStatu
         .inspect(|status| debug_assert!(status.code().is_some() || status.signal().is_some()))
 }
 
-/// Removes a killed process's temporary files from the folders named in the words.
+/// Removes a killed process's temporary files from the current folder and the folders of the words.
 fn remove_left_over(words: &[OsString], process: u32) {
     let ending = format!(".{process}.part");
     let of_words = words.iter().skip(1).filter_map(|word| Path::new(word).parent());

@@ -8,7 +8,7 @@ use super::{ReferenceEntry, ReferenceFormat, ReferenceSection};
 use explain::formulas::Formula;
 use page::escape_markup;
 
-/// Returns the entry for a formula: name, formula and meaning, sources, and a command.
+/// Returns the entry for a formula: name, formula, meaning, sources and a command.
 pub(super) fn format_formula(formula: &Formula, format: ReferenceFormat) -> String {
     match format {
         ReferenceFormat::Text => plain_text(formula),
@@ -69,7 +69,7 @@ pub(super) fn list_section(
     let entries: Vec<ReferenceEntry> = formulas.map(entry).collect();
     let section = ReferenceSection {
         title: "Formulas".to_owned(),
-        about: "To print one, run alberti reference with its id, such as PE-1.".to_owned(),
+        about: "To print a formula, run alberti reference with its id, such as PE-1.".to_owned(),
         entries,
     };
     (!section.entries.is_empty()).then_some(section)

@@ -87,7 +87,7 @@ fn link_titles(text: &str, titles: &[&str]) -> String {
 
 /// Escapes text and turns backticks into `<code>`.
 ///
-/// Escaping comes first and leaves backticks unchanged. Odd parts were between two backticks.
+/// Escaping comes first and leaves backticks unchanged. Odd-numbered parts were between backticks.
 fn mark_code(text: &str) -> String {
     let parts = escape_markup(text).split('`').map(str::to_owned).collect::<Vec<_>>();
     let part = |(number, part): (usize, &String)| match number % 2 {

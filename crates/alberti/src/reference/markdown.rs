@@ -39,7 +39,7 @@ fn write_entry(page: &mut String, entry: &ReferenceEntry, depth: usize) {
 
 /// Escapes angle brackets, asterisks and underscores outside code spans.
 ///
-/// An angle bracket could start a tag, and `W_H` could become italic. Code spans need no escapes.
+/// Angle brackets could start tags, and the other two emphasis. Code spans need no escapes.
 fn escape_markdown(text: &str) -> String {
     let parts = text.split('`').enumerate().map(|(number, part)| match number % 2 {
         0 => part.replace('<', "&lt;").replace('*', "\\*").replace('_', "\\_"),

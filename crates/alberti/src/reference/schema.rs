@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 
-/// A schema, named like `schema.name` in its documents, without the prefix `alberti-`.
+/// A schema, named like `schema.name` in its documents but without the prefix `alberti-`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
 pub(super) enum SchemaName {
     /// `alberti render --json`

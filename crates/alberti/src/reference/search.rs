@@ -3,8 +3,8 @@
 use super::{ReferenceEntry, ReferenceSection};
 use scene_file::closest_name;
 
-/// Finds the section titled `word`, the entries at the end of a field path with their types, or all
-/// entries with that name.
+/// Finds the section titled `word`, or else the entries at the end of the field path `word` with
+/// their types, or else all entries named `word`.
 ///
 /// Titles come first, because they are the most specific: `render` is the command, not every entry
 /// with that name. Types match in any case, and commands match with or without `alberti`. A path
@@ -12,7 +12,7 @@ use scene_file::closest_name;
 /// with a type.
 ///
 /// # Errors
-/// If nothing has that name; the message suggests the most similar name.
+/// Returns an error if nothing has that name; the message suggests the most similar name.
 pub(super) fn find_sections(
     sections: &[ReferenceSection],
     word: &str,
@@ -31,10 +31,10 @@ pub(super) fn find_sections(
     if found.is_empty() { Err(unknown_word(sections, word)) } else { Ok(found) }
 }
 
-/// Finds matches for a word that is not a name. These are names in other cases or with more words,
-/// such as `Depth` and `depth_cue_percent` for `depth`. Fields for which other programs use this
-/// word also match, such as `camera_path` for `turntable`. Otherwise, all entries that mention the
-/// word match.
+/// Finds entries related to a word that names none: names that contain it in any case, such as
+/// `Depth` and `depth_cue_percent` for `depth`, and fields that other programs call by this word,
+/// such as `camera_path` for `turntable`. If there are none, finds all entries that mention the
+/// word.
 fn find_related(sections: &[ReferenceSection], word: &str) -> Vec<ReferenceSection> {
     let word = word.to_lowercase();
     let mut found = filter_entries(sections, &|entry| has_in_name(entry, &word));
@@ -227,7 +227,7 @@ fn unknown_word(sections: &[ReferenceSection], word: &str) -> String {
         word == name
     };
     let hint = closest_name(last, &names).filter(begins_alike).map_or_else(
-        || "`alberti scene doc` lists all scene fields, `alberti --help` all commands".to_owned(),
+        || "`alberti scene doc` lists the scene fields, `alberti --help` the commands".to_owned(),
         |name| format!("did you mean `{name}`?"),
     );
     format!("the reference has no entry named `{word}`\n  = help: {hint}")

@@ -7,13 +7,13 @@ use pipeline::{Origin, Scene};
 use scene_file::SceneFile;
 use scene_file::file::{EnvironmentFile, ViewportsScale};
 
-/// Sets the view of a scene to the smallest scale of all `--views`.
+/// Sets the scale of a scene's view to the smallest scale of all `--views`.
 ///
-/// The other views reuse this view's models and are resolved without viewports and backdrops, which
-/// do not affect the scale.
+/// All views share the scene's models and are resolved without viewports, overlays and backgrounds,
+/// which do not affect the scale.
 ///
 /// # Errors
-/// If a view is a perspective, which has no scale.
+/// Returns an error if a view has a perspective projection, which has no uniform scale.
 pub(super) fn share_scale(
     views: &[NamedView],
     origin: &Origin,

@@ -1,6 +1,6 @@
-//! Plans the pictures that one call of `render` makes before any work starts.
+//! Plans all pictures of one `render` call before any work starts.
 //!
-//! Every output name is known up front, so that two pictures with the same name are refused before
+//! Every output name is known up front, so that two pictures with the same name are rejected before
 //! the first is written.
 
 use super::missing_input_help;
@@ -14,7 +14,7 @@ use files::visible_path;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The text and number fields of an output name template.
+/// The text fields of an output name template.
 ///
 /// All except `stem` have the value of a flag, or `default` if the flag is not set. Their values
 /// are the same for all pictures of a call, except `view` with `--views`.
@@ -39,10 +39,10 @@ pub(crate) struct RenderTask {
     pub(crate) output: Option<PathBuf>,
 }
 
-/// Plans all pictures, in the order of the inputs, then of the views.
+/// Plans all pictures, ordered by input, then by view.
 ///
 /// # Errors
-/// If the name is not a valid template, or two pictures would have the same name.
+/// Returns an error if an input is missing, or if an output name is invalid or not unique.
 pub(super) fn plan_tasks(args: &RenderArgs) -> Result<Vec<RenderTask>, CliError> {
     refuse_output_as_input(&args.inputs)?;
     refuse_words_as_input(&args.inputs)?;
@@ -78,7 +78,7 @@ pub(super) fn plan_tasks(args: &RenderArgs) -> Result<Vec<RenderTask>, CliError>
     Ok(jobs)
 }
 
-/// Refuses `render model.glb picture.png` before a picture of only the first model is made.
+/// Rejects `render model.glb picture.png` before rendering: probably `-o` was forgotten.
 fn refuse_output_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
     let is_flag = |path: &Path| path.to_string_lossy().starts_with('+');
     let is_output =
@@ -93,8 +93,8 @@ fn refuse_output_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
     )))
 }
 
-/// Refuses an input that does not exist, such as `+antialias` or a flag after `--`, if there are
-/// several. Otherwise the error would be that two pictures have the same name.
+/// Rejects a nonexistent input, such as `+antialias` or a flag after `--`, if there are several
+/// inputs. Otherwise, the error could be that two pictures have the same name.
 fn refuse_words_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
     let is_word = |path: &&PathBuf| path.as_os_str() != "-" && !path.exists();
     let Some(word) = inputs.iter().find(is_word).filter(|_| inputs.len() > 1) else {
@@ -145,7 +145,7 @@ fn output_template(args: &RenderArgs) -> Result<NameTemplate, CliError> {
 
 /// Returns the value of a text field of the template, or `default` if no flag sets it.
 ///
-/// The value of a flag is its name as written on the command line.
+/// A flag's value is its name on the command line.
 ///
 /// Camera and variant names come from models and may contain any character; the template replaces
 /// characters that file names cannot contain.
@@ -174,8 +174,8 @@ fn template_word(name: &str, input: &Path, look: &SceneOverrideArgs) -> String {
 
 /// Checks that no two pictures have the same file name.
 ///
-/// Paths are compared as written: `a.png` and `./a.png` count as different. A typical cause is a
-/// scene and a model with the same stem.
+/// Paths are compared as written: `a.png` and `./a.png` count as different. Two names are equal,
+/// for example, if a scene and a model have the same stem.
 fn check_distinct_outputs(jobs: &[RenderTask]) -> Result<(), CliError> {
     let mut taken: BTreeMap<&Path, &RenderTask> = BTreeMap::new();
     for job in jobs {

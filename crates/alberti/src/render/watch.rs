@@ -24,10 +24,10 @@ const MAX_SEARCHED_BYTES: u64 = 64 << 20;
 /// The modification time and length of each file; `None` if it does not exist.
 type Stamps = BTreeMap<PathBuf, Option<(SystemTime, u64)>>;
 
-/// Runs `make` now and after every change, until the program is interrupted; its errors are printed.
+/// Runs `make` now and after every change, and prints its errors, until the program is interrupted.
 ///
 /// # Errors
-/// If an input is the standard input, or the output is the standard output.
+/// Returns an error if an input is the standard input, or if the output is the standard output.
 pub(super) fn repeat(
     inputs: &[PathBuf],
     to_stdout: bool,

@@ -13,18 +13,18 @@ pub(crate) struct FmtArgs {
     /// Scenes (.ron); `-` reads one from the standard input and writes it to the standard output
     #[arg(required = true)]
     files: Vec<PathBuf>,
-    /// Do not write; print the files that are not formatted, and exit with 1 if there are any
+    /// Write nothing; print the names of unformatted files, and exit with 1 if there are any
     #[arg(long)]
     check: bool,
 }
 
 /// Formats the files, or with `--check` lists the unformatted ones.
 ///
-/// A file that is already formatted is not written, so its modification time stays the same. When
-/// the command fails on a syntax error, earlier files have already been formatted.
+/// A file that is already formatted is not written, so its modification time stays the same. If the
+/// command fails on a syntax error, earlier files have already been formatted.
 ///
 /// # Errors
-/// If a file cannot be read, parsed or written.
+/// Returns an error if a file cannot be read, parsed or written.
 pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, CliError> {
     let mut differ = Vec::new();
     for path in &args.files {
@@ -52,7 +52,7 @@ pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, CliError> {
 /// Reads a file, or the standard input for `-`.
 ///
 /// # Errors
-/// If it cannot be read or is not UTF-8.
+/// Returns an error if the input cannot be read or is not UTF-8.
 fn read_source(path: &Path) -> Result<String, CliError> {
     let mut text = String::new();
     let read = if path.as_os_str() == "-" {

@@ -1,7 +1,7 @@
 //! `alberti scene init`: creates a commented scene file for a model.
 //!
 //! The file is a starting point for editing: it contains the default view and light as explicit
-//! fields, and everything else that the model offers as comments.
+//! fields, and comments for everything else that the model offers.
 //!
 //! ```text
 //! // fox.glb: 576 triangles, 0.256 wide, 0.788 high, 1.545 deep.
@@ -39,14 +39,14 @@ pub(crate) struct InitArgs {
     load_options: LoadArgs,
 }
 
-/// Writes the scene file, prints its path, and warns if reading it needs additional permission.
+/// Writes the scene file, prints its path, and warns if reading the model needs permission.
 ///
 /// The model is loaded to learn its size, cameras and lights. The text is built without indentation
 /// and then formatted as by `scene fmt`, which also proves that it parses.
 ///
 /// # Errors
-/// If the output exists and `--force` is not set, the model cannot be loaded, or the file cannot be
-/// written.
+/// Returns an error if the output exists and `--force` is not set, if the model cannot be loaded,
+/// or if the file cannot be written.
 pub(crate) fn run(args: &InitArgs) -> Result<(), CliError> {
     let output = args.output.clone().unwrap_or_else(|| args.model.with_extension("ron"));
     let to_stdout = output.as_os_str() == "-";
@@ -88,8 +88,8 @@ pub(crate) fn run(args: &InitArgs) -> Result<(), CliError> {
 ///
 /// Makes both paths canonical first, so that symbolic links and `..` do not matter.
 ///
-/// A path that cannot be made canonical, for example in a folder that does not exist yet, is
-/// written unchanged.
+/// If a path cannot be made canonical, for example because its folder does not exist yet, the
+/// file's path is returned unchanged.
 fn relative_path(folder: &Path, file: &Path) -> String {
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let (Ok(from), Ok(to)) = (here.canonicalize(), file.canonicalize()) else {
@@ -148,7 +148,7 @@ fn write_light(text: &mut String, scene: &Scene) {
         text.push_str("lights: [FromModels],\n");
     } else if let Some(Light::Sun { to_light, lux: [lux, ..], .. }) = scene.lights.first() {
         let [x, y, z] = to_light.map(|coordinate| -coordinate);
-        text.push_str("// The intensity of a directional light is in lux; a white matte surface shows intensity / π.\n");
+        text.push_str("// The intensity of a directional light is in lux; a white matte surface has a luminance of intensity / π.\n");
         let _ = writeln!(
             text,
             "lights: [Directional(direction: ({x:.4}, {y:.4}, {z:.4}), intensity: {lux})],"
@@ -163,7 +163,7 @@ fn write_light(text: &mut String, scene: &Scene) {
 
 /// Returns the comment at the top: the model's size, and commands to try next.
 ///
-/// The commands can be copied as they are if the path has no spaces.
+/// The commands can be copied unchanged if the path has no spaces.
 fn header_comment(model: &Model, path: &str, output: &str) -> String {
     let triangles =
         model.scene_primitives().filter(|(_, part)| part.topology == Topology::Triangles);
@@ -175,12 +175,12 @@ fn header_comment(model: &Model, path: &str, output: &str) -> String {
         "// {}: {triangles} triangles, {x:.3} wide, {y:.3} high, {z:.3} deep.\n\
          // Render: alberti render {output}\n\
          // Validate: alberti scene check {output}\n\
-         // Reference of all fields: alberti scene doc\n",
+         // Reference for all fields: alberti scene doc\n",
         single_line(path)
     )
 }
 
-/// Writes the file's up axis and unit, which flags may have chosen, unless they match glTF.
+/// Writes the up axis and unit, possibly overridden by flags, unless glTF's, and any crease angle.
 fn write_conventions(text: &mut String, model: &Model, crease: Option<f64>) {
     let Model { up_axis, length_unit, .. } = model;
     if (*up_axis, *length_unit) != Default::default() {
@@ -201,7 +201,7 @@ fn write_model_states(text: &mut String, model: &Model) {
         }
     };
     if model.scenes.len() > 1 {
-        text.push_str("// Scenes of the model; without a choice, its default scene is used:\n");
+        text.push_str("// Scenes of the model; if none is chosen, its default scene is used:\n");
         names(model.scenes.iter().map(|scene| scene.name.as_deref()).collect(), "scene", text);
     }
     if !model.variants.is_empty() {
@@ -224,7 +224,7 @@ fn write_model_states(text: &mut String, model: &Model) {
 /// The target of the `LookAt` is the point on the view axis nearest to the center of the model.
 ///
 /// Numbers have four decimals, enough to edit and short enough to read; the active view stays
-/// exact, because it has no numbers.
+/// exact, because it has no coordinates.
 fn write_views(text: &mut String, scene: &Scene) {
     let model = &scene.models[0].model;
     let camera = scene.view_projection.camera;

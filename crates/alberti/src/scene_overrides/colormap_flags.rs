@@ -96,7 +96,7 @@ const fn shows_vertex_colors(style: Style) -> bool {
 /// Parses `MIN,MAX`.
 ///
 /// # Errors
-/// If the text is not two finite numbers, or the first is larger.
+/// Returns an error if the text is not two finite numbers, or if the first exceeds the second.
 fn parse_scalar_range(text: &str) -> Result<ScalarRange, String> {
     let [min, max] = parse_numbers(text)?;
     if min > max {

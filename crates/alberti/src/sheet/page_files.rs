@@ -25,14 +25,14 @@ impl PageNames {
     /// Parses the file names from an output path.
     ///
     /// # Errors
-    /// If the output has an unknown field, or `{page}` in a PDF, which holds all pages.
+    /// Returns an error if a field is unknown, or if the name of a PDF has `{page}`.
     pub(super) fn parse(
         input: &Path,
         output: &Path,
         format: OutputFormat,
     ) -> Result<Self, CliError> {
         let name = output.to_string_lossy();
-        // Braces in a name without a field stay unchanged.
+        // In a name without `{page}`, braces stay unchanged.
         let is_template = name.contains("{page");
         if is_template && format == OutputFormat::Pdf {
             let help = "\n  = help: remove {page}; a PDF holds all pages";
@@ -76,7 +76,7 @@ impl PageNames {
 /// Writes files. None appears under its final name until all have been written.
 ///
 /// # Errors
-/// If a file cannot be written; existing files with these names are then unchanged.
+/// Returns an error if a file cannot be written; existing files are then unchanged.
 pub(super) fn write_all(files: &[(PathBuf, Vec<u8>)]) -> Result<(), CliError> {
     let mut written = Vec::new();
     for (path, bytes) in files {

@@ -6,7 +6,7 @@ use pipeline::CancelToken;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Time for the rendering to end by itself after cancellation.
+/// The time that a canceled rendering has to end by itself.
 const GRACE: Duration = Duration::from_millis(250);
 
 /// A time limit: a thread that cancels the rendering and then ends the process.
@@ -25,7 +25,7 @@ impl Deadline {
     /// Starts the timer.
     ///
     /// # Errors
-    /// If the system cannot create the timer thread.
+    /// Returns an error if the system cannot create the timer thread.
     pub(super) fn start(seconds: u32) -> Result<Self, CliError> {
         let deadline = Self { cancel: CancelToken::default(), is_done: Arc::default() };
         let (cancel, is_done) = (deadline.cancel.clone(), Arc::clone(&deadline.is_done));

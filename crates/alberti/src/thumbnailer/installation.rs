@@ -19,7 +19,7 @@ use std::process::{Command, Stdio};
 /// Debian's shared-mime-info 2.2 and later has types for glTF, STL, OBJ and 3MF, but not for PLY.
 pub(super) const MIME_TYPES: &str = include_str!("mime_types.xml");
 
-/// The MIME types in the entry, including aliases in use.
+/// The MIME types in the entry, including aliases that are in use.
 const MIME_TYPE_NAMES: [&str; 13] = [
     "model/gltf+json",
     "model/gltf-binary",
@@ -39,7 +39,7 @@ const MIME_TYPE_NAMES: [&str; 13] = [
 /// Returns the thumbnailer entry for a program.
 ///
 /// # Errors
-/// If its path cannot be written into such a file.
+/// Returns an error if the program's path cannot be written into such a file.
 pub(super) fn entry_of(program: &Path) -> Result<String, CliError> {
     let path = program.to_str().filter(|path| !path.contains(char::is_control));
     let path = path.ok_or_else(|| {
@@ -70,10 +70,10 @@ fn escape_value(text: &str) -> String {
     text.replace('\\', r"\\")
 }
 
-/// Writes both files, updates the database, and reports it.
+/// Writes both files, updates the database, and reports these steps.
 ///
 /// # Errors
-/// If there is no folder for them, a file cannot be written, or the database cannot be updated.
+/// Returns an error if there is no data folder, or if a file or the database cannot be written.
 pub(super) fn install_files(prefix: Option<&Path>) -> Result<(), CliError> {
     let folder = data_folder(prefix)?;
     let program = std::env::current_exe().map_err(|cause| {
@@ -99,10 +99,10 @@ pub(super) fn install_files(prefix: Option<&Path>) -> Result<(), CliError> {
     print_stdout(done.as_bytes())
 }
 
-/// Removes both files, updates the database, and reports it.
+/// Removes both files, updates the database, and reports these steps.
 ///
 /// # Errors
-/// If there is no such folder, a file cannot be removed, or the database cannot be updated.
+/// Returns an error if there is no data folder, or if a file or the database cannot be changed.
 pub(super) fn remove_files(prefix: Option<&Path>) -> Result<(), CliError> {
     let folder = data_folder(prefix)?;
     let mut done = String::new();

@@ -1,17 +1,17 @@
 //! Words that users know from f3d, Blender, ImageMagick, ffmpeg, three.js or stl-thumb.
 //!
-//! Each line of `foreign_words.tsv` contains a table, words without leading hyphens, their owner
-//! (`-` for none), and the text to write instead. If a word is on several lines, the first counts.
-//! Single letters keep their case.
+//! Each line of `foreign_words.tsv` names a table and contains words without leading hyphens, their
+//! owner (`-` for none), and the text to write instead. If a word is on several lines, the first
+//! line counts. Single letters keep their case.
 //!
 //! | table | owner |
 //! | --- | --- |
 //! | `flag` | the flag that the command must have; none if the advice names another command |
-//! | `habit` | the only command to which it applies; none if it applies to all |
+//! | `habit` | the only command to which the line applies; none if it applies to all |
 //! | `value` | the flag |
 //! | `command` | the preceding command |
 
-/// The content of the file.
+/// The content of `foreign_words.tsv`.
 const TABLES: &str = include_str!("foreign_words.tsv");
 
 /// A line of a table.

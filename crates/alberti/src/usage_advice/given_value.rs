@@ -7,15 +7,15 @@ use clap::{Command, Error};
 
 /// The value passed to another program's flag.
 pub(super) enum Given {
-    /// The value is missing, or the flag here accepts none.
+    /// The value is missing, or this program's flag accepts none.
     Nothing,
-    /// The advice with the value, which the flag here accepts.
+    /// The advice with the value, which this program's flag accepts.
     Fits(String),
-    /// The flag here, which does not accept the value.
+    /// This program's flag, which does not accept the value.
     FitsNot(String),
 }
 
-/// Returns the advice with the other program's value, if the flag here accepts it.
+/// Returns the advice with the other program's value, if this program's flag accepts it.
 pub(super) fn with_given_value(
     advice: &str,
     word: &str,
@@ -110,7 +110,7 @@ pub(super) fn quoted(value: &str) -> String {
     if is_plain { value.to_owned() } else { format!("'{value}'") }
 }
 
-/// Returns a value that a flag accepts: the original, or the equivalent of another program's.
+/// Returns a value that a flag accepts: the given one, or its equivalent in this program.
 pub(super) fn accepted_value(flag: &str, given: &str, command: &Command) -> Option<String> {
     let lower = given.to_ascii_lowercase();
     // Values from a list are written as in the help.
@@ -200,7 +200,7 @@ fn rewritten(flag: &str, given: &str) -> Option<String> {
 }
 
 /// Converts a color of three numbers, up to 1 or up to 255, to hexadecimal digits; four numbers
-/// with an alpha of 0 are transparent.
+/// with an alpha of 0 become `transparent`.
 fn hex_color(given: &str) -> Option<String> {
     let numbers = given.trim_start_matches(|c: char| c.is_alphabetic() || "([".contains(c));
     let numbers = numbers.trim_end_matches([')', ']']).split([',', ' ']);
@@ -272,7 +272,7 @@ fn percent(given: &str) -> Option<f64> {
     (percent > 0.0).then_some(percent / 100.0)
 }
 
-/// Whether a flag has a list of values.
+/// Whether a flag has a list of possible values.
 fn has_choices(command: &Command, name: &str) -> bool {
     let flag = command.get_arguments().find(|flag| flag.get_long() == Some(name));
     flag.is_some_and(|flag| !flag.get_possible_values().is_empty())

@@ -73,7 +73,7 @@ pub(super) fn advise_on_flag(
     Some(format!("`{name}` is not a flag of `{command}`; {help}"))
 }
 
-/// Returns text to replace a flag: the flag with two hyphens, or another program's equivalent.
+/// Returns text to replace a flag: the flag with two hyphens, or this program's equivalent.
 pub(super) fn what_to_write(
     name: &str,
     word: &str,
@@ -193,7 +193,7 @@ fn without_given_flags(advice: &str, words: &[String]) -> String {
     parts.filter(|part| !is_given(part)).fold(first, |kept, part| format!("{kept} --{part}"))
 }
 
-/// Returns the output folder passed to a command with an output name template.
+/// Returns the output folder passed to a command that expects a template.
 fn chosen_folder(stem: &str, words: &[String], command: &Command) -> Option<String> {
     let names = ["output-dir", "outdir", "out-dir", "output-folder"];
     let is_meant = command.get_name() == "render" && names.contains(&&*with_hyphens(stem));
@@ -201,7 +201,7 @@ fn chosen_folder(stem: &str, words: &[String], command: &Command) -> Option<Stri
     Some(folder.trim_end_matches('/').to_owned())
 }
 
-/// Whether the value in a piece of advice is only an example, unlikely to exist for this user.
+/// Whether the value in a piece of advice is only an example that probably does not exist here.
 fn is_only_an_example(advice: &str) -> bool {
     let flags = ["environment", "scalars", "compare", "camera", "animation", "variant", "pose"];
     let flag = advice.split(' ').next().and_then(|flag| flag.strip_prefix("--"));
@@ -269,7 +269,7 @@ fn foreign_habit(word: &str, command: &Command) -> Option<&'static str> {
 /// Returns text to replace another program's flag.
 pub(super) fn foreign_flag(word: &str, command: &Command) -> Option<&'static str> {
     let word = with_hyphens(word);
-    // Commands that draw have a style.
+    // A flag without an owner belongs to all commands that draw, and these have a style.
     let is_known = |flag: &str| has_flag(command, if flag.is_empty() { "style" } else { flag });
     foreign_words("flag").find(|row| is_known(row.owner) && row.has(&word)).map(|row| row.advice)
 }

@@ -3,7 +3,7 @@
 use super::*;
 use core::f64::consts::TAU;
 
-/// Five micrometers.
+/// The tolerance of five micrometers, in grid steps.
 const TOLERANCE: f64 = 5.0;
 
 /// Returns points on a circle in millimeters, from one angle to another. Angles are in turns.
@@ -55,7 +55,7 @@ fn polygons_with_few_corners_stay_polygons() {
         assert_eq!(vertices.len(), sides as usize);
         assert!(vertices.iter().all(|vertex| vertex.bulge == 0.0), "{sides}");
     }
-    // Unequally spaced corners on a circle do not form a circle either.
+    // Unequally spaced points on a circle do not form an arc either.
     let points: Vec<DVec2> = [0.0, 0.05, 0.11, 0.14, 0.22, 0.26, 0.33, 0.37, 0.45, 0.5]
         .iter()
         .flat_map(|&at| on_circle([0.0, 0.0], 50.0, [at, at], 1).into_iter().take(1))
@@ -70,7 +70,7 @@ fn polygons_with_few_corners_stay_polygons() {
 }
 
 #[test]
-fn arcs_have_the_angles_of_their_ends() {
+fn arcs_have_the_angles_of_their_endpoints() {
     for [from, to] in [[0.1, 0.4], [0.7, 1.2], [0.4, 0.1], [0.05, 0.9]] {
         let points = on_circle([5.0, 6.0], 12.0, [from, to], 40);
         let LineShape::Arc(circle, [start, end]) = recognize_arcs(&grid(&points), false, TOLERANCE)

@@ -21,7 +21,7 @@ fn axes() -> impl Strategy<Value = CameraAxes> {
     prop::sample::select(ALL_AXES.to_vec())
 }
 
-/// camera = R · world + t.
+/// Returns camera = R · world + t.
 fn apply(extrinsics: Extrinsics, point: Point<World>) -> [f64; 3] {
     let [x, y, z] = point.raw().to_array();
     let t = extrinsics.translation();

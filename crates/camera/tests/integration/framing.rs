@@ -117,7 +117,7 @@ fn a_single_point_is_framed_as_a_unit_cube() {
 }
 
 #[test]
-fn flat_and_straight_sets_of_points_are_framed() {
+fn coplanar_and_collinear_points_are_framed() {
     let wall = perspective(&[[-2.0, -1.0, 0.0], [2.0, 1.0, 0.0]])
         .expect("a wall perpendicular to the gaze");
     assert_eq!((wall.near, wall.far), (2.0, 2.0));
@@ -133,7 +133,7 @@ fn flat_and_straight_sets_of_points_are_framed() {
 }
 
 #[test]
-fn the_eye_stays_clear_of_a_needle_toward_the_viewer() {
+fn the_eye_keeps_its_distance_from_a_needle_that_points_at_it() {
     let needle = [[0.01, 0.0, 0.0], [-0.01, 0.0, 0.0], [0.0, 0.0, 6.4]];
     let framing = perspective(&needle).expect("thin, but valid");
     assert_eq!(framing.constraint, FramingConstraint::Loose);
@@ -141,7 +141,7 @@ fn the_eye_stays_clear_of_a_needle_toward_the_viewer() {
 }
 
 #[test]
-fn invalid_framing_is_rejected_with_its_values() {
+fn framing_errors_report_the_offending_values() {
     assert_eq!(perspective(&[]), Err(FramingError::NoPoints));
     assert!(matches!(
         perspective(&[[0.0; 3], [0.0, f64::NAN, 0.0]]),

@@ -1,5 +1,5 @@
-//! Look-at and look-to: the chapter's exercise, misprints in the sources, the laws, and every
-//! error.
+//! Look-at and look-to: the chapter's exercise, misprints in the sources, algebraic properties, and
+//! every error.
 
 use camera::{Basis, Camera, CameraError};
 use homog::{Affine, Point, Vector, World};
@@ -112,7 +112,7 @@ fn up_a_millionth_of_a_radian_from_the_gaze_loses_no_digits() {
 }
 
 #[test]
-fn degenerate_cameras_are_rejected_with_their_values() {
+fn camera_errors_report_the_offending_values() {
     let at = |x: f64, y: f64, z: f64| Point::<World>::new(x, y, z);
     let (o, y, z) = (Point::ORIGIN, Vector::Y, Vector::Z);
     let nan = f64::NAN;

@@ -1,4 +1,4 @@
-//! Tests of the public interface of `camera`, linked once.
+//! Tests of the public interface of `camera`, linked as one program.
 
 mod extrinsics;
 mod framing;

@@ -57,7 +57,7 @@ fn close(a: Basis, b: Basis) -> bool {
 
 proptest! {
     #[test]
-    fn attitudes_round_trip(yaw in -3.1..3.1, pitch in -1.5..1.5, roll in -3.1..3.1) {
+    fn orientations_round_trip(yaw in -3.1..3.1, pitch in -1.5..1.5, roll in -3.1..3.1) {
         let attitude = Orientation { yaw, pitch, roll };
         let back = Orientation::from_basis(attitude.basis().expect("finite"));
         for (got, want) in [(back.yaw, yaw), (back.pitch, pitch), (back.roll, roll)] {
@@ -66,7 +66,7 @@ proptest! {
     }
 
     #[test]
-    fn an_attitude_is_the_product_of_three_rotations(
+    fn an_orientation_is_the_product_of_three_rotations(
         yaw in -9.0..9.0, pitch in -9.0..9.0, roll in -9.0..9.0,
     ) {
         let basis = Orientation { yaw, pitch, roll }.basis().expect("finite");
@@ -79,7 +79,7 @@ proptest! {
     }
 
     #[test]
-    fn every_basis_has_an_attitude(camera in camera()) {
+    fn every_basis_has_an_orientation(camera in camera()) {
         let again = Orientation::from_basis(camera.basis()).basis().expect("finite");
         prop_assert!(close(again, camera.basis()));
     }
@@ -200,7 +200,7 @@ fn a_turntable_closes_without_repeating_its_first_frame() {
 }
 
 #[test]
-fn attitudes_turn_in_the_documented_directions() {
+fn orientations_turn_in_the_documented_directions() {
     let gaze = |yaw: f64, pitch: f64| {
         Orientation { yaw, pitch, roll: 0.0 }.basis().expect("finite").gaze()
     };
