@@ -20,9 +20,9 @@ pub(crate) struct PassArgs {
     /// Each holds one property of the nearest surface at the center of each pixel. The depth (along
     /// the view axis) and the distance from the eye are in scene units. The normal and the position
     /// are in world space, the view-normal in view space. The others are uv, barycentric
-    /// coordinates, the id of the triangle, and the indices of the model, node, mesh and material
-    /// (from 1; 0 is the background). In addition, overdraw counts the fragments of the pixel, and
-    /// coverage is the fraction of its samples that are covered.
+    /// coordinates, and the ids of the triangle, model, object (mesh instance), node, mesh and
+    /// material, counted from 1 through the whole scene; 0 is the background. In addition, overdraw
+    /// counts the fragments of the pixel, and coverage is the fraction of its samples covered.
     #[arg(help_heading = "Output", long, value_name = "PASS,…", value_delimiter = ',', value_parser = option_parser::<Pass>())]
     passes: Vec<Pass>,
     /// File format of the passes

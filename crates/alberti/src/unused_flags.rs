@@ -71,12 +71,9 @@ pub(super) fn find_unused_overrides(
         unused.extend(light.ground_flags());
         "a line drawing has no shading".to_owned()
     } else {
-        let name = style_name(scene.style);
-        if has_light(scene.style) {
-            format!("the `{name}` style has neither shadows nor ambient occlusion")
-        } else {
-            format!("the `{name}` style has no lighting")
-        }
+        let has_light = has_light(scene.style);
+        let lacks = if has_light { "neither shadows nor ambient occlusion" } else { "no lighting" };
+        format!("the `{}` style has {lacks}", style_name(scene.style))
     };
     if scene.style.is_false_color() && !draws_lines {
         unused.extend(light.ground_flags());

@@ -92,7 +92,7 @@ fn add_listed(list: &str, folder: &Path, found: &mut Vec<(PathBuf, PathBuf)>) {
 /// folder is visited once, under its real path if that is below the root. Symbolic links are
 /// followed last, so that the names do not depend on the order on disk.
 struct FolderSearch<'a> {
-    /// The folder to search. A picture is named by the model's path below it.
+    /// The folder to search. Pictures get their names from the models' paths below it.
     root: &'a Path,
     /// The visited folders, by their real paths.
     visited: BTreeSet<PathBuf>,
