@@ -80,7 +80,7 @@ fn scene_with_sun(model: &Arc<Model>, travel: DVec3, shadows: &str) -> Scene {
     Scene::from_models(&origin, &file, &[placed]).expect("a valid scene")
 }
 
-/// The numbers of dark and lit pixels, according to the rays.
+/// Counts of dark and lit pixels, according to the rays.
 #[derive(Default)]
 struct RayCounts {
     away: usize,

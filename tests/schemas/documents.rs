@@ -170,7 +170,7 @@ fn other_calls() -> Vec<Call> {
     calls
 }
 
-/// Returns the scene models and up to eight small asset models of each format.
+/// Returns the scene models and up to eight small asset models in each format.
 fn model_files(models: &Path) -> Result<Vec<PathBuf>, String> {
     const ENDINGS: [&str; 6] = ["glb", "gltf", "stl", "obj", "ply", "3mf"];
     let mut files = files_with_endings(models, &ENDINGS);

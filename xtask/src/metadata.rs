@@ -12,7 +12,7 @@ pub struct Package {
     pub name: String,
     /// The version in its manifest.
     pub version: String,
-    /// The names of its normal dependencies; dependencies of tests and build scripts are omitted.
+    /// Its normal dependencies by name, without those for tests and build scripts.
     pub dependencies: Vec<String>,
     /// Its integration tests with their source files, sorted by name.
     pub tests: Vec<(String, PathBuf)>,

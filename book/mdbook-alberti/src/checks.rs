@@ -108,7 +108,7 @@ fn unnamed_misprints(topics: &Topics, pages: &[Page]) -> Vec<String> {
         .collect()
 }
 
-/// Finds pictures among the committed files of the book.
+/// Finds pictures among the book's committed files.
 fn committed_figures(edition: &Edition) -> Result<Vec<String>> {
     let mut git = std::process::Command::new("git");
     let output = git.current_dir(&edition.book).args(["ls-files", "."]).output();

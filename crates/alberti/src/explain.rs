@@ -353,7 +353,7 @@ fn parse_pixel(text: &str) -> Result<[u32; 2], String> {
     Ok([side(x)?, side(y)?])
 }
 
-/// Returns a parser for the names of conventions, with their summaries as help.
+/// Returns a parser for convention names, with their summaries as help.
 pub(super) fn conventions_parser() -> impl clap::builder::TypedValueParser<Value = ApiConventions> {
     use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser as _};
     let value = |known: ApiConventions| PossibleValue::new(known.name()).help(known.summary());

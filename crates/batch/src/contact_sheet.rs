@@ -190,7 +190,7 @@ mod tests {
     use crate::merge::merge_reports;
     use crate::test_records::{ReportFolder, done_record, failed_record};
 
-    /// Writes the sheet of a report with these counts, and returns the names of its pages.
+    /// Writes the sheet of a report with these counts, and returns its page names.
     fn write_sheet(folder: &ReportFolder, done: usize, failed: usize) -> Vec<String> {
         let records: Vec<_> = (0..done)
             .map(|at| done_record(&format!("{at:04}.png"), "k"))

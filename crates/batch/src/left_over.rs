@@ -3,7 +3,7 @@
 use super::report::host_name;
 use std::path::Path;
 
-/// Removes temporary files of runs whose processes on this machine have ended.
+/// Removes temporary files from runs whose processes on this machine have ended.
 ///
 /// Runs on other machines may share the folder, but their processes cannot be checked from here.
 pub(super) fn remove_left_over(reports: &Path) {

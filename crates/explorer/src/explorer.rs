@@ -45,7 +45,7 @@ pub struct Explorer {
     volume: Pane,
 }
 
-/// The pictures of a pane and its last scene.
+/// A pane's pictures and its last scene.
 #[derive(Debug, Default)]
 struct Pane {
     picture: PanePicture,
@@ -100,7 +100,7 @@ impl Explorer {
     /// drawing and model loading are not interrupted.
     ///
     /// # Errors
-    /// The errors of `answer`, and `cannot_render` if the picture is canceled.
+    /// The same errors as `answer`, and `cannot_render` if the picture is canceled.
     pub fn answer_unless_canceled(
         &mut self,
         query: &str,

@@ -107,7 +107,7 @@ fn remove_abandoned(folder: &Path, target: &OsStr) {
     files.retain(|file| target != file.target.as_str());
 }
 
-/// Returns the temporary files of other processes in a folder.
+/// Returns other processes' temporary files in a folder.
 fn foreign_files(folder: &Path) -> Vec<ForeignFile> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     entries.filter_map(|entry| ForeignFile::from_name(entry.file_name())).collect()

@@ -26,7 +26,7 @@ pub fn world_points(models: &[ModelInstance]) -> Vec<Point<World>> {
 
 /// The ids of the first node, mesh and material of a model in a scene.
 ///
-/// Ids count from 1 through all models of the scene. Each model instance has separate nodes, but
+/// Ids count from 1 through the whole scene. Each model instance has separate nodes, but
 /// instances of one model share its meshes and materials.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct FirstIds {

@@ -57,7 +57,7 @@ pub(crate) fn animations(subject: &Bound<'_, Subject>) -> Vec<(Option<String>, f
     animations.map(|animation| (animation.name.clone(), animation.duration_seconds)).collect()
 }
 
-/// Returns the names of the material variants.
+/// Returns the material variants by name.
 #[pyfunction]
 pub(crate) fn variants(subject: &Bound<'_, Subject>) -> Vec<String> {
     subject.get().distinct_models().iter().flat_map(|model| model.variants.clone()).collect()

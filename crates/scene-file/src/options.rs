@@ -1,6 +1,6 @@
 //! Options with named values. Scene files, flags, help and the reference share one declaration.
 //!
-//! The renderer and the line drawings use the same types. Scene files use the names of the variants
+//! The renderer and the line drawings use the same types. Scene files use the variants' names
 //! (`ThreeQuarter`); flags use lowercase with hyphens (`three-quarter`).
 
 use super::schema::named_values;

@@ -103,7 +103,7 @@ impl SceneSource {
         self.includes.included_texts()
     }
 
-    /// Returns the names of the scene file and its includes, in reading order.
+    /// Returns the file names of the scene and its includes, in reading order.
     pub fn included_files(&self) -> impl Iterator<Item = &str> {
         std::iter::once(self.file.as_str()).chain(self.includes.names())
     }

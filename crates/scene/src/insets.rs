@@ -1,7 +1,7 @@
 //! Resolves viewports and stereo pairs to insets, which are scenes within the scene.
 //!
 //! ```text
-//!   ┌───────────────┬───────┐   An inset is a separate scene with the models of the
+//!   ┌───────────────┬───────┐   An inset is a separate scene with the models in the
 //!   │               │ inset │   main view, but its own camera, style, background,
 //!   │  the scene    ├───────┘   and an image of the rectangle's size.
 //!   └───────────────┘

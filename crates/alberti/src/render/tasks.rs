@@ -1,4 +1,4 @@
-//! Plans all pictures of one `render` call before any work starts.
+//! Plans all pictures for one `render` call before any work starts.
 //!
 //! Every output name is known up front, so that two pictures with the same name are rejected before
 //! the first is written.
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 /// The text fields of an output name template.
 ///
 /// All except `stem` have the value of a flag, or `default` if the flag is not set. Their values
-/// are the same for all pictures of a call, except `view` with `--views`.
+/// are the same for all pictures in a call, except `view` with `--views`.
 const WORD_FIELDS: [&str; 6] = ["stem", "camera", "view", "style", "projection", "variant"];
 /// The number fields of an output name template.
 ///

@@ -13,7 +13,7 @@ pub(crate) struct FmtArgs {
     /// Scenes (.ron); `-` reads one from the standard input and writes it to the standard output
     #[arg(required = true)]
     files: Vec<PathBuf>,
-    /// Write nothing; print the names of unformatted files, and exit with 1 if there are any
+    /// Write nothing; list unformatted files by name, and exit with 1 if there are any
     #[arg(long)]
     check: bool,
 }

@@ -176,7 +176,7 @@ fn without_matrix_name(text: &str) -> &str {
     }
 }
 
-/// Removes the names of rows if all rows have names, as in `u = …; v = …; w = …`.
+/// Removes row names if all rows have one, as in `u = …; v = …; w = …`.
 fn without_row_names(rows: Vec<&str>) -> Result<Vec<&str>, AnswerError> {
     let values: Vec<&str> =
         rows.iter().filter_map(|row| Some(row.split_once('=')?.1.trim())).collect();

@@ -42,7 +42,7 @@ pub(super) struct ObjFile<'a> {
     pub(super) has_smoothing: bool,
 }
 
-/// The names of an element's object and group; a missing name is empty.
+/// An element's object and group by name; a missing name is empty.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
 pub(super) struct GroupName<'a> {
     /// The object, from `o`.

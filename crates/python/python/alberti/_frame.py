@@ -26,7 +26,7 @@ class Object(NamedTuple):
     model: str
     #: The node's value in :attr:`Frame.node_ids`.
     node_id: int
-    #: The names of the nodes from the root to the object's node, separated by slashes.
+    #: The node names from the root to the object's node, separated by slashes.
     path: str
     #: The mesh's value in :attr:`Frame.mesh_ids`.
     mesh_id: int
@@ -67,7 +67,7 @@ class Frame:
 
     @property
     def passes(self) -> tuple[str, ...]:
-        """Names of the rendered passes."""
+        """The rendered passes, by name."""
         return tuple("rgb" if name == "rgba" else name for name in self._arrays if name != "rgb")
 
     @property
@@ -235,7 +235,7 @@ class Frame:
         return self._pass(name)
 
     def __iter__(self) -> Iterator[str]:
-        """Iterate over the names of the rendered passes."""
+        """Iterate over the rendered passes by name."""
         return iter(self.passes)
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -308,7 +308,7 @@ class Scene(Model):
                 raise AlbertiError(message, pointer=f"models[{index}]")
         parts = [(model._native, pose) for model, pose in zip(models, placed)]
         lost = [
-            f"models[{index}]: only the models of a scene are used, not its {', '.join(settings)}"
+            f"models[{index}]: only the scene's models are used, not its {', '.join(settings)}"
             for index, model in enumerate(models)
             if (settings := model._native.scene_settings())
         ]

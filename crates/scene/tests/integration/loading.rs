@@ -7,7 +7,7 @@ use scene_file::parse_scene;
 
 const TRIANGLE: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-/// Returns the numbers of mistakes in a scene and of model files parsed to find them.
+/// Counts the mistakes in a scene and the model files parsed to find them.
 fn mistakes_and_loads(text: &str, is_check: bool) -> (usize, usize) {
     let mut folder = MemoryFolder::default();
     folder.insert("a.obj", TRIANGLE.to_vec());

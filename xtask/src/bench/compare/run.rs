@@ -64,7 +64,7 @@ impl TimedProgram {
     pub fn run(&self, arguments: &[String]) -> Result<Figures, String> {
         let batch = self.folder.join("batch");
         if batch.exists() {
-            // If the pictures of the previous run remained, there would be no work left to measure.
+            // If pictures from the previous run remained, there would be no work left to measure.
             std::fs::remove_dir_all(&batch).map_err(|e| format!("{}: {e}", batch.display()))?;
         }
         let usage = self.folder.join("usage");

@@ -4,7 +4,7 @@ use super::tables::{list, ratio, text};
 use serde_json::Value;
 use std::fmt::Write as _;
 
-/// The names of our contestants, to which a suffix such as the number of samples may be added.
+/// Our contestants' names, to which a suffix such as the number of samples may be added.
 const OURS: [&str; 3] = ["raster", "render", "alberti"];
 
 /// Formats the section of the page.
