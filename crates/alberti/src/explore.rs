@@ -11,7 +11,7 @@
 
 mod companions;
 mod connections;
-mod embedded;
+pub(crate) mod embedded;
 mod lane;
 mod request;
 mod response;

@@ -4,6 +4,7 @@
 //! Models are not trusted: without limits, a file of a few kilobytes could demand terabytes of
 //! memory. Every command that loads a model has these flags.
 
+use super::explore::embedded::lesson_model;
 use super::options::option_parser;
 use import::{ImportOptions, Limits};
 use model::{LengthUnit, UpAxis};
@@ -91,6 +92,7 @@ impl LoadArgs {
             up: self.up,
             length_unit: self.unit,
             crease_angle: self.crease,
+            lesson_model: Some(lesson_model),
             ..ImportOptions::default()
         }
     }

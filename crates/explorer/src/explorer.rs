@@ -147,6 +147,11 @@ impl Explorer {
         let key = format!("{size:?} {samples} {:?} {text}", state.style);
         let loaded = self.store.resolve(key, &text, &file);
         let loaded = loaded.map_err(|error| error.about_model(own))?;
+        // The program contains the lesson models, so a copied scene works in every folder.
+        let text = lesson.models.iter().fold(text, |text, path| {
+            let name = path.trim_start_matches("models/").trim_end_matches(".glb");
+            text.replace(&format!("\"{path}\""), &format!("\"lesson:{name}\""))
+        });
         Ok((text, LoadedScene { first_view: lesson.first_view, ..loaded }))
     }
 

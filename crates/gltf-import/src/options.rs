@@ -2,7 +2,7 @@
 
 use crate::{Limits, NameOrIndex, ScalarColors};
 use model::{LengthUnit, Timings, UpAxis};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Options for loading a file.
 #[derive(Clone, Debug, Default)]
@@ -33,6 +33,9 @@ pub struct ImportOptions {
     /// The largest angle between the normals of two faces that are shaded as one smooth surface, in
     /// degrees, for files without normals. Default: 30.
     pub crease_angle: Option<f64>,
+    /// Models that the program contains, by name: `lesson:house` in place of a path loads the
+    /// binary glTF file that this function returns for `house`. Default: none.
+    pub lesson_model: Option<fn(&str) -> Option<Vec<u8>>>,
     /// Timings for the loading stages. Default: none.
     pub timings: Timings,
 }
@@ -51,6 +54,14 @@ pub enum ImageLoading {
 const DEFAULT_CREASE_ANGLE: f64 = 30.0;
 
 impl ImportOptions {
+    /// Returns the content of a lesson model, such as `lesson:house`; `None` if the path has
+    /// another form or there is no such model.
+    #[must_use]
+    pub fn lesson_model_at(&self, path: &Path) -> Option<Vec<u8>> {
+        let name = path.file_name()?.to_str()?.strip_prefix("lesson:")?;
+        self.lesson_model?(name)
+    }
+
     /// Returns the crease angle in degrees, in [0, 180].
     #[must_use]
     pub fn crease_degrees(&self) -> f64 {

@@ -31,6 +31,9 @@ use std::path::Path;
 /// breaks the rules of its format or exceeds a limit. Also fails if it requires an unsupported
 /// extension or lacks the scene, variant or scalar attribute that the options select.
 pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
+    if let Some(bytes) = options.lesson_model_at(path) {
+        return load_bytes(&path.with_added_extension("glb").to_string_lossy(), &bytes, options);
+    }
     let read = || read_file(path, &options.limits, "");
     let load_bytes = || {
         let bytes = options.timings.measure("read", read)?;

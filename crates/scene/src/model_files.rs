@@ -136,7 +136,8 @@ pub(super) fn check_model_paths(
             continue;
         }
         let path = origin.folder.join(&entry.path);
-        if origin.models == ModelSource::Disk && !path.exists() {
+        let is_lesson_model = entry.path.starts_with("lesson:");
+        if origin.models == ModelSource::Disk && !is_lesson_model && !path.exists() {
             let error = load(&path, &ImportOptions::default()).err().map(ModelError::File);
             let error = error.map(|error| error.into_resolve_error(origin, index, entry));
             error.into_iter().for_each(|error| faults.report(error));

@@ -14,6 +14,13 @@ pub(super) fn embedded_files() -> BTreeMap<String, Vec<u8>> {
     FILES.iter().filter_map(unpack).collect()
 }
 
+/// Returns the bytes of a lesson model: `models/house.glb` for `house`.
+pub(crate) fn lesson_model(name: &str) -> Option<Vec<u8>> {
+    let path = format!("models/{name}.glb");
+    let (_, bytes) = FILES.iter().find(|(known, _)| *known == path)?;
+    miniz_oxide::inflate::decompress_to_vec_zlib(bytes).ok()
+}
+
 /// Returns a file's content type from its extension.
 pub(super) fn content_type(path: &str) -> &'static str {
     match path.rsplit_once('.').map_or("", |(_, ending)| ending) {
