@@ -239,7 +239,7 @@ mod tests {
         let to_view = view.camera.world_to_view();
         for (part, spot) in spots.iter().enumerate() {
             let Some(VisibleSpot { at, .. }) = spot else { continue };
-            // Finds the nearest triangle at the spot with barycentric coordinates.
+            // Returns the depth of a triangle at the spot, by barycentric coordinates.
             let depth = |number: usize| {
                 let [a, b, c] = corners[number].map(|corner| {
                     let world = DVec3::from(corner.map(f64::from)) + moves[number];

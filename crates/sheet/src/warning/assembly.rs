@@ -57,7 +57,7 @@ impl fmt::Display for AssemblyWarning {
             ),
             Self::MassUnknown { part } => write!(
                 f,
-                "the mass of `{}` is unknown: its mesh is not closed, so it has no volume",
+                "the mass of `{}` is unknown: its mesh is not closed, so its volume is undefined",
                 visible_excerpt(part)
             ),
             Self::NamesUnreadable { name, count } => write!(
