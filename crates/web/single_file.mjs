@@ -1,6 +1,6 @@
 // Writes the explorer as one HTML file: `node single_file.mjs SITE OUT.html`.
 //
-// SITE is the output of `cargo xtask web`. The file contains compressed scripts, the engine and the models, which the page
+// SITE is the output of `cargo xtask web`. The HTML file contains compressed scripts, the engine and the models, which the page
 // unpacks before its modules run. It therefore works from a USB stick or an email.
 
 import { createHash } from 'node:crypto';
