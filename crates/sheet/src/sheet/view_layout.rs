@@ -117,7 +117,7 @@ impl<'a> ViewCell<'a> {
         Self { planned, scale, annotations, extent }
     }
 
-    /// Returns the rectangle that the view and its annotations occupy around a center.
+    /// Returns the rectangle that the cell occupies if its view has this center.
     pub(super) fn extent_at(&self, center: DVec2) -> Extent {
         self.extent.map(|corner| center + corner)
     }

@@ -56,7 +56,7 @@ pub(super) struct MarkSettings {
 }
 
 impl ViewMark {
-    /// Returns a center line, as a point on it and the index of the paper axis along which it runs.
+    /// Returns a point on a center line and the index of its paper axis, or `None` for other marks.
     pub(super) const fn as_center_line(&self) -> Option<(DVec2, usize)> {
         match self {
             Self::CenterLine { through, axis } => Some((*through, *axis)),

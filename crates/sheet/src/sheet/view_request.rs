@@ -94,8 +94,7 @@ pub enum ViewRequest {
         /// The mean distance of the freehand line from the center, in scene units.
         radius: f64,
     },
-    /// A view without part of its length (ISO 128-3, 4.4.7). Dimensions still state the full
-    /// lengths.
+    /// A view without part of its length (ISO 128-3, 4.4.7). Dimensions state the full lengths.
     Broken {
         /// The view, or `None` for all views along the axes that show the length.
         of: Option<NamedView>,
