@@ -260,7 +260,7 @@ async function testPage(browser, server, engine) {
     await explorer.close();
   });
 
-  await test(`${engine}: a lesson that is opened again is as it was left`, async () => {
+  await test(`${engine}: a lesson that is opened again keeps its state`, async () => {
     const explorer = await open({ hash: '#v=1&lesson=perspective&fov=70' });
     const choose = async (lesson) => {
       await explorer.page.selectOption('#lesson', lesson);

@@ -15,7 +15,7 @@ use std::rc::Rc;
 pub struct Options {
     /// The number of rounds.
     pub rounds: usize,
-    /// Parts of the names to measure; if empty, everything is measured.
+    /// The measurements to make, by parts of their names; if empty, all are made.
     pub only: Vec<String>,
 }
 
