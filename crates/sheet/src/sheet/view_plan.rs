@@ -359,8 +359,8 @@ impl PlannedView {
             || matches!(self.composition, Composition::Local { .. })
     }
 
-    /// Whether the view can have dimensions and center lines. It must show the whole object, have
-    /// no moved pieces, and not be axonometric.
+    /// Whether the view can have requested dimensions and center lines. Axonometric views, broken
+    /// views and details cannot.
     pub(super) fn takes_measures(&self) -> bool {
         let is_axonometric = matches!(self.view.name, ViewName::Named(_)) && !self.is_along_axis();
         let is_broken = matches!(self.composition, Composition::Broken(_));
