@@ -21,7 +21,7 @@ pub const LINK_CUT: Duration = Duration::from_secs(20);
 /// The maximum time of any wait in the test.
 pub const LONGEST_WAIT: Duration = Duration::from_secs(300);
 
-/// Returns a message that names the missing programs and their Debian packages.
+/// Returns a message that names the first missing program and its Debian package, if any.
 pub fn missing_program() -> Option<String> {
     let programs = [
         ("slurmctld", "slurmctld"),
