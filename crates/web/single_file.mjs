@@ -41,7 +41,7 @@ async function start() {
     const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
     return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip')));
   };
-  // For the worker: if a page has no server, its worker cannot read `blob:` addresses.
+  // The worker gets `data:` addresses, because the worker of a page without a server cannot read `blob:` addresses.
   const dataUrl = (blob) =>
     new Promise((resolve, reject) => {
       const reader = new FileReader();
