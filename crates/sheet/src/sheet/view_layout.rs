@@ -203,7 +203,7 @@ impl<'a> ViewLayout<'a> {
         best
     }
 
-    /// Places the views without a fixed position one by one, each at the largest scale.
+    /// Places the views without a fixed position one by one, each at the largest scale that fits.
     fn place_free_views(
         &mut self,
         sheet: &Sheet,

@@ -43,7 +43,7 @@ pub(super) struct MovedParts<'a> {
     pub(super) moves: &'a [DVec3],
 }
 
-/// Finds the spot in a view that shows each part best, or `None` for parts that are hidden or
+/// Finds the spot with the largest clearance for each part, or `None` for parts that are hidden or
 /// narrower than a pixel.
 pub(super) fn find_visible_spots(
     moved: &MovedParts<'_>,
