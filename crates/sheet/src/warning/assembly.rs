@@ -1,4 +1,4 @@
-//! Warnings about what is missing from assembly pages.
+//! Warnings about elements that are missing from assembly pages.
 
 use core::fmt;
 use files::{counted, visible_excerpt};
