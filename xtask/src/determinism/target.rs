@@ -86,7 +86,7 @@ pub const TARGETS: &[Target] = &[
     },
     Target {
         name: "musl",
-        about: "x86-64, linked statically with the C library musl",
+        about: "x86-64, linked statically with the musl C library",
         compiler: Compiler::WithSources {
             triple: "x86_64-unknown-linux-musl",
             linker: "musl-gcc",
