@@ -1,5 +1,5 @@
-//! Compares the errors that `check` reports with those of the Khronos glTF validator, for every
-//! file in a corpus.
+//! Compares the errors that `check` and the Khronos glTF validator report for every file in a
+//! corpus.
 //!
 //! Two corpora are checked: the one that [`alberti_tests::samples`] generates and, if it exists,
 //! the folder `$ASSETS` or `shared/assets` next to the repository. The manifest column

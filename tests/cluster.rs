@@ -10,8 +10,8 @@
 //! A controller and three nodes run in namespaces of this machine, with `deploy/slurm/batch.sh` as
 //! the job script. Everything stops when the test stops, however it ends. If Slurm is not installed
 //! or the test may not create namespaces, the step is reported as skipped; `.ci/run` installs Slurm
-//! if it can. `CLUSTER_RUNS=3` repeats the disturbed run. The time is compared with an undisturbed
-//! run, unless other programs are using the processors.
+//! if it can. `CLUSTER_RUNS=3` repeats the disturbed run. The time is compared with the time of an
+//! undisturbed run, unless other programs are using the processors.
 
 mod batch_run;
 mod checks;
@@ -185,7 +185,7 @@ fn disturb(
 /// Runs a command until it exits, and returns its output.
 ///
 /// # Errors
-/// If it does not start or fails, with its output.
+/// Returns an error, with the output, if the command does not start or fails.
 pub fn run_command(command: &mut Command) -> Result<String, String> {
     let name = command.get_program().to_string_lossy().into_owned();
     let output = command.output().map_err(|error| format!("{name}: {error}"))?;

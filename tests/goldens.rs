@@ -2,7 +2,7 @@
 //! `tests/goldens/NAME.png`.
 //!
 //! The comparison is by pixels, not bytes, so that a new release of the PNG encoder changes
-//! nothing. If they differ, the new picture and a map of the differences are saved as
+//! nothing. If the pixels differ, the new picture and a map of the differences are saved as
 //! `NAME.actual.png` and `NAME.diff.png` in the goldens folder. `cargo xtask golden --bless NAME`
 //! accepts a picture as the new golden after someone has looked at it. Arguments that are not flags
 //! select scenes whose names contain them.

@@ -14,7 +14,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
 
-/// The largest growth that passes, which is more than n log n and far less than n².
+/// The largest growth that passes, between the 2.2 of n log n and the 4 of n².
 const GREATEST_GROWTH: f64 = 2.6;
 
 /// Memory growth below this many bytes is ignored, because growing lists double their capacity.

@@ -154,11 +154,11 @@ fn choose_tenth<T>(seed: u64, items: Vec<T>) -> Vec<T> {
     (0..).zip(items).filter(|(index, _)| is_chosen(*index)).map(|(_, item)| item).collect()
 }
 
-/// Returns a folder of test data next to this repository: the folder that the environment variable
-/// names, otherwise `../shared/NAME`, or `None` if neither exists.
+/// Returns a folder of test data: the folder that the environment variable names, otherwise
+/// `../shared/NAME` from this repository, or `None` if neither exists.
 ///
 /// # Errors
-/// If the variable names a folder that does not exist.
+/// Returns an error if the variable names a folder that does not exist.
 pub fn data_folder(variable: &str, name: &str) -> Result<Option<PathBuf>, String> {
     let beside = crate::project_root().join("../shared").join(name);
     choose_folder(variable, std::env::var_os(variable), &beside)
@@ -186,7 +186,7 @@ impl TemporaryFolder {
     /// Creates the folder.
     ///
     /// # Errors
-    /// If it cannot be created; the message names it.
+    /// Returns an error that names the folder if it cannot be created.
     pub fn create(name: &str) -> Result<Self, String> {
         let path = std::env::temp_dir().join(format!("alberti-{name}-{}", std::process::id()));
         std::fs::create_dir_all(&path).map_err(|error| format!("{}: {error}", path.display()))?;

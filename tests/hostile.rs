@@ -3,7 +3,7 @@
 //! For any content, loading and checking must return without a panic, in bounded time and memory. A
 //! returned model, from strict or lenient import, must keep every promise of its documentation. A
 //! case states the expected outcome if the message matters. Arguments that are not flags select
-//! cases whose names contain them; `--write DIR` writes all files without loading them.
+//! cases whose names contain them; `--write DIR` only writes the files of at most 64 KiB.
 
 mod accessors;
 mod animations;
@@ -57,7 +57,7 @@ pub fn run() -> ExitCode {
     })
 }
 
-/// Writes the files for all cases to a folder, as seeds for the fuzzer.
+/// Writes the files of at most 64 KiB to a folder, as seeds for the fuzzer.
 fn write_files(folder: &Path) -> std::io::Result<usize> {
     let mut count = 0;
     for (group, cases) in case_groups() {

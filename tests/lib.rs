@@ -36,7 +36,7 @@ pub fn project_root() -> &'static Path {
 /// calling test.
 ///
 /// # Errors
-/// If `$ALBERTI` does not name a file, or the program does not build.
+/// Returns an error if `$ALBERTI` does not name a file or if the program does not build.
 pub fn program_path() -> Result<PathBuf, String> {
     if let Some(path) = std::env::var_os("ALBERTI").map(PathBuf::from) {
         let missing = || format!("ALBERTI names {}, which is not a file", path.display());
@@ -65,7 +65,7 @@ pub fn program_path() -> Result<PathBuf, String> {
 /// Returns the width, height and 8-bit RGBA pixels of a PNG, with rows from the top.
 ///
 /// # Errors
-/// If the file cannot be read or is not a PNG; the message names it.
+/// Returns an error that names the file if it cannot be read or is not a PNG.
 pub fn read_png(path: &Path) -> Result<(u32, u32, Vec<[u8; 4]>), String> {
     let with_path = |error: String| format!("{}: {error}", path.display());
     let file = File::open(path).map_err(|error| with_path(error.to_string()))?;

@@ -37,7 +37,7 @@ impl Row {
 /// Reads the manifest of a folder.
 ///
 /// # Errors
-/// If it cannot be read, has no column `path`, or names a file that does not exist.
+/// Returns an error if the manifest cannot be read, has no column `path`, or names a missing file.
 pub fn read_manifest(folder: &Path) -> Result<Vec<Row>, String> {
     let path = folder.join("MANIFEST.tsv");
     let text = std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;

@@ -1,6 +1,6 @@
 // Writes the explorer as one HTML file: `node single_file.mjs SITE OUT.html`.
 //
-// SITE is the output of `cargo xtask web`. The file contains compressed scripts, the engine and the models, which the page
+// SITE is the output of `cargo xtask web`. The HTML file contains compressed scripts, the engine and the models, which the page
 // unpacks before its modules run. It therefore works from a USB stick or an email.
 
 import { createHash } from 'node:crypto';
@@ -41,7 +41,7 @@ async function start() {
     const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
     return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip')));
   };
-  // For the worker: if a page has no server, its worker cannot read `blob:` addresses.
+  // The worker gets `data:` addresses, because the worker of a page without a server cannot read `blob:` addresses.
   const dataUrl = (blob) =>
     new Promise((resolve, reject) => {
       const reader = new FileReader();

@@ -1,6 +1,6 @@
 // Tests the explorer in a real browser: `node main.mjs PROGRAM [FOLDER|--first]`.
 //
-// PROGRAM is `alberti`, which computes on its server; FOLDER is the output of `cargo xtask web`, which computes in WebAssembly.
+// PROGRAM is `alberti`, whose explorer computes on the server. FOLDER is the output of `cargo xtask web`, a page that computes in WebAssembly.
 // `--first` tests only the first lesson.
 // Prints one line per test; the exit code is 1 if a test failed.
 
@@ -260,7 +260,7 @@ async function testPage(browser, server, engine) {
     await explorer.close();
   });
 
-  await test(`${engine}: a lesson that is opened again is as it was left`, async () => {
+  await test(`${engine}: a lesson that is opened again keeps its state`, async () => {
     const explorer = await open({ hash: '#v=1&lesson=perspective&fov=70' });
     const choose = async (lesson) => {
       await explorer.page.selectOption('#lesson', lesson);
@@ -284,7 +284,7 @@ async function testPage(browser, server, engine) {
     await explorer.close();
   });
 
-  await test(`${engine}: a lesson for a file without a file says how to begin, and shows nothing else`, async () => {
+  await test(`${engine}: a lesson that needs a file says how to begin without one, and shows nothing else`, async () => {
     const isNative = engine === 'native';
     for (const [language, words] of [['en', 'To begin'], ['zh', isNative ? '启动程序' : '选择文件']]) {
       const explorer = await open();

@@ -41,7 +41,7 @@ impl BatchRun {
         own.into_iter().chain(FLAGS.map(str::to_owned)).collect()
     }
 
-    /// Returns a command that runs the program with those arguments.
+    /// Returns a command that runs the program with the shared arguments.
     fn batch(&self) -> Command {
         let mut command = Command::new(&self.program);
         command.arg("batch").args(self.arguments());
@@ -79,7 +79,7 @@ impl BatchRun {
     }
 }
 
-/// Runs the program. Some models fail, so it must exit with 1.
+/// Runs the program, which must exit with one of `codes`.
 fn run_batch(batch: &mut Command, codes: &[i32]) -> Result<(), String> {
     let output = batch.output().map_err(|error| format!("alberti: {error}"))?;
     if output.status.code().is_some_and(|code| codes.contains(&code)) {

@@ -178,7 +178,7 @@ fn files_below(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, String> {
     Ok(paths)
 }
 
-/// Returns the records of a report. If a process was killed, its last line may be incomplete.
+/// Returns the records of a report. A killed process may leave an incomplete last line.
 fn read_records(path: &Path) -> Result<Vec<Value>, String> {
     let text = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
     let lines = text.split(|byte| *byte == b'\n');

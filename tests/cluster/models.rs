@@ -68,9 +68,9 @@ fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), String> {
 struct BadModel {
     name: &'static str,
     content: Vec<u8>,
-    /// A part of the message in its record.
+    /// Part of the message in the job's record.
     reason: &'static str,
-    /// The members of its line.
+    /// Additional members of the job's line.
     flags: &'static [(&'static str, &'static str)],
 }
 

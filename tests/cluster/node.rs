@@ -11,7 +11,7 @@ pub struct Node {
     pub name: String,
     /// The process that keeps the namespaces alive when everything else in them dies.
     holder: Child,
-    /// Whether its daemon was killed.
+    /// Whether the node's daemon was killed.
     pub is_dead: bool,
 }
 

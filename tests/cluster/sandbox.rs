@@ -21,7 +21,7 @@ pub fn isolated_command(program: &Path) -> Command {
 /// The cluster's network: a bridge, and pairs of devices.
 const DEVICES: &str = "ip link add bridge type bridge && ip link add n type veth peer name p";
 
-/// Returns the reason why namespaces, or a network in them, cannot be created.
+/// Returns the reason why namespaces with a network cannot be created, or `None` if they can.
 pub fn missing_right() -> Option<String> {
     let output = isolated_command(Path::new("sh")).args(["-c", DEVICES]).output();
     match output {

@@ -21,7 +21,7 @@ pub const LINK_CUT: Duration = Duration::from_secs(20);
 /// The maximum time of any wait in the test.
 pub const LONGEST_WAIT: Duration = Duration::from_secs(300);
 
-/// Returns a message that names the missing programs and their Debian packages.
+/// Returns a message that names the first missing program and its Debian package, if any.
 pub fn missing_program() -> Option<String> {
     let programs = [
         ("slurmctld", "slurmctld"),
@@ -150,7 +150,7 @@ fn start_munge(folder: &Path) -> Result<(), String> {
     run_command(Command::new("chmod").arg("400").arg(&key))?;
     let path = |name: &str, file: &str| format!("--{name}={}", folder.join(file).display());
     let mut munged = Command::new("munged");
-    // It rejects a socket in the temporary folder unless forced.
+    // The daemon rejects a socket in the temporary folder unless it is forced to accept it.
     munged.arg("--force").args([
         path("key-file", "munge.key"),
         path("socket", "munge.socket"),
@@ -210,7 +210,7 @@ PartitionName=all Nodes=ALL Default=YES State=UP
 /// Waits until a condition holds.
 ///
 /// # Errors
-/// If it takes too long, or the condition cannot be checked.
+/// Returns an error if the wait takes too long or the condition cannot be checked.
 pub fn wait_until(mut is_so: impl FnMut() -> Result<bool, String>) -> Result<(), String> {
     let start = Instant::now();
     while !is_so()? {

@@ -74,7 +74,7 @@ struct FolderWatch {
 }
 
 impl FolderWatch {
-    /// Scans the folder once. It may not exist before the run begins.
+    /// Scans the folder once. The folder may be missing until the run begins.
     fn look(&mut self) {
         for entry in std::fs::read_dir(&self.folder).into_iter().flatten().flatten() {
             let name = entry.file_name().to_string_lossy().into_owned();

@@ -29,8 +29,8 @@ const BLANK: &[(&str, &str)] = &[
     ("skin-shared.gltf", "its meshes have one vertex each"),
 ];
 
-/// Models with EXT_mesh_gpu_instancing and their triangle counts, because the manifest counts each
-/// node once.
+/// The triangle counts of models with EXT_mesh_gpu_instancing. They are listed because the manifest
+/// counts each node once.
 const INSTANCED: &[(&str, usize)] =
     &[("blender-gpu-instancing", 4_032 * (958 + 941) + 2), ("simple-instancing", 12 * 125)];
 

@@ -6,9 +6,9 @@
 //!                                                └► rejected with a reason
 //! ```
 //!
-//! A scene is text, so a failing scene can be written to a file and drawn by the program. It
-//! depends only on the scene's number. The projections take turns; their parameters include
-//! unreasonable values, because the program has to reject those.
+//! A scene is text, so a failing scene can be written to a file and drawn by the program. Its text
+//! depends only on its number. The projections take turns; their parameters include unreasonable
+//! values, because the program has to reject those.
 
 use alberti_tests::harness::{Tally, map_parallel};
 use hidden_line::{DrawOptions, HiddenEdges, LineDrawing, draw, verify_with_z_buffer};
@@ -48,15 +48,15 @@ const MODELS: [&str; 8] = [
 /// The outcome of a scene that was drawn or rejected.
 enum Verdict {
     /// Three fractions:
-    /// - - `denied`: of the visible length, the part hidden in the z-buffer
-    /// - - `contradicted`: of all lines, the part drawn as hidden but visible in the z-buffer
-    /// - - `unlined`: of the shaded picture's outline, the part without a line
+    /// - `denied`: of the visible length, the part hidden in the z-buffer
+    /// - `contradicted`: of all lines, the part drawn as hidden but visible in the z-buffer
+    /// - `unlined`: of the shaded picture's outline, the part without a line
     Drawn { denied: f64, contradicted: f64, unlined: f64 },
     /// The scene was rejected for this reason.
     Refused(String),
 }
 
-/// Compares the scenes with these numbers, records each result, and prints the figures.
+/// Checks the scenes that have these numbers, records each result, and prints the figures.
 pub fn check_random_scenes(numbers: Vec<usize>, folder: &Path) -> Result<Tally, String> {
     check_projections()?;
     let models = load_models(folder)?;
@@ -214,7 +214,7 @@ fn random_view(random: &mut Random) -> String {
     }
 }
 
-/// Draws a scene with its hidden lines and compares both kinds with the z-buffer.
+/// Draws a scene and compares its visible and hidden lines with the z-buffer.
 fn check_scene(text: &str, models: &[(&'static str, Arc<Model>)]) -> Result<Verdict, String> {
     let file = parse_scene("random.ron", text).map_err(|errors| errors.to_string());
     let file = match file {

@@ -24,7 +24,7 @@ pub const PROJECTIONS: &[&str] = &[
     "Intrinsics",
 ];
 
-/// Returns a projection of this name with random parameters, some of them impossible.
+/// Returns a projection of this name with random parameters, some of which are invalid.
 pub fn random_projection(name: &str, r: &mut Random) -> String {
     let angle = |r: &mut Random| format!("angle_degrees: {}", r.between(-180.0, 180.0));
     let fields = match name {

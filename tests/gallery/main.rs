@@ -20,7 +20,7 @@ use std::process::ExitCode;
 
 /// The size of the pictures.
 const SIZE: (u32, u32) = (240, 180);
-/// The fractions of white and of black pixels from which a picture is flagged.
+/// The fractions of white and of black pixels above which a picture is flagged.
 const MARKED_SHARES: (f64, f64) = (0.02, 0.05);
 /// The contrast below which a picture is flagged.
 const MARKED_CONTRAST: u8 = 10;

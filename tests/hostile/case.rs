@@ -7,7 +7,7 @@ use import::{ImportError, ImportOptions, load, load_bytes};
 use model::{Diagnostic, Model};
 use std::path::Path;
 
-/// A malicious file.
+/// A malicious file and its expected outcome.
 pub struct Case {
     pub name: String,
     /// The file name, which determines the format if the content does not.

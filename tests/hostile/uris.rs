@@ -159,7 +159,7 @@ const ALLOWED: [&str; 17] = [
     "sub%2Fin.bin",
 ];
 
-/// Names that leave the folder only by their spelling.
+/// Names that lead out of the folder without a symbolic link.
 const FORBIDDEN: [&str; 7] = [
     "../secret.bin",
     "../../../../../../etc/passwd",

@@ -41,7 +41,7 @@ pub fn judge_leaves(folder: &Path) -> Result<Vec<String>, String> {
     Ok(faults)
 }
 
-/// Finds numeric passes that are changed by a ground plane below the model.
+/// Returns the numeric passes that a ground plane below the model changes.
 pub fn judge_grounds(folder: &Path) -> Result<Vec<String>, String> {
     let mut faults = Vec::new();
     for (name, style) in all_styles() {

@@ -71,7 +71,7 @@ impl Visibility {
         known().sum::<f64>() / known().count() as f64
     }
 
-    /// Returns the pixels that are much darker than the median of the nine around them.
+    /// Returns the pixels that are much darker than the median of the 3 × 3 pixels around them.
     fn dots(&self) -> Vec<[usize; 2]> {
         let height = self.values.len() / self.width.max(1);
         let inner =

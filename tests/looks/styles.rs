@@ -66,8 +66,8 @@ pub(super) fn judge_styles(model: &BareModel<'_>, name: &str) -> Vec<String> {
     let mut faults = Vec::new();
     for ((style_name, style), size) in cases {
         let fault = judge_picture(model, style.with_fitting_lines(size), size);
-        // Such a drawing is rejected with a message that names the flag, because copies add up to
-        // millions of triangles.
+        // A drawing of many copies, with millions of triangles, may be rejected with a message that
+        // names this flag.
         let is_refused = |fault: &String| fault.contains("--no-line-limits");
         let (width, height) = size;
         let in_style = |fault| format!("{style_name}, {width} x {height}: {fault}");

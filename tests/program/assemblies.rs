@@ -34,7 +34,7 @@ fn pages_are_numbered_files_or_one_pdf() {
     assert!(sandbox.path_of("bearing_07.dxf").exists());
     assert_succeeds(&sandbox, &[&flags[..], &["-o", "out.pdf"]].concat());
     let pdf = read_text(&sandbox, "out.pdf");
-    assert!(pdf.contains("/Count 7"), "a PDF with seven pages");
+    assert!(pdf.contains("/Count 7"), "the PDF does not have seven pages");
     // A single page keeps its name.
     assert_succeeds(&sandbox, &["sheet", "bearing.glb", "--unit", "mm", "-o", "one.svg"]);
     assert!(sandbox.path_of("one.svg").exists());

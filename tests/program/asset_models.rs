@@ -1,5 +1,5 @@
 //! Real-world animated files, from `shared/assets` next to the project or from `$ASSETS`. At the
-//! time of a keyframe, the pose must equal the keyframe's value with any interpolation, and
+//! time of a keyframe, the pose must equal the keyframe's value in every interpolation mode, and
 //! pictures at different times must differ. The tests are reported as skipped if the folder is
 //! missing.
 

@@ -51,7 +51,7 @@ fn lines_with_the_same_output_are_refused() {
         let arguments = [&["batch", "--list", name, "--out-dir", out_dir][..], &SIZE].concat();
         let run = sandbox.run(&arguments);
         if numbers.is_empty() {
-            // `.` by itself is refused.
+            // A path component `.` is rejected even without a duplicate.
             assert_eq!(run.code, 1, "{}", run.stderr);
             continue;
         }

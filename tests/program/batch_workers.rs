@@ -37,7 +37,7 @@ fn wait_for<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
         if let Some(found) = look() {
             return found;
         }
-        assert!(begin.elapsed() < Duration::from_secs(120), "{what}");
+        assert!(begin.elapsed() < Duration::from_secs(120), "timed out: {what}");
         std::thread::sleep(Duration::from_millis(10));
     }
 }
@@ -54,7 +54,7 @@ fn children(process: u32) -> Vec<u32> {
 
 fn send_signal(process: u32, signal: &str) {
     let sent = Command::new("kill").args([format!("-{signal}"), process.to_string()]).status();
-    assert!(sent.expect("kill runs").success(), "{process} exists");
+    assert!(sent.expect("kill runs").success(), "there is no process {process}");
 }
 
 /// Waits until a worker other than `known` renders the slow picture; returns its process id.

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// An invalid parameter. Every variant contains its name, and the message states the requirement.
+/// An invalid parameter. Every variant names it, and the message states the requirement.
 #[derive(Clone, Copy, PartialEq, Debug, Error)]
 #[non_exhaustive]
 pub enum ViewportError {

@@ -75,8 +75,8 @@ impl FitPolicy {
         Rectangle::new(x, y, width, height)
     }
 
-    /// Returns the size of a window whose picture fills `place` without distortion. Use it for the
-    /// camera instead of `window`, to change the window rather than the place.
+    /// Returns the size of a window whose picture fills `place` without distortion. Give the camera
+    /// this size instead of `window` to change the window rather than the place.
     ///
     /// Instead of leaving margins, [`FitPolicy::Contain`] shows more of the scene; instead of
     /// cropping, [`FitPolicy::Cover`] shows less.

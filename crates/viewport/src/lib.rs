@@ -55,8 +55,8 @@
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 //!
-//! Invalid parameters return a [`ViewportError`] that names them. Nothing in this crate panics, and
-//! finite input never produces infinity or NaN.
+//! Functions return a [`ViewportError`] that names an invalid parameter. Nothing in this crate
+//! panics, and finite input never produces infinity or NaN.
 #![no_std]
 
 #[cfg(test)]

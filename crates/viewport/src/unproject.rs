@@ -137,8 +137,8 @@ impl<S: Space> Unprojector<S> {
         far.is_finite().then_some(PickRay { ray: Ray { origin, direction }, near, far })
     }
 
-    /// Returns whether the projection is parallel up to rounding, which must not turn a parallel
-    /// projection into a perspective with a very distant center.
+    /// Returns whether the projection is parallel up to rounding, so that rounding cannot turn it
+    /// into a perspective projection with a very distant center.
     fn is_parallel(&self) -> bool {
         let raw = self.screen_to_source.raw();
         raw.z_axis.w.abs() <= 1e-14 * raw.z_axis.abs().max_element()

@@ -98,8 +98,8 @@ impl WindowToViewport {
     }
 
     /// Returns the three factors of the chain, in the order in which a point passes through them.
-    /// T(−xw min, −yw min) moves it to the origin, S(sx, sy) scales, and T(xv min, yv min) moves it
-    /// to the target position.
+    /// T(−xw min, −yw min) moves the window's corner to the origin, S(sx, sy) scales, and T(xv min,
+    /// yv min) moves that corner to the viewport's.
     ///
     /// Both signs in the first factor are negative; one source prints T(−xw min, +yw min) (misprint
     /// M18).

@@ -32,8 +32,8 @@ pub fn calibrated(bytes: &[u8]) {
     drawn(kind, quaternion, translation, &mut numbers);
 }
 
-/// Checks that a lens has a finite matrix and inverse, and that the matrix gives the same lens
-/// again.
+/// Checks that the rows of a lens are valid again, that its projection matrix is finite, and that
+/// the inverse contains no NaN.
 fn lens(numbers: &mut Numbers<'_>, size: [u32; 2]) {
     let [fx, fy, cx] = triple(numbers);
     let [cy, skew, near] = triple(numbers);

@@ -16,8 +16,8 @@ const LONGEST: Duration = Duration::from_secs(1);
 /// Runs the work of a case.
 ///
 /// # Panics
-/// If it uses too much memory or takes too long. Only processor time counts, so that a busy machine
-/// does not fail a case. Slow work is run again to measure it.
+/// Panics if the case uses too much memory or takes too long. Only processor time counts, so that a
+/// busy machine does not fail a case. Slow work is run again to measure it.
 pub fn run(work: impl Fn()) {
     MEMORY.reset_peak_usage();
     let before = MEMORY.current_usage();

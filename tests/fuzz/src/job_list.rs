@@ -14,7 +14,7 @@ static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
     folder
 });
 
-/// Verifies a list, which `--verify` reads to its end. It is CSV if the first byte is odd,
+/// Verifies a list, which `--verify` reads to its end. The list is CSV if the first byte is odd,
 /// otherwise JSON lines.
 pub fn list(bytes: &[u8]) {
     let Some((&kind, list)) = bytes.split_first() else { return };

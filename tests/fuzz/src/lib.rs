@@ -9,7 +9,7 @@
 //!  job_list ────────────────────► a list of jobs ──────────► every picture's name, flags, verdict
 //!  explorer ────────────────────► a query ─────────────────► the answer, or an error
 //!  maths ───────────────────────► numbers for the calls of `tests/soak`
-//!  raster ──────────────────────► triangles, lines and points, drawn whole, in parts, by all instructions
+//!  raster ──────────────────────► triangles, lines and points, drawn whole, in parts, at every SIMD level
 //! ```
 //!
 //! A case fails if it panics, breaks a promise, or uses more than a second or 200 MB; see [`case`].

@@ -118,7 +118,7 @@ fn show(loaded: Result<Model, ImportError>) {
     }
 }
 
-/// Draws a model in 32 × 24 pixels.
+/// Draws a model at 32 × 24 pixels.
 fn draw(model: &Model, style: StyleFile, view: ViewFile) {
     let mut file = SceneFile::from_model_path("model.glb".to_owned());
     file.image.size = (32, 24);

@@ -132,7 +132,7 @@ fn any(random: &mut Random) -> Value {
     }
 }
 
-/// Component types, filters and wrap modes.
+/// Component types, filters, wrap modes and a buffer target.
 const COMPONENTS: [u32; 16] = [
     5120, 5121, 5122, 5123, 5125, 5126, 9728, 9729, 9984, 9985, 9986, 9987, 10497, 33071, 33648,
     34962,

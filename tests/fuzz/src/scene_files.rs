@@ -28,7 +28,7 @@ static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
 /// Writes a file and creates its folder.
 ///
 /// # Panics
-/// If the system's temporary folder is not writable, in which case nothing can be tested.
+/// Panics if the system's temporary folder is not writable, because nothing can be tested then.
 fn write_file(path: &Path, bytes: &[u8]) {
     let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
     let written = folder.and_then(|()| fs::write(path, bytes));

@@ -72,7 +72,7 @@ pub fn meshopt(bytes: &[u8]) {
 /// | --- | --- |
 /// | 0, 1 | vertex count |
 /// | 2, 3 | face count |
-/// | 4 | the stream's ID for the positions, and in its high half for the normals |
+/// | 4 | the stream's IDs for the positions (low 4 bits) and the normals (high 4 bits) |
 /// | 5 | the same for the texture coordinates and the colors |
 /// | 6… | the stream |
 pub fn draco(bytes: &[u8]) {

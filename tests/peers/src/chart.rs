@@ -7,12 +7,12 @@ use crate::report::Figures;
 use std::fmt::Write as _;
 
 const WIDTH: f64 = 900.0;
-/// The start of the bars and the end of the longest bar.
+/// The start of the bars; the longest bar ends at `RIGHT`.
 const LEFT: f64 = 150.0;
 const RIGHT: f64 = 820.0;
 const ROW: f64 = 18.0;
 const HEADING: f64 = 34.0;
-/// The ratios at both ends of the scale.
+/// The smallest ratio on the scale; `MOST` is the largest.
 const LEAST: f64 = 0.25;
 const MOST: f64 = 256.0;
 

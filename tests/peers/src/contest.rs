@@ -15,7 +15,7 @@ use std::rc::Rc;
 pub struct Options {
     /// The number of rounds.
     pub rounds: usize,
-    /// Parts of the names to measure; if empty, everything is measured.
+    /// The measurements to make, by parts of their names; if empty, all are made.
     pub only: Vec<String>,
 }
 
@@ -26,7 +26,7 @@ impl Options {
     }
 }
 
-/// A scene's figures.
+/// The measurements for a scene.
 pub struct Heat {
     /// The scene's name.
     pub scene: &'static str,
@@ -209,8 +209,8 @@ pub struct Threads {
     pub same: bool,
 }
 
-/// If a single thread got less than this fraction of the wall time, it was disturbed, and the round
-/// does not count.
+/// The minimum ratio of CPU time to wall time of a single thread. Below it, the thread was
+/// disturbed, and the round does not count.
 const ALONE: f64 = 0.97;
 
 /// Measures one and two threads in turn.

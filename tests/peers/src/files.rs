@@ -24,7 +24,7 @@ const MODELS: [&str; 6] = [
     "vr-gallery/vr-gallery.glb",
 ];
 
-/// The figures of one model.
+/// The measurements for one model.
 pub struct FileHeat {
     /// The path of the model.
     pub model: &'static str,

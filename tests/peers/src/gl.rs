@@ -220,7 +220,7 @@ impl Context {
         }
         let (width, height) = (texture.width as c_int, texture.height as c_int);
         let mut created = 0;
-        // One name is written; the number of texels, 4 bytes each, matches the width and height.
+        // SAFETY: one name is written, and there are `width` × `height` texels of 4 bytes.
         unsafe {
             (self.gl.gen_textures)(1, &mut created);
             (self.gl.bind_texture)(name::TEXTURE_2D, created);

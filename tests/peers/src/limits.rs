@@ -8,7 +8,7 @@ use std::hint::black_box;
 
 /// The number of pixels in a tile, whose 32 KiB of depth and numbers fit in the L1 cache.
 const TILE: usize = 64 * 64;
-/// The number of pixels that the kernel fills, as many as fifty layers have.
+/// The number of pixels that the kernel fills: fifty layers, rounded down to whole tiles.
 pub const KERNEL_PIXELS: usize = 50 * (SIZE.0 * SIZE.1) as usize / TILE * TILE;
 
 /// The number of pictures cleared in turn. Together, they are larger than any cache.

@@ -9,7 +9,7 @@
 //!  files  ──► alberti, f3d as processes
 //! ```
 //!
-//! Run by `cargo xtask bench raster`. No figure is asserted; people judge whether a change in a
+//! `cargo xtask bench raster` runs it. No figure is asserted; people judge whether a change in a
 //! ratio matters.
 
 mod chart;
@@ -32,7 +32,7 @@ use std::process::ExitCode;
 use std::rc::Rc;
 
 const USAGE: &str = "alberti-peers --out DIR [--alberti PROGRAM] [--rounds N] [PART…]
-Parts of names choose scenes, `limits`, `threads`, `features` and `files`; without any, all is measured.";
+Parts of names select scenes, `limits`, `threads`, `features` and `files`; by default, all are measured.";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

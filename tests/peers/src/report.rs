@@ -27,7 +27,7 @@ pub struct Figures {
     pub files: Vec<FileHeat>,
 }
 
-/// Returns the table of a scene. Writing to a `String` cannot fail, here and below.
+/// Returns the table of a scene. Results of writing to a `String` are ignored, as it cannot fail.
 pub fn scene(heat: &Heat) -> String {
     let mut text = format!("\n{}: {}\n", heat.scene, heat.about);
     table(&mut text, &heat.series, ["raster", "render"]);
@@ -44,7 +44,7 @@ pub fn scene(heat: &Heat) -> String {
 /// Returns the table of limits.
 pub fn limits(series: &[Series]) -> String {
     let mut text =
-        format!("\nlimits: fifty layers have {KERNEL_PIXELS} pixels, and so does the kernel\n");
+        format!("\nlimits: the kernel fills {KERNEL_PIXELS} pixels, the area of fifty layers\n");
     table(&mut text, series, ["clear", "kernel"]);
     text
 }
@@ -123,7 +123,7 @@ fn shown(Spread { low, median, high }: Spread) -> String {
     format!("{median:.2} ({low:.2} … {high:.2})")
 }
 
-/// Returns the figures for other programs.
+/// Returns all measurements as JSON, for use by other programs.
 pub fn to_json(figures: &Figures) -> Value {
     let scenes = figures.scenes.iter().map(|heat| {
         let apart = heat.agreements.iter().map(|found| {

@@ -62,7 +62,7 @@ pub struct Part {
     pub two_sided: bool,
 }
 
-/// The mapping from the world to the picture.
+/// The projection of a scene.
 #[derive(Clone, Copy, Debug)]
 pub enum Lens {
     /// A perspective projection.
@@ -86,7 +86,7 @@ pub struct Scene {
     pub parts: Vec<Part>,
     /// The textures.
     pub textures: Vec<Texture>,
-    /// The position of the eye.
+    /// The position and orientation of the eye.
     pub camera: Camera,
     /// The projection.
     pub lens: Lens,

@@ -24,7 +24,7 @@ use viewport::DrawingScale;
 pub(super) enum GridSpacing {
     /// The space is divided equally among the gaps.
     Equal,
-    /// The space is left at the end.
+    /// The gaps are 0, and the space follows the views.
     Close,
 }
 
@@ -43,8 +43,8 @@ pub(super) struct ViewGrid<'a> {
 impl<'a> ViewGrid<'a> {
     /// Creates the grid for a sheet's projection angle.
     ///
-    /// In first-angle projection a view is placed opposite the side from which it is seen, and in
-    /// third-angle projection on that side.
+    /// First-angle projection places a view opposite the side from which the object is seen, and
+    /// third-angle projection places it on that side.
     pub(super) fn new(sheet: &Sheet, principal: &'a [PlannedView; 3], scale: DrawingScale) -> Self {
         let first = sheet.projection_angle == SheetAngle::First;
         // In first-angle projection, the left view is drawn on the right.
@@ -67,7 +67,7 @@ impl<'a> ViewGrid<'a> {
         Self { cells, places, spans }
     }
 
-    /// Returns the size of all columns and rows with their annotations, in millimeters.
+    /// Returns the width and height of the grid with all annotations, in millimeters.
     pub(super) fn total_size(&self) -> DVec2 {
         DVec2::from(self.spans.map(|spans| spans.as_flattened().iter().sum()))
     }

@@ -117,7 +117,7 @@ impl<'a> ViewCell<'a> {
         Self { planned, scale, annotations, extent }
     }
 
-    /// Returns the space that the view takes around a center.
+    /// Returns the rectangle that the cell occupies if its view has this center.
     pub(super) fn extent_at(&self, center: DVec2) -> Extent {
         self.extent.map(|corner| center + corner)
     }
@@ -136,8 +136,8 @@ impl<'a> ViewLayout<'a> {
     /// smaller scales are tried when a view without a fixed position does not fit.
     ///
     /// # Errors
-    /// [`SheetError::TooLarge`] if the views do not fit. It suggests a scale that fits, if there is
-    /// one.
+    /// Returns [`SheetError::TooLarge`] if the views do not fit. The error suggests a scale that
+    /// fits, if there is one.
     pub(super) fn arrange_views(sheet: &Sheet, plan: &'a ViewPlan) -> Result<Self, SheetError> {
         let best = Self::arrange_on_best(&[sheet], plan);
         best.map(|(_, layout)| layout).ok_or_else(|| match plan.requested.is_empty() {
@@ -203,7 +203,7 @@ impl<'a> ViewLayout<'a> {
         best
     }
 
-    /// Places the views without a fixed position one by one, each at the largest scale.
+    /// Places the views without a fixed position one by one, each at the largest scale that fits.
     fn place_free_views(
         &mut self,
         sheet: &Sheet,
@@ -271,7 +271,7 @@ impl<'a> ViewLayout<'a> {
         self.views.iter().map(PlacedView::extent).chain(blocks).collect()
     }
 
-    /// Returns the error with the required and available sizes, and a remedy.
+    /// Returns the error that states the required and available sizes and a remedy.
     fn too_large(sheet: &Sheet, plan: &ViewPlan) -> SheetError {
         let fits =
             |scale: &&DrawingScale| ViewLayout::arrange_at_scale(sheet, plan, **scale).is_some();

@@ -23,11 +23,11 @@ const CIRCLE_POINTS: u32 = 120;
 /// The number of directions to try for the letter of a detail.
 const LETTER_DIRECTIONS: u32 = 16;
 
-/// The number of positions to try for a mark, farther and farther out.
+/// The number of positions to try for a mark, each farther out than the one before.
 const STEPS: u32 = 40;
 
-/// The minimum width across a center line, in millimeters on paper, that an object must have to get
-/// the line.
+/// The minimum width of an object across its center line, in millimeters on paper. Narrower objects
+/// get no line.
 const LEAST_WIDTH: f64 = 2.0;
 
 /// The overhang of a center line beyond the view, in millimeters.
@@ -56,7 +56,7 @@ pub(super) struct MarkSettings {
 }
 
 impl ViewMark {
-    /// Returns a center line, as a point on it and the index of the paper axis along which it runs.
+    /// Returns a point on a center line and the index of its paper axis, or `None` for other marks.
     pub(super) const fn as_center_line(&self) -> Option<(DVec2, usize)> {
         match self {
             Self::CenterLine { through, axis } => Some((*through, *axis)),
@@ -289,7 +289,7 @@ mod tests {
     };
 
     #[test]
-    fn rays_leave_rectangles_at_a_side() {
+    fn exit_distances_are_measured_to_the_border() {
         let object = SETTINGS.object;
         assert_eq!(exit_distance(DVec2::new(10.0, 0.0), DVec2::X, object), 20.0);
         assert_eq!(exit_distance(DVec2::new(10.0, 0.0), -DVec2::Y, object), 30.0);
@@ -300,7 +300,7 @@ mod tests {
     fn circles_are_to_scale_with_letters_beside_the_object() {
         let circle =
             ViewMark::Circle { center: DVec2::new(14.0, 0.0), radius: 4.0, letter: Some('B') };
-        // 14 + 4 at 2:1 is 36, and the object ends at 30.
+        // At 2:1 the circle extends to 2 · (14 + 4) = 36, and the object to 30.
         assert_eq!(circle.reserve(&SETTINGS), 6.0);
         let mut annotations = ViewAnnotations::default();
         circle.annotate(&mut annotations, &SETTINGS);

@@ -34,7 +34,7 @@ pub(super) struct ViewMeasures {
 
 impl ViewPlan {
     /// Assigns each dimension to the view that shows it, and warns about dimensions that no view
-    /// shows. Adds center lines to every view except axonometric views.
+    /// shows. Adds center lines to every view that can have them.
     pub(super) fn add_measures(&mut self, sheet: &Sheet, models: &[ModelInstance]) {
         self.add_round_extents(sheet, models);
         if sheet.measures.is_empty() && !sheet.center_lines && !sheet.symmetry_lines {

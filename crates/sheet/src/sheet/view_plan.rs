@@ -64,7 +64,7 @@ pub(super) struct ViewPlan {
     pub(super) principal: [PlannedView; 3],
     /// The views without a fixed position: sections, then the axonometric view.
     pub(super) free: Vec<PlannedView>,
-    /// If the sheet has requests, all its views, which replace the views above.
+    /// All views of a sheet with requests; they replace the views above.
     pub(super) requested: Vec<PlannedView>,
     /// Warnings about sections that are not shown as requested.
     pub(super) warnings: Vec<SheetWarning>,
@@ -78,7 +78,7 @@ pub(super) struct PlanSubject<'a> {
     pub(super) points: Vec<Point<World>>,
     /// The corners of the bounding box, which have the same extents along the axes as all points.
     extreme: Vec<Point<World>>,
-    /// The sections that cut something, numbered from 1.
+    /// The sections that cut something, each with its number among all sections, from 1.
     cutting: Vec<(Plane<World>, usize)>,
     /// Warnings about sections that cut nothing.
     idle: Vec<SheetWarning>,
@@ -88,8 +88,8 @@ impl ViewPlan {
     /// Plans the views of models cut by section planes.
     ///
     /// # Errors
-    /// [`SheetError::Empty`] if there is nothing to draw, [`SheetError::View`] if a view has no
-    /// valid camera, [`SheetError::Request`] if a requested view is not possible.
+    /// Returns [`SheetError::Empty`] if there is nothing to draw, [`SheetError::View`] if a view
+    /// has no valid camera, or [`SheetError::Request`] if a requested view is not possible.
     pub(super) fn new(
         sheet: &Sheet,
         models: &[ModelInstance],
@@ -342,7 +342,7 @@ impl PlannedView {
         matches!(self.view.name, ViewName::Named(name) if NamedView::PRINCIPAL.contains(&name))
     }
 
-    /// Whether the view is uncut, and looks along an axis or is a detail.
+    /// Whether the view is uncut and is either along an axis or a detail.
     pub(super) fn is_outside_view(&self) -> bool {
         let is_outside = match self.view.name {
             ViewName::Named(_) => self.is_along_axis(),
@@ -359,8 +359,8 @@ impl PlannedView {
             || matches!(self.composition, Composition::Local { .. })
     }
 
-    /// Whether the view can have dimensions and center lines, that is, it is not axonometric, has
-    /// no moved pieces, and shows the whole object.
+    /// Whether the view can have requested dimensions and center lines. Axonometric views, broken
+    /// views and details cannot.
     pub(super) fn takes_measures(&self) -> bool {
         let is_axonometric = matches!(self.view.name, ViewName::Named(_)) && !self.is_along_axis();
         let is_broken = matches!(self.composition, Composition::Broken(_));
@@ -417,7 +417,7 @@ impl PlannedView {
         for (layer, caption) in self.captions(scale) {
             add_caption(&mut annotations, layer, &caption, object, letters);
         }
-        // If the view does not fit, a search through its many positions is pointless.
+        // A view larger than the paper has too many positions to search, so it gets no overlays.
         let paper = DVec2::new(sheet.paper.width(), sheet.paper.height());
         if (half * 2.0).cmple(paper).all() {
             self.overlays.annotate(&mut annotations, &mark_settings);
@@ -454,7 +454,7 @@ impl PlannedView {
     }
 
     /// Returns the annotations from [`annotate`](Self::annotate), plus a note of the view's scale,
-    /// because it differs from the sheet's.
+    /// which differs from the sheet's.
     pub(super) fn annotate_with_scale(
         &self,
         sheet: &Sheet,

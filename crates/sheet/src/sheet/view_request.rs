@@ -47,7 +47,7 @@ pub enum ViewRequest {
         /// The position, scale and caption.
         place: ViewPlace,
     },
-    /// Part of a view at a larger scale. The view marks it with a circle and a letter.
+    /// Part of a view at a larger scale. A circle and a letter mark the part in that view.
     Detail {
         /// The view that is enlarged.
         of: NamedView,
@@ -94,7 +94,7 @@ pub enum ViewRequest {
         /// The mean distance of the freehand line from the center, in scene units.
         radius: f64,
     },
-    /// A view from which part of the length is omitted (ISO 128-3, 4.4.7). Dimensions remain true.
+    /// A view without part of its length (ISO 128-3, 4.4.7). Dimensions state the full lengths.
     Broken {
         /// The view, or `None` for all views along the axes that show the length.
         of: Option<NamedView>,

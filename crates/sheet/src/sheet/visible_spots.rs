@@ -43,7 +43,7 @@ pub(super) struct MovedParts<'a> {
     pub(super) moves: &'a [DVec3],
 }
 
-/// Finds the spot in a view that shows each part best, or `None` for parts that are hidden or
+/// Finds the spot with the largest clearance for each part, or `None` for parts that are hidden or
 /// narrower than a pixel.
 pub(super) fn find_visible_spots(
     moved: &MovedParts<'_>,
@@ -239,7 +239,7 @@ mod tests {
         let to_view = view.camera.world_to_view();
         for (part, spot) in spots.iter().enumerate() {
             let Some(VisibleSpot { at, .. }) = spot else { continue };
-            // Finds the nearest triangle at the spot with barycentric coordinates.
+            // Returns the depth of a triangle at the spot, by barycentric coordinates.
             let depth = |number: usize| {
                 let [a, b, c] = corners[number].map(|corner| {
                     let world = DVec3::from(corner.map(f64::from)) + moves[number];

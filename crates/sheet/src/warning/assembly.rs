@@ -1,4 +1,4 @@
-//! Warnings about what is missing from assembly pages.
+//! Warnings about elements that are missing from assembly pages.
 
 use core::fmt;
 use files::{counted, visible_excerpt};
@@ -57,7 +57,7 @@ impl fmt::Display for AssemblyWarning {
             ),
             Self::MassUnknown { part } => write!(
                 f,
-                "the mass of `{}` is unknown: its mesh is not closed, so it has no volume",
+                "the mass of `{}` is unknown: its mesh is not closed, so its volume is undefined",
                 visible_excerpt(part)
             ),
             Self::NamesUnreadable { name, count } => write!(

@@ -9,20 +9,20 @@ use core::fmt;
 pub enum DimensionFault {
     /// The requested view is not on the sheet.
     NoSuchView(NamedView),
-    /// The requested view foreshortens it; another view on the sheet may show it at true size.
+    /// The requested view foreshortens the dimension; another view may show its true size.
     Foreshortened {
         /// The requested view.
         view: NamedView,
-        /// A view that shows it at true size.
+        /// A view on the sheet that shows the true size.
         shown_in: Option<NamedView>,
     },
-    /// No view on the sheet shows it at true size.
+    /// No view on the sheet shows the true size of the dimension.
     NowhereTrue,
     /// A section removes the measured points.
     CutAway,
     /// The points coincide in the direction of measurement, or the angle is 0 or 180 degrees.
     NoExtent,
-    /// There is no room for its number.
+    /// There is no room for the dimension's number.
     NoRoom,
 }
 

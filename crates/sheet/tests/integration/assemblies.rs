@@ -96,7 +96,7 @@ fn fifty_different_parts_take_three_pages() {
 
 #[test]
 fn a_thousand_parts_are_listed_and_numbered() {
-    // A thousand parts take a minute. `cargo xtask test units-all` sets the variable.
+    // A thousand parts take a minute, so only `cargo xtask test units-all` uses that many.
     let (parts, each) =
         if std::env::var_os("THOROUGH").is_some() { (1000, 100) } else { (150, 15) };
     for (kinds, models) in [(parts, scattered_parts(parts)), (10, stacked_assembly(10, each))] {
@@ -169,10 +169,10 @@ fn only_identical_copies_count_as_one_part() {
     let size = DVec3::new(3.0, 2.0, 1.0);
     let nodes: Vec<(String, usize, Affine<_, _>)> = vec![
         ("bolt.001".to_owned(), 0, placed(DVec3::X * 5.0, 0.0)),
-        // Rotated, and with a copy of the mesh in the file.
+        // This bolt is rotated and uses the copy of the mesh.
         ("bolt.002".to_owned(), 1, placed(DVec3::X * 15.0, 1.1)),
         ("bolt".to_owned(), 0, placed(DVec3::X * 25.0, 0.3)),
-        // With a different size, mirrored, with a different name, and with a different material.
+        // These differ in size, handedness, name and material, in this order.
         ("bolt.003".to_owned(), 0, Affine::scale(1.1, 1.0, 1.0)),
         ("bolt.004".to_owned(), 0, Affine::scale(-1.0, 1.0, 1.0)),
         ("screw".to_owned(), 0, placed(DVec3::Z * 20.0, 0.0)),
@@ -305,7 +305,7 @@ fn every_item_has_a_sheet_at_a_suitable_scale() {
         assert_eq!(page.title, format!("part {}", letters(kind)));
         let values = texts(page, "title-block-text");
         assert!(values.contains(&format!("7-100-{}", kind + 1)), "{values:?}");
-        // Parts that are tilted in the assembly are drawn straight: 6 mm high, or 4 mm for a plate.
+        // Parts that are tilted in the assembly are drawn upright: 6 mm high, or 4 mm for a plate.
         let lengths = texts(page, "dimensions-text");
         let height = if kind % 5 == 0 { "4" } else { "6" };
         assert!(lengths.iter().any(|length| length == height), "{lengths:?}");

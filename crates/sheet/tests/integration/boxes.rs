@@ -85,7 +85,7 @@ pub fn has_view(page: &SheetPage, name: &str) -> bool {
     layer_extent(page, |id| id.starts_with(&format!("{name}-"))).is_some()
 }
 
-/// Whether either the view is on the sheet or a warning reports it.
+/// Whether the view is on the sheet or a warning reports its absence, but not both.
 fn is_there_or_named(page: &SheetPage, prefix: &str, title: &str) -> bool {
     let named = SheetWarning::ViewLeftOut { view: title.to_owned() };
     has_view(page, prefix) != page.warnings.contains(&named)

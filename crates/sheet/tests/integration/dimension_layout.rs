@@ -25,7 +25,7 @@ fn measure(random: &mut Random, number: usize, size: DVec3) -> Measure {
     ][number % 4];
     let mut points: Vec<Point<World>> = (0..2 + number % 5).map(|_| within(random, size)).collect();
     if direction == LengthDirection::Aligned {
-        // The points are in a plane along two axes, so that a view shows the lengths at true size.
+        // All points have one coordinate in common, so that a view shows the lengths at true size.
         let depth = points[0].raw()[number % 3];
         for point in &mut points {
             let mut moved = point.raw();
@@ -107,6 +107,6 @@ fn numbers_touch_nothing_on_sheets_with_random_dimensions() {
         }
     }
     assert!(messages.is_empty(), "{}: {:#?}", messages.len(), &messages[..messages.len().min(12)]);
-    // Few dimensions do not fit.
+    // Fewer than one dimension in twenty may be omitted.
     assert!(left_out * 20 < asked, "{left_out} of {asked}");
 }

@@ -21,8 +21,8 @@ use viewport::{DrawingScale, Paper};
 /// The side lengths of the part.
 const SIZE: DVec3 = DVec3::new(48.0, 32.0, 24.0);
 
-/// The maximum difference in millimeters between the formula and a length on paper divided by the
-/// scale.
+/// The maximum difference, in millimeters, between a length from the formula and the length on
+/// paper divided by the scale.
 const EXACT: f64 = 0.0005;
 
 fn point(x: f64, y: f64, z: f64) -> Point<World> {
@@ -67,7 +67,7 @@ fn image(view: NamedView, point: Point<World>) -> DVec2 {
     }
 }
 
-/// Draws a sheet at a scale with one dimension, and no other lines in the layer.
+/// Draws a sheet at a scale, with this dimension as the only one.
 fn page_of(dimension: Dimension, (scale, unit): (f64, DimensionUnit)) -> SheetPage {
     let mut sheet = sheet((Paper::A1.rotated(), "A1"), SheetAngle::First);
     sheet.dimensions = false;
@@ -229,8 +229,8 @@ fn overall_lengths(model: ModelInstance) -> Vec<String> {
 }
 
 #[test]
-fn overall_dimensions_of_round_parts_are_those_of_the_circle() {
-    // The facets of 30 sides end 0.07 mm short of the circle at 90°.
+fn overall_dimensions_of_round_parts_measure_the_circle() {
+    // With 30 sides, the facet at 90° is 0.07 mm inside the circle.
     for axis in [DVec3::Y, DVec3::X, DVec3::Z] {
         assert_eq!(
             overall_lengths(cylinder(DVec3::new(3.0, 1.0, 2.0), axis, (12.5, 40.0, 30))),
@@ -238,13 +238,13 @@ fn overall_dimensions_of_round_parts_are_those_of_the_circle() {
             "{axis}"
         );
     }
-    // Ten sides are a prism: 2 · 12.5 mm · cos 18° from side to side.
+    // With ten sides, it is a prism: 2 · 12.5 mm · cos 18° from side to side.
     let prism = overall_lengths(cylinder(DVec3::ZERO, DVec3::Y, (12.5, 40.0, 10)));
     assert_eq!(prism, ["23.78", "25", "40"]);
 }
 
 #[test]
-fn ink_of_the_color_of_the_paper_is_replaced() {
+fn ink_in_the_color_of_the_paper_is_replaced() {
     let white = LineStyle { ink: Some([255; 3]), ..LineStyle::TECHNICAL };
     let sheet = Sheet { style: white, ..sheet((Paper::A3, "A3"), SheetAngle::First) };
     let page = sheet.draw(&[box_model(SIZE)], &[], 1).unwrap();

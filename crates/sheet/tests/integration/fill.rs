@@ -72,7 +72,7 @@ fn views_fill_the_sheet_or_the_next_standard_scale_does_not_fit() {
         if !fault.is_empty() {
             faulty.push(format!("{size:.0} on {} {angle:?}: {fault}", sheet.paper_name));
         }
-        // The expected size is the bare objects plus 45 mm for distances and dimensions.
+        // The expected size is the size of the bare objects plus 45 mm for gaps and dimensions.
         let ScaleLimit::TooLarge { scale, .. } = fill.limit else { continue };
         let bare = DVec2::new(size.x + size.z, size.y + size.z) * scale.ratio() + 45.0;
         for paper in [sheet.paper, sheet.paper.rotated()] {

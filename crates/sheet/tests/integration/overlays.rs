@@ -84,7 +84,7 @@ fn overlays_that_sheets_do_not_show_are_reported() {
 
 #[test]
 fn labels_of_large_models_stay_on_the_paper() {
-    // At 50:1 the model would cover 50 km of paper, and positions around it are not searched.
+    // At 50:1 the model would cover 50 km of paper, so positions around it are not searched.
     let model = [box_model(DVec3::new(1e6, 4e5, 6e5))];
     let overlays = vec![label("roof", DVec3::new(0.0, 2e5, 0.0))];
     let sheet = Sheet { overlays, ..sheet((Paper::A3.rotated(), "A3"), SheetAngle::First) };

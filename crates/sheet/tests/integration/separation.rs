@@ -1,4 +1,4 @@
-//! Tests for intersections between the triangles of parts.
+//! Finds intersections between the triangles of parts.
 
 use glam::DVec3;
 use model::{ModelInstance, Topology};

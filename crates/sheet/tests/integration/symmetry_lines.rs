@@ -85,7 +85,7 @@ fn each_plane_of_symmetry_has_lines_in_two_views() {
     // The front, side and top views have a vertical line, and only the top view has a horizontal
     // line.
     assert_eq!(lengths(&lines), [vec![31.0, 56.0, 56.0], vec![66.0]]);
-    // With one corner cut off by 0.1 mm, the front and back are still symmetric.
+    // With one corner cut off by 0.1 mm, the part is still symmetric front to back.
     let mut cut = t.to_vec();
     cut[5] = [29.9, 50.0];
     let lines = symmetry_lines(&symmetric_sheet(), &[prism(&cut, 25.0)]);

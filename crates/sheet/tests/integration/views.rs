@@ -240,7 +240,7 @@ fn a_local_section_is_cut_within_its_freehand_line() {
 }
 
 #[test]
-fn a_broken_view_is_shorter_with_true_dimensions() {
+fn a_broken_view_is_shorter_but_states_true_dimensions() {
     let model = [box_model(DVec3::new(1000.0, 40.0, 30.0))];
     let broken = ViewRequest::Broken { of: None, axis: 0, from: -400.0, to: 350.0 };
     let whole = a3(Vec::new()).draw(&model, &[], 1).unwrap();

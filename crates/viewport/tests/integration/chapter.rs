@@ -57,7 +57,7 @@ fn exercise_2_viewport_and_box_make_one_windowing() {
 /// M18, WV-2: with +yw min in the first translation, the lower border of the window does not map to
 /// the lower border of the viewport.
 #[test]
-fn misprint_m18_the_chain_moves_the_window_to_the_origin_by_minus_and_minus() {
+fn misprint_m18_both_signs_of_the_first_translation_are_negative() {
     let window = Limits { x: [-1.0, 3.0], y: [2.0, 4.0] };
     let map =
         WindowToViewport::new(window, Limits { x: [0.0, 8.0], y: [0.0, 4.0] }).expect("not empty");
@@ -89,13 +89,13 @@ fn misprint_m21_four_borders_make_a_window_and_six_a_box() {
 /// M22, C100, DP-1: (1 − Z)/2 maps the chapter's near plane (+1) to 0. It maps OpenGL's near plane
 /// (−1) to 1, so (1 + Z)/2 is correct there.
 #[test]
-fn misprint_m22_which_depth_formula_fits_depends_on_where_near_is() {
+fn misprint_m22_the_depth_formula_depends_on_the_near_plane() {
     let (chapter_near, opengl_near) = (1.0, -1.0);
     assert_eq!(DepthRange::ZERO_ONE_FLIPPED.ndc_to_depth(chapter_near), 0.0);
     assert_eq!(
         DepthRange::ZERO_ONE_FLIPPED.ndc_to_depth(opengl_near),
         1.0,
-        "near and far are exchanged"
+        "near and far are swapped"
     );
     assert_eq!(DepthRange::ZERO_ONE.ndc_to_depth(opengl_near), 0.0);
     let negate = DepthRange::NEGATED.ndc_to_depth(chapter_near);
@@ -105,10 +105,10 @@ fn misprint_m22_which_depth_formula_fits_depends_on_where_near_is() {
     );
 }
 
-/// M23, C98, WV-4: rows are divided by rows − 1 and columns by columns − 1, and the last index is
-/// one less than the count.
+/// M23, C98, WV-4: the row index is divided by rows − 1 and the column index by columns − 1. The
+/// last index is one less than the count.
 #[test]
-fn misprint_m23_counts_are_not_paired_crosswise() {
+fn misprint_m23_row_and_column_counts_are_not_swapped() {
     let (rows, columns) = (3, 5);
     let grid = PointGrid::new(rows, columns).expect("at least two");
     assert_eq!(grid.xz(rows - 1, columns - 1), Some([1.0, 1.0]));
@@ -156,7 +156,7 @@ fn rays_of_a_parallel_projection_are_parallel() {
 /// If the far plane is at infinity, the far point is a direction, and the ray still exists.
 #[test]
 fn rays_reach_to_infinity() {
-    // Reversed infinite perspective (IF-3): depth 1 at the near plane, 0 at infinity.
+    // The reversed infinite projection (IF-3): depth 1 at the near plane, 0 at infinity.
     let raw = DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::NEG_W, DVec4::new(0.0, 0.0, 0.5, 0.0));
     let back = Viewport::new(
         Rectangle::from_size(100.0, 100.0).expect("positive"),

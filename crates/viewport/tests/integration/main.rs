@@ -1,4 +1,4 @@
-//! Tests of the public interface of `viewport`, linked once.
+//! Tests of the public interface of `viewport`, linked into one program.
 
 mod chapter;
 mod items;
