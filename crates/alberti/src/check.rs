@@ -137,7 +137,8 @@ fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, Cli
 fn check_models(origin: &Origin, file: &SceneFile, options: &ImportOptions) -> Vec<CheckReport> {
     let mut paths: Vec<&str> = Vec::new();
     for entry in &file.models {
-        let may_read = origin.allows_path(Path::new(&entry.path), &options.allow_outside);
+        let may_read = origin.allows_path(Path::new(&entry.path), &options.allow_outside)
+            && !entry.path.starts_with("lesson:");
         if may_read && !paths.contains(&entry.path.as_str()) {
             paths.push(&entry.path);
         }
