@@ -63,7 +63,7 @@ fn verdicts_have_an_exit_code_and_name_the_mistake() {
             1,
             "incorrect: your value for row 4, column 4 is 5",
         ),
-        ("21", "100 0 -190; 0 50 70; 0 0 1", 1, "M18"),
+        ("21", "100 0 -190; 0 50 70; 0 0 1", 1, "incorrect: the window was moved by +1 in y"),
         ("4", "f*n*[z1-z2]/(z1*z2)", 0, "correct\n"),
         ("3", "n+f, -f_n", 1, "incorrect: f_n is a subscript"),
         ("7", "n*(1,1,1,1)", 0, "correct\n"),

@@ -238,7 +238,7 @@ fn pasted_code_is_read_back() {
 #[test]
 fn signed_planes_are_refused_where_distances_are_expected() {
     let sandbox = Sandbox::new("matrix_signed");
-    let sentence = "for the textbook's coordinates 0 > n > f, use near = -n and far = -f";
+    let sentence = "For the textbook's coordinates 0 > n > f, use near = -n and far = -f";
     for flags in [
         ["--ortho=-2,2,-1,3,-1,-5", "--conventions=chapter"],
         ["--ortho=-2,2,-1,3,-1,-5", "--conventions=opengl"],

@@ -83,7 +83,7 @@ fn errors_suggest_a_fix() {
         ),
         ("matrix --ortho -1,1,-1,1,0,1 1", "takes one list of numbers joined by commas"),
         ("explain --segment 0,0,0,1,1,1", "--planes N,F (the textbook's P) or --matrix NUMBERS"),
-        ("explain --point 1,2,3 --matrix 1 0 0 0", "in quotation marks"),
+        ("explain --point 1,2,3 --matrix 1 0 0 0", "with commas or quoted"),
     ] {
         let run = sandbox.run(&command.split(' ').collect::<Vec<_>>());
         assert!(run.code != 0 && run.stdout.is_empty(), "{command}");

@@ -169,11 +169,7 @@ fn times_after_the_end_are_reported() {
     assert!(late.stderr.contains("the animation ends at 2 s, before --time 9"), "{}", late.stderr);
     let film = ["animate", "moving.gltf", "--size=8x8", "--frames=2", "-o", "film.gif", "--to"];
     let run = sandbox.run(&[&film[..], &["9"]].concat());
-    assert!(
-        run.stderr.contains("the animation ends at 2 s: the frames after it"),
-        "{}",
-        run.stderr
-    );
+    assert!(run.stderr.contains("the animation ends at 2 s: later frames"), "{}", run.stderr);
     for whole in [
         sandbox.run(&[&film[..], &["2"]].concat()),
         sandbox.run(&["render", "moving.gltf", "--size=8x8", "--time", "2"]),
