@@ -114,7 +114,7 @@ fn set_field_of_view(file: &mut CameraFile, angle: FieldOfView) -> Result<(), Cl
             Ok(())
         }
         _ => Err(CliError::Usage(
-            "`--fov` cannot be used with this projection: it applies only to a plain perspective\n  = help: use `--projection perspective`, or `--zoom 1.5` instead of `--fov` to make the model larger"
+            "`--fov` cannot be used with this projection: it applies only to `--projection perspective`\n  = help: use `--projection perspective`, or `--zoom 1.5` instead of `--fov` to make the model larger"
                 .to_owned(),
         )),
     }

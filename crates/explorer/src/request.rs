@@ -108,7 +108,7 @@ impl Request {
 fn find_question(name: Option<&str>) -> Result<Question, ExplorerError> {
     let names = || QUESTIONS.map(|(name, _)| name).join(", ");
     let Some(name) = name else {
-        let help = format!("add what= with one of {}", names());
+        let help = format!("set `what` to one of {}", names());
         return Err(ExplorerError::new("malformed_query", "missing key `what`", help));
     };
     let found = QUESTIONS.into_iter().find(|(known, _)| *known == name);

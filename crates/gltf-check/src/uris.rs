@@ -53,7 +53,7 @@ pub(super) fn check_buffer_uri(
     if let Some(kind) = media_type(uri)
         && !["application/octet-stream", "application/gltf-buffer"].contains(&kind.as_str())
     {
-        let message = format_args!("{kind:?} is not a media type for buffers");
+        let message = format_args!("{kind:?} is not an allowed media type for a buffer");
         diagnostics.add(&codes::BUFFER_DATA_URI_MIME_TYPE_INVALID, pointer, message);
     }
 }

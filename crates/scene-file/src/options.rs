@@ -146,7 +146,7 @@ named_values! {
         Flat = "Each face in one tone of its color, lit from above the viewer's left shoulder, as a 300 dpi image under the lines.",
         Hatching = "Hatch lines, closer together where the light of `Flat` leaves the face darker. They are as exact as the edges.",
         ShadeHatching = "Hatch lines that depend only on the light, not on the colors of the materials.",
-        Gray = "Gray areas from the base colors of the materials, regardless of the light. Cuts stay blank.",
+        Gray = "Each face in a gray as bright as its base color, regardless of the light. Cuts stay blank.",
         PartHatching = "Hatch lines per object: neighbors differ in angle or spacing. With sections, only the cuts are hatched.",
     }
 }

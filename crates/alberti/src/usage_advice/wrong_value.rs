@@ -85,9 +85,9 @@ fn other_meaning(flag: &str, given: &str) -> Option<String> {
     }
     if flag == "background" && given.is_empty() {
         return Some(
-            "`--background` is the color behind the model and needs a value, such as \
-             `--background white` or `--background '#ff8800'`, in quotation marks because `#` \
-             begins a comment in a shell"
+            "`--background` sets the color behind the model and needs a value, such as \
+             `--background white` or `--background '#ff8800'`; quote colors that begin with `#`, \
+             which starts a comment in a shell"
                 .to_owned(),
         );
     }

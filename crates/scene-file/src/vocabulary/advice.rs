@@ -52,7 +52,7 @@ const ADVICE: &[(&str, &str, &str)] = &[
     (
         "Projection::TwoPoint",
         "fov fovy fovydegrees fieldofview angle focallength distance",
-        "the vanishing points set the field of view: x: (-3.2, 0.4), z: (2.4, 0.4); move them apart to narrow it, or choose projection: Perspective(fov_y_degrees: 35)",
+        "the vanishing points determine the field of view, as in x: (-3.2, 0.4), z: (2.4, 0.4); move them farther apart to narrow it, or choose projection: Perspective(fov_y_degrees: 35)",
     ),
     (
         "Projection::TwoPoint",
@@ -62,7 +62,7 @@ const ADVICE: &[(&str, &str, &str)] = &[
     (
         "Projection::ThreePoint",
         "fov fovy fovydegrees fieldofview angle focallength distance at vanishingpoint vanishingpoints",
-        "the vanishing points set the field of view: x: (-3.2, 1.2), y: (0.1, -5), z: (2.4, 1.2); move them apart to narrow it",
+        "the vanishing points determine the field of view, as in x: (-3.2, 1.2), y: (0.1, -5), z: (2.4, 1.2); move them farther apart to narrow it",
     ),
     (
         "View::Frame",

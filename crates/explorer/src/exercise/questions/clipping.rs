@@ -84,7 +84,7 @@ pub(super) static OUTCODE: Exercise = Exercise {
     number: 19,
     title: words("An outcode", "区域码"),
     question: words(
-        "An outcode has a bit for each plane that a point is outside of: left 1, right 2, bottom 4, top 8, near 16 and far 32. The volume is −w ≤ x, y, z ≤ w with the near plane at z = −w. What is the outcode of the clip-space point (3, −3/2, −4, 2), as a number?",
+        "An outcode has one bit per plane, which is set if the point is outside that plane: left 1, right 2, bottom 4, top 8, near 16 and far 32. The volume is −w ≤ x, y, z ≤ w with the near plane at z = −w. What is the outcode of the clip-space point (3, −3/2, −4, 2), as a number?",
         "点每越出一个平面，区域码中就有一位置位：左 1、右 2、下 4、上 8、近 16、远 32；视见体为 −w ≤ x, y, z ≤ w，近平面在 z = −w。裁剪空间的点 (3, −3/2, −4, 2) 的区域码是哪个数？",
     ),
     hints: &[
