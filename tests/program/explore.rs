@@ -120,6 +120,31 @@ fn the_page_its_modules_and_the_model_are_served() {
 }
 
 #[test]
+fn a_copied_scene_works_in_an_empty_folder() {
+    let sandbox = Sandbox::new("explore_copy");
+    let server = Server::start(&sandbox, &[]);
+    let (_, lessons) = server.get("/compute?v=1&what=lessons");
+    let lessons: serde_json::Value = serde_json::from_str(&lessons).expect("JSON");
+    let mut copied = 0;
+    for lesson in lessons["lessons"].as_array().expect("a list") {
+        let id = lesson["id"].as_str().expect("an id");
+        let (_, state) = server.get(&format!("/compute?v=1&what=state&lesson={id}&size=32x20"));
+        let state: serde_json::Value = serde_json::from_str(&state).expect("JSON");
+        let Some(scene) = state["scene"].as_str() else { continue };
+        sandbox.write_file("copied.ron", scene);
+        let run = sandbox.run(&["render", "copied.ron", "--size=32x20", "-o", "copied.png"]);
+        assert!(run.code == 0 && !run.stderr.contains("error"), "{id}: {}{scene}", run.stderr);
+        copied += 1;
+    }
+    assert!(copied > 10, "{copied}");
+    let check = sandbox.run(&["scene", "check", "copied.ron"]);
+    assert!(check.code == 0 && check.stdout.contains("no mistakes"), "{}", check.stdout);
+    sandbox.write_file("unknown.ron", "Scene(models: [(path: \"lesson:hous\")])");
+    let unknown = sandbox.run(&["render", "unknown.ron", "-o", "unknown.png"]);
+    assert!(unknown.code != 0 && unknown.stderr.contains("lesson:hous"), "{}", unknown.stderr);
+}
+
+#[test]
 fn a_scene_is_explored_unchanged() {
     let sandbox = Sandbox::new("explore_scene");
     sandbox.copy_model("house.glb");

@@ -85,6 +85,9 @@ pub enum ProjectionError {
     /// The frustum's window is not centered on the line of sight, so no field of view describes it.
     #[error("the window is off-center; a field of view cannot describe it")]
     OffCenter,
+    /// The matrix is not a perspective projection through a pinhole, or is not invertible.
+    #[error("the matrix is not an invertible pinhole projection; it has no intrinsics")]
+    NotPinhole,
     /// Each parameter is valid, but the matrix would overflow or underflow.
     #[error("the {what} is too large, too small or too extreme to compute with")]
     Unrepresentable {

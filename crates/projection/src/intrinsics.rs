@@ -134,7 +134,7 @@ impl Intrinsics {
         let depth = w.z * ahead;
         let is_pinhole = [x.w, y.x, y.w, w.x, w.y, w.w].into_iter().all(|entry| entry == 0.0);
         if !is_pinhole || !is_invertible(depth) {
-            return Err(ProjectionError::Unrepresentable { what: "matrix as intrinsics" });
+            return Err(ProjectionError::NotPinhole);
         }
         let [width, height] = size.map(|side| 0.5 * f64::from(side));
         let (x, y) = (x / depth, y / depth);
@@ -293,6 +293,6 @@ impl Intrinsics {
             && [right, up, right / x, up / y, self.skew, self.skew * up / (x * y)]
                 .into_iter()
                 .all(is_bounded);
-        usable.then_some(self).ok_or(ProjectionError::Unrepresentable { what: "intrinsics" })
+        usable.then_some(self).ok_or(ProjectionError::Unrepresentable { what: "set of intrinsics" })
     }
 }

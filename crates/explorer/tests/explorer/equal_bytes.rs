@@ -3,7 +3,14 @@
 
 use super::{explorer_with_models, json, lessons, scenes_folder};
 use explorer::Explorer;
+use import::ImportOptions;
 use pipeline::{Origin, Scene};
+use scene::ResolveOptions;
+
+/// Returns a lesson model, as the program does.
+fn lesson_model(name: &str) -> Option<Vec<u8>> {
+    std::fs::read(scenes_folder().join(format!("models/{name}.glb"))).ok()
+}
 
 #[test]
 fn bands_match_the_whole_picture() {
@@ -38,7 +45,9 @@ fn a_png_matches_the_rendered_scene_file() {
         let text = state["scene"].as_str().expect("a scene");
         let origin = Origin::from_text("scene.ron", text, scenes_folder());
         let (origin, file) = origin.parse_with_includes(&[]).expect("a scene file");
-        let scene = Scene::resolve(&origin, &file, &Default::default()).expect("a scene");
+        let import = ImportOptions { lesson_model: Some(lesson_model), ..ImportOptions::default() };
+        let options = ResolveOptions::with_import(import);
+        let scene = Scene::resolve(&origin, &file, &options).expect("a scene");
         let picture = pipeline::render(&scene, 1).expect("a picture");
         assert!(picture.to_png() == png, "{id}");
         let command = state["command"].as_str().expect("a command");
