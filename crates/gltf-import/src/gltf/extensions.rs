@@ -57,7 +57,7 @@ const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
     ("KHR_lights_punctual", Full),
     (
         "KHR_materials_anisotropy",
-        Partly("approximate under an environment: reflections are bent but not stretched"),
+        Partly("under an environment, reflections are bent but not stretched"),
     ),
     ("KHR_materials_clearcoat", Full),
     (
