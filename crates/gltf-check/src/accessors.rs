@@ -166,7 +166,7 @@ impl AccessorChecker<'_> {
         let named = format!("{pointer}/bufferView");
         self.usage.note_view(view, ViewUse::Other, &named);
         if self.store.view_stride(view).is_some() {
-            let message = "byteStride must not be set: elements are tightly packed";
+            let message = "byteStride must not be set, because the elements are tightly packed";
             self.document.diagnostics.add(&codes::BUFFER_VIEW_INVALID_BYTE_STRIDE, &named, message);
         }
         let length = count.saturating_mul(length as u64);

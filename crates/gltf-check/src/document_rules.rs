@@ -126,7 +126,7 @@ pub(super) fn check_cameras(document: &CheckedDocument<'_>) {
         if let Some(kind @ ("perspective" | "orthographic")) = string_member(camera, "type")
             && camera.get(kind).is_none()
         {
-            let message = format_args!("missing property `{kind}`, required by the camera type");
+            let message = format_args!("missing property `{kind}`, which the camera type requires");
             diagnostics.add(
                 &codes::UNDEFINED_PROPERTY,
                 format_args!("/cameras/{at}/{kind}"),

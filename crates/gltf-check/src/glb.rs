@@ -86,7 +86,7 @@ impl ContainerReader<'_> {
     fn check_header(&mut self) {
         let actual = self.bytes.len();
         let (Some(version), Some(length)) = (self.read_u32(4), self.read_u32(8)) else {
-            let message = format_args!("unexpected end of header: the file has {actual} bytes");
+            let message = format_args!("unexpected end of the header: the file has {actual} bytes");
             return self.report(&codes::GLB_UNEXPECTED_END_OF_HEADER, message);
         };
         if version != 2 {

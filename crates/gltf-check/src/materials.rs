@@ -46,7 +46,7 @@ fn check_light(document: &CheckedDocument<'_>, at: usize, light: &Value) {
     let is_spot = light.get("type").and_then(Value::as_str) == Some("spot");
     let Some(spot) = light.get("spot") else {
         if is_spot {
-            let message = "missing property `spot`, required for a spot light";
+            let message = "missing property `spot`, which a spot light requires";
             document.diagnostics.add(
                 &codes::UNDEFINED_PROPERTY,
                 format_args!("{pointer}/spot"),

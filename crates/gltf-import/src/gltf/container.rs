@@ -149,7 +149,7 @@ impl<'a> GlbChunks<'a> {
         let Some((header, data)) = rest.split_first_chunk::<CHUNK_HEADER>() else {
             warnings.downgrade_if_lenient(
                 format_error("a chunk header is incomplete", TRUNCATED),
-                "it is ignored",
+                "the chunk is ignored",
             )?;
             return Ok(None);
         };

@@ -115,7 +115,7 @@ pub(super) fn check_extensions(
             format!("the file requires the extension {name}: {reason}"),
             "export the file without it, or load the rest with --lenient",
         );
-        warnings.downgrade_if_lenient(diagnostic, "it is ignored")?;
+        warnings.downgrade_if_lenient(diagnostic, "the extension is ignored")?;
     }
     let mut reported = BTreeSet::new();
     for (list, names) in [

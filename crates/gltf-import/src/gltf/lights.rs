@@ -65,7 +65,7 @@ fn attach_lights(
         } else {
             let pointer = format!("/nodes/{at}/extensions/{EXTENSION}/light");
             let diagnostic = Diagnostic::unresolved_index(&pointer, "light", light, is_valid.len());
-            warnings.downgrade(&diagnostic, "the node has no light");
+            warnings.downgrade(&diagnostic, "the reference is ignored");
         }
     }
 }

@@ -256,7 +256,7 @@ pub(super) fn scene_roots(
             None => {
                 let diagnostic =
                     Diagnostic::unresolved_index(&pointer, "node", node.value(), nodes.len());
-                warnings.downgrade_if_lenient(diagnostic, "it is not shown")?;
+                warnings.downgrade_if_lenient(diagnostic, "the reference is ignored")?;
             }
             Some(true) => {
                 warnings.push_warning(&pointer, "the node is listed twice; it is shown once");
