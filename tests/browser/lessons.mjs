@@ -155,7 +155,7 @@ export const STATEMENTS = [
       assert((await page.text('#notice')).includes('not where they appear'), await page.text('#notice'));
       await page.choose('order', 'clip');
       assert((await skyPixels()) === 0 && (await copying()) === 0, 'clipped again');
-      const [, clipped, outside] = (await page.consequences()).match(/in total, (\d+) are clipped and (\d+) are entirely outside/);
+      const [, clipped, outside] = (await page.consequences()).match(/in total, (\d+) (?:is|are) clipped and (\d+) (?:is|are) entirely outside/);
       assert(JSON.stringify(await page.triangles()).includes(`"clipped":${clipped},"outside":${outside}`), 'totals');
     },
   },

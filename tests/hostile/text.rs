@@ -45,7 +45,7 @@ fn encoding_cases() -> Vec<Case> {
                 "this is not a glTF file: it starts neither with { nor with glTF; use a .gltf or .glb file",
             ),
         ),
-        text_case("UTF-16", utf16, refusal_containing("the text is in UTF-16; save it in UTF-8")),
+        text_case("UTF-16", utf16, refusal_containing("the text is in UTF-16; save it as UTF-8")),
         text_case(
             "byte order mark",
             format!("\u{FEFF}{}", triangle_with_member(r#""nodes": []"#)),

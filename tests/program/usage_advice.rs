@@ -435,7 +435,7 @@ fn scenes_in_other_languages_get_advice() {
         (&["scene", "check", "type.ron"], "remove `Style(…)` and write Toon()"),
         (&["scene", "check", "bare.ron"], "write Model(path: \"teapot.glb\")"),
         (&["scene", "check", "lower.ron"], "write Model(…), or just (…)"),
-        (&["render", "scene.json"], "this looks like a scene in JSON"),
+        (&["render", "scene.json"], "if this is a scene, write it in RON"),
         (&["info", "scene.ron"], "this is a scene, not a model"),
         (&["scene", "check", "teapot.glb"], "teapot.glb is not a scene"),
         (&["scene", "check", "scene.ron"], "start comments with `//`"),

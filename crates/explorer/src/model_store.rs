@@ -59,7 +59,7 @@ impl ModelStore {
     /// If the name is not a path below the folder of the files.
     pub(crate) fn add_file(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), ExplorerError> {
         if !self.folder.insert(name, bytes) {
-            let message = format!("`{name}` is not a valid file name");
+            let message = format!("`{name}` is not a valid file path");
             let help = "use a relative path such as models/house.glb";
             return Err(ExplorerError::new("malformed_value", message, help));
         }

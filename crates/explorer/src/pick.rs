@@ -33,7 +33,7 @@ pub(crate) fn pick_json(
     let image = surfaces.image;
     let height = image.height - image.caption_height;
     let failed = |message: String| {
-        ExplorerError::new("nothing_there", message, "click a pixel of the picture")
+        ExplorerError::new("nothing_there", message, "click a pixel in the picture")
     };
     let chain = TransformChain::new(&surfaces.view_projection, (image.width, height), conventions)
         .map_err(|error| failed(error.to_string()))?;

@@ -21,7 +21,7 @@ impl Query {
     pub(crate) fn parse(text: &str) -> Result<Self, ExplorerError> {
         if text.len() > MAX_QUERY_BYTES {
             let message = format!("the request has {} bytes", text.len());
-            let help = format!("at most {MAX_QUERY_BYTES} bytes are allowed");
+            let help = format!("use at most {MAX_QUERY_BYTES} bytes");
             return Err(ExplorerError::new("malformed_query", message, help));
         }
         let mut pairs: Vec<(String, String)> = Vec::new();
@@ -31,7 +31,7 @@ impl Query {
             let (key, value) = (decode(key)?, decode(value)?);
             if pairs.iter().any(|(known, _)| *known == key) {
                 let message = format!("duplicate key `{key}`");
-                return Err(ExplorerError::new("repeated_key", message, "remove one of them"));
+                return Err(ExplorerError::new("repeated_key", message, "write it only once"));
             }
             pairs.push((key, value));
         }

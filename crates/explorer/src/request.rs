@@ -80,7 +80,7 @@ impl Request {
         let size = take_pair(&mut query, "size", 'x')?.unwrap_or(DEFAULT_SIZE);
         if size.iter().any(|side| !(1..=MAX_SIDE).contains(side)) {
             let message = format!("invalid picture size {} x {}", size[0], size[1]);
-            let help = format!("each side must be between 1 and {MAX_SIDE}");
+            let help = format!("use sides from 1 to {MAX_SIDE} pixels");
             return Err(ExplorerError::new("malformed_value", message, help));
         }
         let samples = match query.take("samples").as_deref() {
@@ -121,12 +121,12 @@ fn check_rows(rows: Option<[u32; 2]>, height: u32, is_png: bool) -> Result<(), E
     let Some([from, to]) = rows else { return Ok(()) };
     let text = format!("{from}-{to}");
     if is_png {
-        return Err(malformed("rows", &text, "a PNG has all rows: remove rows or format=png"));
+        return Err(malformed("rows", &text, "remove `rows`, because a PNG contains all rows"));
     }
     if from < to && to <= height {
         return Ok(());
     }
-    Err(malformed("rows", &text, &format!("use rows within 0-{height}")))
+    Err(malformed("rows", &text, &format!("use two increasing numbers from 0 to {height}")))
 }
 
 /// Removes a key and parses its two whole numbers.
@@ -153,7 +153,7 @@ fn unknown_key(key: &str, state: &LessonState) -> ExplorerError {
     let help = match closest_name(key, &[&own, &KEYS[..]].concat()) {
         Some(similar) => format!("did you mean `{similar}`?"),
         None if own.is_empty() => format!("lesson `{}` has no parameters", lesson.id),
-        None => format!("the parameters of lesson `{}` are {}", lesson.id, own.join(", ")),
+        None => format!("use a parameter of lesson `{}`: {}", lesson.id, own.join(", ")),
     };
     ExplorerError::new("unknown_key", format!("unknown key `{key}`"), help)
 }
@@ -174,11 +174,7 @@ mod tests {
             assert_eq!((error.code, error.help), ("unknown_key", help));
         }
         let error = error("what=picture&lesson=frustum&soup=2");
-        assert!(
-            error.help.starts_with("the parameters of lesson `frustum` are "),
-            "{}",
-            error.help
-        );
+        assert!(error.help.starts_with("use a parameter of lesson `frustum`: "), "{}", error.help);
     }
 
     #[test]

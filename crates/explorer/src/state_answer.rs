@@ -134,6 +134,11 @@ fn in_picture(
 
 const PLANES_ZH: [&str; 6] = ["左", "右", "下", "上", "近", "远"];
 
+/// Returns the verb for a number of triangles.
+const fn is_or_are(count: usize) -> &'static str {
+    if count == 1 { "is" } else { "are" }
+}
+
 /// Returns sentences about the parts outside the view volume.
 fn clipping_sentences(facts: &Facts) -> Vec<Sentence> {
     let survey = facts.survey;
@@ -142,7 +147,6 @@ fn clipping_sentences(facts: &Facts) -> Vec<Sentence> {
     let mut sentences = Vec::new();
     for (at, (plane, plane_zh)) in PLANES.iter().zip(PLANES_ZH).enumerate() {
         let (clipped, outside) = (survey.clipped_by[at], survey.outside_of[at]);
-        let is_or_are = |count| if count == 1 { "is" } else { "are" };
         let (are, is_or_are) = (is_or_are(clipped), is_or_are(outside));
         match (clipped, outside) {
             (0, 0) => {}
@@ -185,7 +189,9 @@ fn overlap_sentence(facts: &Facts) -> Option<Sentence> {
     overlaps.then(|| {
         sentence(
             format!(
-                "Some triangles count for several planes: in total, {clipped} are clipped and {outside} are entirely outside."
+                "Some triangles count for several planes: in total, {clipped} {} clipped and {outside} {} entirely outside.",
+                is_or_are(clipped),
+                is_or_are(outside)
             ),
             format!("有些三角形对几个平面都计数：总共有 {clipped} 个被裁剪，{outside} 个完全在外。"),
         )

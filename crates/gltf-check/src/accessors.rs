@@ -109,7 +109,7 @@ impl AccessorChecker<'_> {
                 continue;
             };
             if actual != 0 && actual != expected {
-                let message = format_args!("expected {expected} numbers, found {actual}");
+                let message = format_args!("the length is {actual}, expected {expected}");
                 let pointer = format_args!("{}/{key}", self.pointer);
                 self.document.diagnostics.add(&codes::ARRAY_LENGTH_NOT_IN_LIST, pointer, message);
             }
@@ -125,10 +125,7 @@ impl AccessorChecker<'_> {
         let diagnostics = self.document.diagnostics;
         let pointer = format!("{}/sparse", self.pointer);
         if count > layout.count {
-            let message = format_args!(
-                "{count} elements are replaced, but the accessor has {}",
-                layout.count
-            );
+            let message = format_args!("{count} exceeds the accessor's count of {}", layout.count);
             let code = &codes::ACCESSOR_SPARSE_COUNT_OUT_OF_RANGE;
             diagnostics.add(code, format_args!("{pointer}/count"), message);
         }
@@ -169,7 +166,7 @@ impl AccessorChecker<'_> {
         let named = format!("{pointer}/bufferView");
         self.usage.note_view(view, ViewUse::Other, &named);
         if self.store.view_stride(view).is_some() {
-            let message = "byteStride must not be set: elements are tightly packed";
+            let message = "byteStride must not be set, because the elements are tightly packed";
             self.document.diagnostics.add(&codes::BUFFER_VIEW_INVALID_BYTE_STRIDE, &named, message);
         }
         let length = count.saturating_mul(length as u64);
@@ -199,7 +196,7 @@ impl AccessorChecker<'_> {
             && offset.saturating_add(length) > available
         {
             let message = format_args!(
-                "{length} bytes from offset {offset} exceed buffer view {view} of {available} bytes"
+                "the {length}-byte range at offset {offset} does not fit in the {available}-byte buffer view {view}"
             );
             diagnostics.add(&codes::ACCESSOR_TOO_LONG, pointer, message);
         }
@@ -219,7 +216,7 @@ impl AccessorChecker<'_> {
         }
         let outside = indices.iter().filter(|&&index| u64::from(index) >= layout.count).count();
         if outside > 0 {
-            let message = format_args!("{outside} of {} indices are out of range", indices.len());
+            let message = format_args!("indices out of range: {outside} of {}", indices.len());
             diagnostics.add(&codes::ACCESSOR_SPARSE_INDEX_OOB, pointer, message);
         }
     }

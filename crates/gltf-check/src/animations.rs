@@ -180,7 +180,7 @@ impl<'a> AnimationChecker<'a, '_> {
         let Some(at) = index_member(channel, "sampler") else { return };
         let Some(sampler) = self.samplers.get(at) else {
             let count = self.samplers.len();
-            let message = format_args!("sampler {at} does not exist: there are {count}");
+            let message = format_args!("sampler {at} does not exist: the array has length {count}");
             return self.report(
                 &codes::UNRESOLVED_REFERENCE,
                 &format!("{member}/sampler"),
@@ -225,7 +225,7 @@ impl<'a> AnimationChecker<'a, '_> {
                 self.report(code, &member, message);
             }
         } else if node.get("matrix").is_some() {
-            let message = format_args!("node {at} has a matrix and cannot be animated");
+            let message = format_args!("node {at} cannot be animated, because it has a matrix");
             self.report(&codes::ANIMATION_CHANNEL_TARGET_NODE_MATRIX, &member, message);
         }
     }
@@ -257,7 +257,10 @@ impl<'a> AnimationChecker<'a, '_> {
         let each = if path == "weights" { targets } else { 1 } * if spline { 3 } else { 1 };
         let expected = keys.unwrap_or(0).saturating_mul(each);
         if expected != 0 && expected != layout.count {
-            let message = format_args!("expected {expected} values, found {}", layout.count);
+            let message = format_args!(
+                "the output accessor's count is {}, expected {expected}",
+                layout.count
+            );
             self.report(&codes::ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_COUNT, member, message);
         }
     }

@@ -27,7 +27,7 @@ macro_rules! codes {
 
 codes! {
     Error {
-        "export the file again, or with another exporter" =>
+        "export the file again, or use another exporter" =>
             ARRAY_LENGTH_NOT_IN_LIST ARRAY_TYPE_MISMATCH DUPLICATE_ELEMENTS EMPTY_ENTITY INVALID_INDEX
             ONE_OF_MISMATCH PATTERN_MISMATCH TYPE_MISMATCH UNDEFINED_PROPERTY UNSATISFIED_DEPENDENCY
             VALUE_MULTIPLE_OF VALUE_NOT_IN_RANGE UNRESOLVED_REFERENCE
@@ -60,26 +60,30 @@ codes! {
             ACCESSOR_MIN_MISMATCH ACCESSOR_MAX_MISMATCH ACCESSOR_ELEMENT_OUT_OF_MIN_BOUND
             ACCESSOR_ELEMENT_OUT_OF_MAX_BOUND MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS
             ANIMATION_SAMPLER_INPUT_ACCESSOR_WITHOUT_BOUNDS;
-        "normalize them before exporting" =>
+        "normalize the values before exporting" =>
             ACCESSOR_VECTOR3_NON_UNIT ROTATION_NON_UNIT ACCESSOR_WEIGHTS_NON_NORMALIZED
             ACCESSOR_ANIMATION_SAMPLER_OUTPUT_NON_NORMALIZED_QUATERNION;
-        "clamp them to the valid range" => ACCESSOR_NON_CLAMPED ACCESSOR_INVALID_SIGN;
+        "clamp the values to the valid range" => ACCESSOR_NON_CLAMPED;
+        "set the signs to 1 or -1" => ACCESSOR_INVALID_SIGN;
         "correct the JSON, or export the file again" => INVALID_JSON;
         "copy the file next to the model and refer to it by a relative path" => IO_ERROR;
-        "write a relative path with / and %20 for spaces, or correct the base64" => INVALID_URI;
-        "write data:application/octet-stream;base64," => BUFFER_DATA_URI_MIME_TYPE_INVALID;
-        "the file is truncated or was assembled incorrectly: copy or export it again" =>
+        "use a relative path with / between folders and %20 for spaces, or a valid data URI" =>
+            INVALID_URI;
+        "start the URI with data:application/octet-stream;base64," =>
+            BUFFER_DATA_URI_MIME_TYPE_INVALID;
+        "copy or export the file again: it is truncated or was assembled incorrectly" =>
             BUFFER_BYTE_LENGTH_MISMATCH BUFFER_MISSING_GLB_DATA
             GLB_CHUNK_LENGTH_UNALIGNED GLB_DUPLICATE_CHUNK GLB_EMPTY_CHUNK
             GLB_LENGTH_MISMATCH GLB_LENGTH_TOO_SMALL GLB_UNEXPECTED_BIN_CHUNK
             GLB_UNEXPECTED_END_OF_CHUNK_DATA GLB_UNEXPECTED_END_OF_CHUNK_HEADER
             GLB_UNEXPECTED_END_OF_HEADER GLB_UNEXPECTED_FIRST_CHUNK;
-        "convert it to glTF 2.0" =>
+        "convert the file to glTF 2.0" =>
             GLB_INVALID_VERSION UNKNOWN_ASSET_MAJOR_VERSION ASSET_MIN_VERSION_GREATER_THAN_VERSION;
         "make zfar larger than znear" => CAMERA_ZFAR_LEQUAL_ZNEAR;
         "set xmag and ymag to half the width and height of the view" => CAMERA_XMAG_YMAG_ZERO;
-        "declare the actual format of the image" => IMAGE_MIME_TYPE_INVALID TEXTURE_INVALID_IMAGE_MIME_TYPE;
-        "list the extension that allows the format in extensionsUsed" => IMAGE_NON_ENABLED_MIME_TYPE;
+        "declare the actual format of the image" => IMAGE_MIME_TYPE_INVALID;
+        "use an image format that is allowed here" => TEXTURE_INVALID_IMAGE_MIME_TYPE;
+        "list the extension in extensionsUsed" => IMAGE_NON_ENABLED_MIME_TYPE;
         "save the image again" => IMAGE_DATA_INVALID IMAGE_UNEXPECTED_EOS;
         "make outerConeAngle larger than innerConeAngle" => KHR_LIGHTS_PUNCTUAL_LIGHT_SPOT_ANGLES;
         "add the attribute to the base mesh, or remove it from the target" =>
@@ -89,7 +93,7 @@ codes! {
         "export the mesh with tangents" => MESH_PRIMITIVE_NO_TANGENT_SPACE;
         "export the mesh with as many sets of texture coordinates as its material uses" =>
             MESH_PRIMITIVE_TOO_FEW_TEXCOORDS;
-        "give every node at most one parent, without cycles" => NODE_LOOP NODE_PARENT_OVERRIDE;
+        "give every node at most one parent, and remove cycles" => NODE_LOOP NODE_PARENT_OVERRIDE;
         "list only nodes without a parent" => SCENE_NON_ROOT_NODE;
         "use translation, rotation and scale instead of the matrix" =>
             NODE_MATRIX_NON_TRS NODE_MATRIX_TRS ANIMATION_CHANNEL_TARGET_NODE_MATRIX;
@@ -97,18 +101,20 @@ codes! {
         "put all joints below a common root node" => SKIN_NO_COMMON_ROOT SKIN_SKELETON_INVALID;
         "list it in extensionsUsed" => UNDECLARED_EXTENSION UNUSED_EXTENSION_REQUIRED;
         "move it to the object that the extension's specification names" => UNEXPECTED_EXTENSION_OBJECT;
-        "export the file without it, or load it with --lenient" => UNSUPPORTED_REQUIRED_EXTENSION;
+        "export the file without it, or load the rest with --lenient" =>
+            UNSUPPORTED_REQUIRED_EXTENSION;
         "use a .gltf or .glb file" => NOT_GLTF;
         "use a .gltf, .glb, .stl, .obj, .ply or .3mf file" => UNKNOWN_FORMAT;
-        "convert it to plain glTF 2.0" => UNSUPPORTED_VERSION;
+        "convert the file to plain glTF 2.0" => UNSUPPORTED_VERSION;
         "raise the limit if you trust the file" => LIMIT_EXCEEDED;
         "export the file again" => NOT_LOADED;
     }
     Warning {
-        "check the spelling" => UNEXPECTED_PROPERTY VALUE_NOT_IN_LIST;
-        "use relative paths, which remain valid when the file is moved" => NON_RELATIVE_URI;
-        "no action needed: it is read as glTF 2.0" => UNKNOWN_ASSET_MINOR_VERSION;
-        "use positive numbers" => CAMERA_XMAG_YMAG_NEGATIVE;
+        "check the spelling" => UNEXPECTED_PROPERTY;
+        "use one of these values" => VALUE_NOT_IN_LIST;
+        "use relative paths, which remain valid when the folder is moved" => NON_RELATIVE_URI;
+        "no action needed: the file is read as glTF 2.0" => UNKNOWN_ASSET_MINOR_VERSION;
+        "use a positive number" => CAMERA_XMAG_YMAG_NEGATIVE;
         "use an angle less than pi" => CAMERA_YFOV_GEQUAL_PI;
         "use alphaMode MASK, or remove alphaCutoff" => MATERIAL_ALPHA_CUTOFF_INVALID_MODE;
         "export the mesh with tangents" => MESH_PRIMITIVE_GENERATED_TANGENT_SPACE;
@@ -116,16 +122,17 @@ codes! {
         "export the mesh with positions" => MESH_PRIMITIVE_NO_POSITION;
         "export the mesh with normals" => MESH_PRIMITIVE_TANGENT_WITHOUT_NORMAL;
         "store the data in the binary chunk" => DATA_URI_GLB;
-        "reduce the padding to less than four bytes" => BUFFER_GLB_CHUNK_TOO_BIG;
+        "reduce the padding to fewer than four bytes" => BUFFER_GLB_CHUNK_TOO_BIG;
         "no action needed: the data is ignored" => GLB_UNKNOWN_CHUNK_TYPE GLB_EXTRA_DATA;
         "give the node a skin" => NODE_SKINNED_MESH_WITHOUT_SKIN;
         "save it as PNG or JPEG" => IMAGE_UNRECOGNIZED_FORMAT;
-        "export the file again if something is missing in the picture" => LEFT_OUT;
-        "no action needed, unless it is missing in the picture" => NOT_SHOWN;
+        "export the file again if something is missing from the picture" => LEFT_OUT;
+        "no action needed, unless the picture looks wrong" => NOT_SHOWN;
     }
     Info {
         "rename it" => MISLEADING_NAME;
-        "remove it" => ACCESSOR_INDEX_TRIANGLE_DEGENERATE NODE_EMPTY NODE_MATRIX_DEFAULT UNUSED_OBJECT;
+        "remove it" => NODE_EMPTY NODE_MATRIX_DEFAULT UNUSED_OBJECT;
+        "remove the triangles" => ACCESSOR_INDEX_TRIANGLE_DEGENERATE;
         "no action needed: unsupported extensions are not validated" => UNSUPPORTED_EXTENSION;
     }
 }

@@ -277,8 +277,9 @@ impl BoundsScan {
                     continue;
                 }
                 let pointer = format!("{pointer}/{key}/{component}");
-                let message =
-                    format_args!("declared {key} is {declared}, actual {key} is {actual}");
+                let message = format_args!(
+                    "the declared {key} is {declared}, but the actual {key} is {actual}"
+                );
                 document.diagnostics.add(mismatch, &pointer, message);
                 let count = self.outside[side][component];
                 if count > 0 {
@@ -380,7 +381,7 @@ impl RuleScan<'_> {
                 say(&codes::ACCESSOR_NON_CLAMPED, first, &"values are not in [0, 1]");
             }
             ElementRule::Indices { vertices, .. } => {
-                let what = format_args!("with {vertices} vertices, indices are out of range");
+                let what = format_args!("indices are not less than the vertex count {vertices}");
                 say(&codes::ACCESSOR_INDEX_OOB, first, &what);
                 let what = "indices have the primitive restart value";
                 say(&codes::ACCESSOR_INDEX_PRIMITIVE_RESTART, second, &what);

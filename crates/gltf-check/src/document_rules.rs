@@ -29,15 +29,15 @@ pub(super) fn check_asset(document: &CheckedDocument<'_>) {
     let Some(version) = parts("version") else { return };
     if version.0 != 2 {
         let message =
-            format_args!("unsupported major version glTF {}.{}: expected 2", version.0, version.1);
+            format_args!("unsupported glTF version {}.{}: expected 2.0", version.0, version.1);
         diagnostics.add(&codes::UNKNOWN_ASSET_MAJOR_VERSION, "/asset/version", message);
     } else if version.1 > 0 {
-        let message = format_args!("unknown minor version glTF 2.{}: expected 2.0", version.1);
+        let message = format_args!("unknown glTF version 2.{}: expected 2.0", version.1);
         diagnostics.add(&codes::UNKNOWN_ASSET_MINOR_VERSION, "/asset/version", message);
     }
     if let Some(minimum) = parts("minVersion").filter(|&minimum| minimum > version) {
         let message =
-            format_args!("minVersion {}.{} is greater than version", minimum.0, minimum.1);
+            format_args!("minVersion {}.{} is greater than `version`", minimum.0, minimum.1);
         diagnostics.add(
             &codes::ASSET_MIN_VERSION_GREATER_THAN_VERSION,
             "/asset/minVersion",
@@ -126,7 +126,7 @@ pub(super) fn check_cameras(document: &CheckedDocument<'_>) {
         if let Some(kind @ ("perspective" | "orthographic")) = string_member(camera, "type")
             && camera.get(kind).is_none()
         {
-            let message = format_args!("missing property `{kind}`, required by the camera type");
+            let message = format_args!("missing property `{kind}`, which the camera type requires");
             diagnostics.add(
                 &codes::UNDEFINED_PROPERTY,
                 format_args!("/cameras/{at}/{kind}"),
@@ -155,7 +155,7 @@ pub(super) fn check_cameras(document: &CheckedDocument<'_>) {
                 }
             }
             if let Some(angle) = number("yfov").filter(|&angle| angle >= std::f64::consts::PI) {
-                let message = format_args!("yfov of {angle} radians must be less than pi");
+                let message = format_args!("yfov is {angle} radians but must be less than pi");
                 diagnostics.add(
                     &codes::CAMERA_YFOV_GEQUAL_PI,
                     format_args!("{pointer}/yfov"),

@@ -86,7 +86,7 @@ impl ContainerReader<'_> {
     fn check_header(&mut self) {
         let actual = self.bytes.len();
         let (Some(version), Some(length)) = (self.read_u32(4), self.read_u32(8)) else {
-            let message = format_args!("unexpected end of header: the file has {actual} bytes");
+            let message = format_args!("unexpected end of the header: the file has {actual} bytes");
             return self.report(&codes::GLB_UNEXPECTED_END_OF_HEADER, message);
         };
         if version != 2 {
@@ -104,7 +104,9 @@ impl ContainerReader<'_> {
                 format_args!("the declared length is {length} bytes, but the file has {actual}");
             self.report(&codes::GLB_LENGTH_MISMATCH, message);
         } else if length < actual {
-            let message = format_args!("{} bytes of extra data after the end", actual - length);
+            let more = actual - length;
+            let bytes = if more == 1 { "byte" } else { "bytes" };
+            let message = format_args!("{more} {bytes} of extra data after the end");
             self.report(&codes::GLB_EXTRA_DATA, message);
             self.bytes = &self.bytes[..length];
         }
@@ -130,7 +132,7 @@ impl ContainerReader<'_> {
             if end > self.bytes.len() {
                 let left = self.bytes.len() - start;
                 let message = format_args!(
-                    "chunk {number} declares {length} bytes, but only {left} are left"
+                    "chunk {number} declares {length} bytes, but the file has only {left} more"
                 );
                 return self.report(&codes::GLB_UNEXPECTED_END_OF_CHUNK_DATA, message);
             }
@@ -161,9 +163,8 @@ impl ContainerReader<'_> {
         known: &mut [bool; 2],
     ) {
         if !length.is_multiple_of(4) {
-            let message = format_args!(
-                "the length of chunk {number}, {length} bytes, is not a multiple of 4"
-            );
+            let message =
+                format_args!("the length {length} of chunk {number} is not a multiple of 4");
             self.report(&codes::GLB_CHUNK_LENGTH_UNALIGNED, message);
         }
         if number == 0 && kind != b"JSON" {

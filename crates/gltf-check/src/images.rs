@@ -115,8 +115,10 @@ impl ImageChecker<'_> {
         if let Some(declared_type) =
             in_uri.filter(|declared_type| bytes.is_some() && Some(declared_type.as_str()) != found)
         {
-            let message =
-                format_args!("the image is {}, not {declared_type}", found.unwrap_or("unknown"));
+            let message = format_args!(
+                "the image is {}, not {declared_type}",
+                found.unwrap_or("in an unknown format")
+            );
             diagnostics.add(&codes::INVALID_URI, format_args!("{}/uri", self.pointer), message);
         }
         let kind = found.or(declared)?;

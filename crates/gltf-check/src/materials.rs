@@ -24,7 +24,7 @@ pub(super) fn check_materials(document: &CheckedDocument<'_>) {
         let ior =
             extension_object(material, "KHR_materials_ior").and_then(|e| e.get("ior")?.as_f64());
         if let Some(ior) = ior.filter(|&ior| ior > 0.0 && ior < 1.0) {
-            let message = format_args!("ior {ior} must be 0, or at least 1");
+            let message = format_args!("ior is {ior} but must be 0 or at least 1");
             let pointer = format_args!("/materials/{at}/extensions/KHR_materials_ior/ior");
             document.diagnostics.add(&codes::VALUE_NOT_IN_RANGE, pointer, message);
         }
@@ -46,7 +46,7 @@ fn check_light(document: &CheckedDocument<'_>, at: usize, light: &Value) {
     let is_spot = light.get("type").and_then(Value::as_str) == Some("spot");
     let Some(spot) = light.get("spot") else {
         if is_spot {
-            let message = "missing property `spot`, required for a spot light";
+            let message = "missing property `spot`, which a spot light requires";
             document.diagnostics.add(
                 &codes::UNDEFINED_PROPERTY,
                 format_args!("{pointer}/spot"),
@@ -126,7 +126,7 @@ impl MaterialRequirements {
             diagnostics.add(&codes::MESH_PRIMITIVE_GENERATED_TANGENT_SPACE, pointer, message);
         } else if self.needs_tangents {
             let message =
-                "the material needs tangents, and they cannot be generated without a normal map";
+                "the material needs tangents, which cannot be generated without a normal map";
             diagnostics.add(&codes::MESH_PRIMITIVE_NO_TANGENT_SPACE, pointer, message);
         }
     }

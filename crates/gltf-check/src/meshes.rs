@@ -38,8 +38,9 @@ pub(super) fn check_meshes(
             let pointer = format!("/meshes/{at}/primitives/{part}");
             let count = array_items(primitive, "targets").len();
             if count != targets {
-                let message =
-                    format_args!("{count} morph targets, but the first primitive has {targets}");
+                let message = format_args!(
+                    "the number of morph targets is {count}, but the first primitive has {targets}"
+                );
                 let code = &codes::MESH_PRIMITIVES_UNEQUAL_TARGETS_COUNT;
                 document.diagnostics.add(code, &pointer, message);
             }
@@ -56,7 +57,9 @@ pub(super) fn check_meshes(
         }
         let weights = array_items(mesh, "weights").len();
         if weights != 0 && !primitives.is_empty() && weights != targets {
-            let message = format_args!("{weights} weights for {targets} morph targets");
+            let message = format_args!(
+                "the number of weights is {weights}, but the number of morph targets is {targets}"
+            );
             let pointer = format_args!("/meshes/{at}/weights");
             document.diagnostics.add(&codes::MESH_INVALID_WEIGHTS_COUNT, pointer, message);
         }
@@ -178,7 +181,7 @@ impl<'a> PrimitiveChecker<'a, '_> {
                 numbers.fold((0, 0), |(count, last), n| (count + 1, u64::from(n).max(last)));
             if count > 0 && last + 1 != count {
                 let message = format_args!(
-                    "{kind} attributes are not numbered consecutively: {count} of them, up to {kind}_{last}"
+                    "{kind} attributes are not numbered consecutively from 0: the count is {count}, but the last is {kind}_{last}"
                 );
                 let code = &codes::MESH_PRIMITIVE_INDEXED_SEMANTIC_CONTINUITY;
                 self.report(code, &format!("attributes/{kind}_0"), message);
@@ -188,7 +191,7 @@ impl<'a> PrimitiveChecker<'a, '_> {
         });
         if counts[2] != counts[3] {
             let message = format_args!(
-                "the JOINTS sets ({}) and WEIGHTS sets ({}) differ in number",
+                "the numbers of JOINTS sets ({}) and WEIGHTS sets ({}) differ",
                 counts[2], counts[3]
             );
             self.report(&codes::MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH, "attributes", message);
@@ -219,7 +222,9 @@ impl<'a> PrimitiveChecker<'a, '_> {
             match (vertices, count) {
                 (None, count) => vertices = count,
                 (Some(vertices), Some(count)) if count != vertices => {
-                    let message = format_args!("{count} values for {vertices} vertices");
+                    let message = format_args!(
+                        "the count is {count}, but the number of vertices is {vertices}"
+                    );
                     self.report(&codes::MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT, &member, message);
                 }
                 _ => {}
@@ -336,9 +341,8 @@ impl<'a> PrimitiveChecker<'a, '_> {
             _ => true,
         };
         if !fits {
-            let message = format_args!(
-                "{count} vertices or indices do not form whole primitives of this mode"
-            );
+            let message =
+                format_args!("{count} is not a valid number of vertices or indices for this mode");
             self.report(&codes::MESH_PRIMITIVE_INCOMPATIBLE_MODE, "", message);
         }
     }

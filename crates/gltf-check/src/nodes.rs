@@ -82,7 +82,7 @@ fn check_transform(document: &CheckedDocument<'_>, at: usize, node: &Value) {
     let diagnostics = document.diagnostics;
     let has_parts = ["translation", "rotation", "scale"].iter().any(|key| node.get(key).is_some());
     if node.get("matrix").is_some() && has_parts {
-        let message = "a node must not have both a matrix and translation, rotation or scale";
+        let message = "a node with a matrix must not have a translation, rotation or scale";
         diagnostics.add(&codes::NODE_MATRIX_TRS, format_args!("/nodes/{at}/matrix"), message);
     }
     if let Some(matrix) = number_array::<16>(node, "matrix") {
@@ -177,7 +177,10 @@ fn check_mesh_use(document: &CheckedDocument<'_>, at: usize, node: &Value, shape
     let Some(&shape) = index_member(node, "mesh").and_then(|mesh| shapes.get(mesh)) else { return };
     let weights = array_items(node, "weights").len();
     if weights != 0 && shape.has_primitives && weights != shape.targets {
-        let message = format_args!("{weights} weights for {} morph targets", shape.targets);
+        let message = format_args!(
+            "the number of weights is {weights}, but the number of morph targets is {}",
+            shape.targets
+        );
         diagnostics.add(&codes::NODE_WEIGHTS_INVALID, format_args!("/nodes/{at}/weights"), message);
     }
     let has_skin =
@@ -214,7 +217,7 @@ fn build_tree(document: &CheckedDocument<'_>) -> NodeTree {
             let Some(child) = child.filter(|&child| child < nodes.len()) else { continue };
             if let Some(other) = parents[child] {
                 if other != parent {
-                    let message = format_args!("node {child} already has the parent node {other}");
+                    let message = format_args!("node {child} already has a parent, node {other}");
                     let pointer = format_args!("/nodes/{parent}/children/{slot}");
                     document.diagnostics.add(&codes::NODE_PARENT_OVERRIDE, pointer, message);
                 }

@@ -171,7 +171,10 @@ impl SchemaWalker<'_> {
         match places.find(|place| place.parent == parent.name) {
             Some(place) => self.check_object(members, &place.object),
             None => {
-                let message = format_args!("unexpected extension object in a {}", parent.name);
+                let message = format_args!(
+                    "this extension is not allowed in an object of type `{}`",
+                    parent.name
+                );
                 self.report(&codes::UNEXPECTED_EXTENSION_OBJECT, message);
             }
         }
@@ -216,7 +219,7 @@ impl SchemaWalker<'_> {
         let is_number = |part: &str| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit());
         if !text.split_once('.').is_some_and(|(major, minor)| is_number(major) && is_number(minor))
         {
-            let message = format_args!("{} is not of the form 2.0", ShortValue(value));
+            let message = format_args!("{} is not a version such as 2.0", ShortValue(value));
             self.report(&codes::PATTERN_MISMATCH, message);
         }
     }
@@ -362,7 +365,8 @@ impl SchemaWalker<'_> {
         let (_, pointer, _) = Collection::ALL[collection as usize];
         let count =
             self.document.root.pointer(pointer).and_then(Value::as_array).map_or(0, Vec::len);
-        let message = format_args!("{pointer}/{index} does not exist: there are {count}");
+        let message =
+            format_args!("{pointer}/{index} does not exist: the array has length {count}");
         self.report(&codes::UNRESOLVED_REFERENCE, message);
     }
 

@@ -95,7 +95,8 @@ fn check_inverse_bind_matrices(
         diagnostics.add(&codes::SKIN_IBM_INVALID_FORMAT, &pointer, message);
     }
     if layout.count < joints as u64 {
-        let message = format_args!("{} matrices for {joints} joints", layout.count);
+        let message =
+            format_args!("there are fewer matrices ({}) than joints ({joints})", layout.count);
         diagnostics.add(&codes::INVALID_IBM_ACCESSOR_COUNT, &pointer, message);
     }
 }
@@ -207,7 +208,11 @@ impl InfluenceChecker<'_> {
             for (count, (code, name, what)) in counts.iter().zip(words) {
                 if *count > 0 {
                     let pointer = format_args!("{}/{name}_{set}", self.pointer);
-                    self.document.diagnostics.add(code, pointer, format_args!("{what} ({count})"));
+                    self.document.diagnostics.add(
+                        code,
+                        pointer,
+                        format_args!("{what} (count: {count})"),
+                    );
                 }
             }
         }

@@ -126,7 +126,7 @@ impl<'a> BufferStore<'a> {
     fn check_length(&self, at: usize, available: usize, length: u64) {
         if (available as u64) < length {
             let message =
-                format_args!("byteLength is {length}, but the data has {available} bytes");
+                format_args!("byteLength is {length}, but the length of the data is {available}");
             let pointer = format_args!("/buffers/{at}/byteLength");
             self.document.diagnostics.add(&codes::BUFFER_BYTE_LENGTH_MISMATCH, pointer, message);
         }
@@ -305,7 +305,7 @@ fn check_buffer_view(document: &CheckedDocument<'_>, at: usize, view: &Value) {
     {
         let member = if offset >= available { "byteOffset" } else { "byteLength" };
         let message = format_args!(
-            "{length} bytes from offset {offset} exceed the buffer of {available} bytes"
+            "the {length}-byte range at offset {offset} does not fit in the {available}-byte buffer"
         );
         let pointer = format_args!("/bufferViews/{at}/{member}");
         diagnostics.add(&codes::BUFFER_VIEW_TOO_LONG, pointer, message);
@@ -317,11 +317,11 @@ fn check_buffer_view(document: &CheckedDocument<'_>, at: usize, view: &Value) {
         diagnostics.add(&codes::VALUE_MULTIPLE_OF, &pointer, message);
     }
     if integer_member(view, "target") == Some(34_963) {
-        let message = "a buffer view of indices must not have byteStride";
+        let message = "a buffer view of indices must not have a byteStride";
         diagnostics.add(&codes::BUFFER_VIEW_INVALID_BYTE_STRIDE, &pointer, message);
     }
     if let Some(length) = length.filter(|&length| stride > length) {
-        let message = format_args!("byteStride {stride} exceeds the buffer view of {length} bytes");
+        let message = format_args!("byteStride {stride} exceeds the byteLength {length}");
         diagnostics.add(&codes::BUFFER_VIEW_TOO_BIG_BYTE_STRIDE, &pointer, message);
     }
 }

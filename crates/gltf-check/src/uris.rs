@@ -21,7 +21,7 @@ pub(super) fn media_type(uri: &str) -> Option<String> {
 pub(super) fn check_uri(uri: &str, pointer: &str, is_binary: bool, diagnostics: &Diagnostics) {
     let is_data = media_type(uri).is_some();
     if is_data && is_binary {
-        diagnostics.add(&codes::DATA_URI_GLB, pointer, "a GLB file contains a data URI");
+        diagnostics.add(&codes::DATA_URI_GLB, pointer, "the GLB file contains a data URI");
     }
     let kind = uri.split(',').next().filter(|_| is_data);
     if kind.is_some_and(|kind| kind.split(';').skip(1).any(str::is_empty)) {

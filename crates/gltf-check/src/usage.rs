@@ -105,7 +105,7 @@ impl<'a> UsageMap<'a> {
         if old != new {
             let (old, new) = (old.name(), new.name());
             let message =
-                format_args!("accessor {accessor} is already used as {old}, and as {new} here");
+                format_args!("accessor {accessor} is used as {new} here, but as {old} elsewhere");
             self.document.diagnostics.add(&codes::ACCESSOR_USAGE_OVERRIDE, pointer, message);
         }
         if let Some(view) = self.accessor_view(accessor) {
@@ -130,7 +130,7 @@ impl<'a> UsageMap<'a> {
         if old != new {
             let (old, new) = (old.name(), new.name());
             let message =
-                format_args!("buffer view {view} is already used for {old}, and for {new} here");
+                format_args!("buffer view {view} is used for {new} here, but for {old} elsewhere");
             self.document.diagnostics.add(&codes::BUFFER_VIEW_TARGET_OVERRIDE, pointer, message);
         }
     }

@@ -131,7 +131,8 @@ pub(crate) fn decode_rgba(bytes: &[u8]) -> Result<Image, String> {
 ///
 /// A decoder may panic on a malformed file, and one broken texture must not abort the program.
 fn catch_decoder_panic<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
-    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| Err("the decoder failed".to_owned()))
+    catch_unwind(AssertUnwindSafe(work))
+        .unwrap_or_else(|_| Err("the image decoder failed".to_owned()))
 }
 
 /// Returns the message for a header that declares more texels than the bytes can encode.

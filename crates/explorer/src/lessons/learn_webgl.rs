@@ -15,7 +15,7 @@ pub(super) static PERSPECTIVE: Lesson = Lesson {
     items: &["C61", "C62", "C70", "C92", "C94"],
     title: words("Perspective", "透视投影"),
     statement: words(
-        "A smaller field of view enlarges the objects. An aspect ratio that differs from the picture's distorts it. The near and far planes only clip and do not move anything.",
+        "A smaller field of view enlarges the objects. If the aspect ratio differs from the picture's, the objects are distorted. The near and far planes only clip and do not move anything.",
         "视场角越小，物体越大。宽高比与图像不一致时，物体会变形。近平面和远平面只裁剪，不移动任何物体。",
     ),
     parameters: &[

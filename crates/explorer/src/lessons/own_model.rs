@@ -5,6 +5,7 @@ use crate::lesson::{Choice, Lesson, Source, choice, number};
 use crate::lesson_scene::{framed, model_scene};
 use crate::number_text::{count_triangles, decimals};
 use crate::words::{Sentence, sentence, words};
+use files::counted;
 use scene_file::file::{EnvironmentFile, ProjectionFile, StyleFile};
 
 /// The user's own model in any projection.
@@ -13,7 +14,7 @@ pub(super) static MODEL: Lesson = Lesson {
     source: Source::Own,
     title: words("Your own model", "自己的模型"),
     statement: words(
-        "Any model in any projection: everything that holds for the house also holds for your model.",
+        "View any model in any projection: everything that holds for the house also holds for your model.",
         "任何模型都可以用任何投影来看：对房子成立的，对它也成立。",
     ),
     models: &[],
@@ -88,11 +89,11 @@ pub(super) fn describe_model(facts: &Facts) -> Vec<Sentence> {
         let [near, far] = [near, far].map(|distance| decimals(distance, 3));
         all.push(match near == far {
             true => sentence(
-                format!("The model is {near} in front of the camera."),
+                format!("The model is {} in front of the camera.", counted(&near, "unit", "units")),
                 format!("它在相机前方 {near} 处。"),
             ),
             false => sentence(
-                format!("The model is {near} to {far} in front of the camera."),
+                format!("The model is {near} to {far} units in front of the camera."),
                 format!("它在相机前方 {near} 到 {far} 处。"),
             ),
         });

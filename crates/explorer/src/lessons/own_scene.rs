@@ -10,7 +10,7 @@ pub(super) static SCENE: Lesson = Lesson {
     source: Source::Own,
     title: words("Your own scene", "自己的场景"),
     statement: words(
-        "Any scene file with its own camera, lights and style: the contents of its view volume, and the path of its points through the pipeline.",
+        "Open any scene file, with its own camera, lights and style, to see what its view volume contains and how its points pass through the pipeline.",
         "任何场景文件，连同它自己的相机、光源和样式：它的视见体包含什么，其中的点经过哪些变换。",
     ),
     models: &[],

@@ -81,7 +81,7 @@ pub(super) static WINDOW_VIEWPORT: Lesson = Lesson {
     items: &["C95", "C96"],
     title: words("Window to viewport", "窗口到视口的变换"),
     statement: words(
-        "The window in the world is moved to the origin, scaled by sx and sy, and moved to the viewport: T · S · T. With sx = sy, shapes are preserved, but a viewport with a different shape has bars (letterbox).",
+        "The window in the world is moved to the origin, scaled by sx and sy, and moved to the viewport: T · S · T. With sx = sy, shapes are preserved, but a viewport with a different aspect ratio has bars (letterbox).",
         "世界窗口先平移到原点，再按 sx、sy 缩放，然后平移到视口：T · S · T。sx = sy 时形状不变；视口形状不同时会留边（letterbox）。",
     ),
     parameters: &[
@@ -160,7 +160,7 @@ pub(super) static MEXICAN_HAT: Lesson = Lesson {
     items: &["C98"],
     title: words("Mexican hat", "墨西哥帽"),
     statement: words(
-        "The indices of a grid are also a window: i from 0 to n − 1 maps to x = 2 i/(n − 1) − 1 from −1 to 1. The grid points, raised to their heights, form a mesh.",
+        "The indices of a grid are also a window: i from 0 to n − 1 maps to x = 2 i/(n − 1) − 1, which runs from −1 to 1. The grid points, raised to their heights, form a mesh.",
         "网格的下标也构成一个窗口：i 从 0 到 n − 1 映为 x = 2 i/(n − 1) − 1，从 −1 到 1；每个点上的高度构成网格曲面。",
     ),
     models: &[HAT, HAT_LINES],

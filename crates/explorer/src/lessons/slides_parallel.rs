@@ -18,7 +18,7 @@ pub(super) static MULTIVIEW: Lesson = Lesson {
     items: &["C75"],
     title: words("Multiview projection", "三视图"),
     statement: words(
-        "Each view projects orthographically onto a principal plane: the front view drops z (XOY), the side view drops x (YOZ), and the top view drops y (ZOX). Faces parallel to its plane keep their true shape, but no single view shows everything.",
+        "Each view projects orthographically onto a principal plane: the front view drops z (XOY), the side view drops x (YOZ), and the top view drops y (ZOX). Faces parallel to a view's plane keep their true shape in it, but no single view shows everything.",
         "每个视图都正交投影到一个坐标平面：主视图投影到 XOY 面，去掉 z；侧视图投影到 YOZ 面，去掉 x；俯视图投影到 ZOX 面，去掉 y。平行于投影平面的面保持真实形状；单个视图不能表示整个物体。",
     ),
     parameters: &[choice(
@@ -146,7 +146,7 @@ pub(super) static OBLIQUE: Lesson = Lesson {
     items: &["C77", "C78"],
     title: words("Oblique projection", "斜投影"),
     statement: words(
-        "The projectors are parallel to each other but not perpendicular to the picture. The front keeps its true shape, and a unit of depth is drawn at angle φ with length L₁ = cot α. L₁ is 1 in a cavalier projection, ½ in a cabinet projection, and 0 in an orthographic projection.",
+        "The projectors are parallel and meet the picture at an angle α other than 90°. The front keeps its true shape, and a unit of depth is drawn at angle φ with length L₁ = cot α. L₁ is 1 in a cavalier projection, ½ in a cabinet projection, and 0 in an orthographic projection.",
         "投影线互相平行但不垂直于投影平面：正面保持真实形状，深度沿角 φ 方向以长度 L₁ = cot α 画出。斜等测 L₁ = 1，斜二测 L₁ = ½；L₁ = 0 就是正交投影。",
     ),
     parameters: &[

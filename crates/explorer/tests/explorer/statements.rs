@@ -221,10 +221,11 @@ fn overlapping_counts_are_explained() {
     let mut explorer = explorer_with_models();
     let said = consequences(&mut explorer, "lesson=tear");
     let facts = facts(&mut explorer, "lesson=tear");
-    let totals = format!(
-        "in total, {} are clipped and {} are entirely outside.",
-        facts["clipped"], facts["outside"]
-    );
+    let [clipped, outside] = ["clipped", "outside"].map(|key| {
+        let verb = if facts[key] == 1 { "is" } else { "are" };
+        format!("{} {verb}", facts[key])
+    });
+    let totals = format!("in total, {clipped} clipped and {outside} entirely outside.");
     assert!(said.iter().any(|sentence| sentence.ends_with(&totals)), "{said:?}");
 }
 

@@ -10,6 +10,7 @@
 use super::buffers::{Buffers, checked_slice};
 use super::elements::{ResolvedAccessor, SparseElements, StridedBytes};
 use crate::limits::Limits;
+use files::counted;
 use gltf::json::Root;
 use gltf::json::accessor::{Accessor, ComponentType, IndexComponentType, Type, sparse};
 use gltf::json::validation::Checked;
@@ -168,10 +169,11 @@ impl<'a> AccessorReader<'a> {
         match checked_slice(view.bytes, offset, length) {
             Some(bytes) => Ok(StridedBytes { bytes, stride }),
             None => {
-                let (count, pointer, available) = (block.count, view.pointer, view.bytes.len());
+                let (pointer, available) = (view.pointer, view.bytes.len());
+                let elements = counted(block.count, "element", "elements");
                 let message = format!(
-                    "{count} elements from byte {offset} need {length} bytes, but {pointer} has \
-                     {available}"
+                    "{pointer}, which has {available} bytes, is too small for {elements} ({length} \
+                     bytes) at offset {offset}"
                 );
                 Err(Diagnostic::invalid(block.pointer, message))
             }

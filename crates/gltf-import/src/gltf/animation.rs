@@ -12,6 +12,7 @@ use super::attribute::{
 };
 use super::untyped_members::PointerChannel;
 use crate::warnings::ImportWarnings;
+use files::counted;
 use gltf::json;
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::animation::{Interpolation as JsonInterpolation, Property as JsonProperty};
@@ -219,8 +220,11 @@ impl AnimationReader<'_> {
             ChannelValueKind::Numbers(width) => width,
         };
         if values.len() != rows * width || width == 0 {
-            let message =
-                format!("wrong number of values: {} values for {} keys", values.len(), times.len());
+            let message = format!(
+                "wrong number of values: {} for {}",
+                counted(values.len(), "value", "values"),
+                counted(times.len(), "key", "keys")
+            );
             return Err(Diagnostic::invalid(&pointer, message));
         }
         Ok(AnimationCurve { interpolation, times, values, components: width })

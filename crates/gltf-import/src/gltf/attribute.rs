@@ -8,6 +8,7 @@ use super::accessor::AccessorReader;
 use super::draco::DracoData;
 use super::elements::ResolvedAccessor;
 use crate::warnings::ImportWarnings;
+use files::counted;
 use gltf::json::accessor::ComponentType::{self, F32, I8, I16, U8, U16, U32};
 use gltf::json::accessor::Type;
 use model::Diagnostic;
@@ -165,7 +166,11 @@ impl AttributeReader<'_, '_> {
             if elements.count == *vertices {
                 return read(self.source, elements.slice_range(used.clone()));
             }
-            let message = format!("{} values for {vertices} vertices", elements.count);
+            let message = format!(
+                "{} for {}",
+                counted(elements.count, "value", "values"),
+                counted(vertices, "vertex", "vertices")
+            );
             Err(Diagnostic::invalid(pointer, message))
         });
         match checked {

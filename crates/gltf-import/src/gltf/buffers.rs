@@ -122,7 +122,7 @@ impl<'a> Buffers<'a> {
         checked_slice(bytes, start, length).ok_or_else(|| {
             let available = bytes.len();
             let message = format!(
-                "{length} bytes from offset {start} exceed buffer {buffer} of {available} bytes"
+                "the {length}-byte range at offset {start} does not fit in the {available}-byte buffer {buffer}"
             );
             Diagnostic::invalid(user, message)
         })

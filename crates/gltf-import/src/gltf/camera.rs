@@ -50,7 +50,7 @@ fn camera_projection(json: &Camera, pointer: &str) -> Result<CameraProjection, D
             orthographic_projection(json, pointer)
         }
         (Checked::Valid(_), ..) => {
-            Err(Diagnostic::invalid(pointer, "the parameters for its type are missing"))
+            Err(Diagnostic::invalid(pointer, "the camera lacks the parameters for its type"))
         }
         (Checked::Invalid, ..) => {
             let message = "the type is neither perspective nor orthographic";
@@ -177,6 +177,9 @@ mod tests {
         }
         assert_eq!(read_camera(json!({"type": "fisheye"})).unwrap_err().0, "/cameras/0/type");
         let lacking = json!({"type": "perspective"});
-        assert_eq!(read_camera(lacking).unwrap_err().1, "the parameters for its type are missing");
+        assert_eq!(
+            read_camera(lacking).unwrap_err().1,
+            "the camera lacks the parameters for its type"
+        );
     }
 }

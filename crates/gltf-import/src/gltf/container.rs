@@ -35,7 +35,7 @@ const HEADER: usize = 12;
 /// Size of a chunk header in bytes: length and type.
 const CHUNK_HEADER: usize = 8;
 /// The advice for truncated files, which are mostly the result of interrupted downloads.
-const TRUNCATED: &str = "the file is truncated: copy or export it again";
+const TRUNCATED: &str = "copy or export the file again: it is truncated";
 
 impl Container {
     /// Locates the JSON and the binary chunk in a text or GLB file.
@@ -58,7 +58,7 @@ impl Container {
             Some(b'{') => Ok(Self { json: bytes.len() - text.len()..bytes.len(), binary: None }),
             None => Err(format_error("the file is empty", "use a .gltf or .glb file")),
             _ if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") => {
-                Err(format_error("the text is in UTF-16", "save it in UTF-8"))
+                Err(format_error("the text is in UTF-16", "save it as UTF-8"))
             }
             _ => Err(format_error(
                 "this is not a glTF file: it starts neither with { nor with glTF",
@@ -103,7 +103,7 @@ fn check_glb_header(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<usize
         return Err(Diagnostic::error(
             codes::UNSUPPORTED_VERSION,
             "",
-            format!("the file is glTF {version}.0, but only glTF 2 is supported"),
+            format!("the file is glTF {version}.0, but only glTF 2.0 is supported"),
             "convert it to glTF 2.0",
         ));
     }
@@ -149,14 +149,15 @@ impl<'a> GlbChunks<'a> {
         let Some((header, data)) = rest.split_first_chunk::<CHUNK_HEADER>() else {
             warnings.downgrade_if_lenient(
                 format_error("a chunk header is incomplete", TRUNCATED),
-                "it is ignored",
+                "the chunk is ignored",
             )?;
             return Ok(None);
         };
         let (length, kind) = (read_u32(header, 0).unwrap_or(usize::MAX), header.last_chunk());
         let (start, left) = (self.offset + CHUNK_HEADER, data.len());
         if length > left {
-            let message = format!("a chunk declares {length} bytes, but only {left} are left");
+            let message =
+                format!("a chunk declares {length} bytes, but the file has only {left} more");
             warnings.downgrade_if_lenient(
                 format_error(&message, TRUNCATED),
                 "the available data is read",
@@ -215,7 +216,10 @@ mod tests {
         assert_eq!(message(b""), "the file is empty");
         assert!(message(b"OBJ").starts_with("this is not a glTF file"));
         assert_eq!(message(b"glTF\x02"), "the file has only 5 bytes");
-        assert_eq!(message(&glb(1, 12, &[])), "the file is glTF 1.0, but only glTF 2 is supported");
+        assert_eq!(
+            message(&glb(1, 12, &[])),
+            "the file is glTF 1.0, but only glTF 2.0 is supported"
+        );
         assert_eq!(
             message(&glb(2, 4_000_000_000, &[])),
             "the header declares 4000000000 bytes, but the file has 12"
@@ -225,7 +229,10 @@ mod tests {
             "the header declares 3 bytes, too few for any content"
         );
         let long = glb(2, 24, &[(b"JSON", u32::MAX, b"{}  ")]);
-        assert_eq!(message(&long), "a chunk declares 4294967295 bytes, but only 4 are left");
+        assert_eq!(
+            message(&long),
+            "a chunk declares 4294967295 bytes, but the file has only 4 more"
+        );
         let wrong = glb(2, 24, &[(b"BIN\0", 4, b"{}  ")]);
         assert_eq!(message(&wrong), "the first chunk is not JSON");
     }

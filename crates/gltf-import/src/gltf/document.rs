@@ -142,8 +142,8 @@ fn check_gltf_version(value: &Value, warnings: &mut ImportWarnings) -> Result<()
     let Some(version) = asset["version"].as_str() else {
         let message = "the glTF version is missing";
         let help = if value["asset"].is_null() && value["models"].is_array() {
-            "this looks like a scene in JSON; scenes are written in RON, in a file that ends in \
-             .ron: Scene(models: [(path: \"model.glb\")])"
+            "if this is a scene, write it in RON, for example \
+             Scene(models: [(path: \"model.glb\")]), in a file that ends in .ron"
         } else {
             "check that this is a glTF file; a glTF 2.0 file contains \
              \"asset\": {\"version\": \"2.0\"}"
@@ -251,7 +251,7 @@ fn objects_in<'a>(
 /// Returns the error for text that is not JSON.
 fn syntax_error(error: &serde_json::Error) -> Diagnostic {
     let message = format!("the JSON is not well formed: {error}");
-    Diagnostic::error(codes::NOT_GLTF, "", message, "correct it there or export the file again")
+    Diagnostic::error(codes::NOT_GLTF, "", message, "correct the JSON, or export the file again")
 }
 
 /// Returns the error for a member with the wrong type, with the JSON pointer to it.

@@ -164,7 +164,10 @@ fn stream_attributes(
 impl DracoStream<'_> {
     /// Rejects every stream as missing data, because the `draco` feature is disabled.
     fn decode_mesh(self) -> Result<DracoData, Diagnostic> {
-        Err(Diagnostic::missing_data(&self.pointer, "the data is compressed with Draco"))
+        Err(Diagnostic::missing_data(
+            &self.pointer,
+            "the data is compressed with Draco, which is not supported",
+        ))
     }
 }
 
@@ -174,6 +177,7 @@ mod decoder {
     use draco_core::{
         DataType, DecodeLimits, DecoderBuffer, Mesh, MeshDecoder, PointAttribute, PointIndex,
     };
+    use files::counted;
     use gltf::json::accessor::ComponentType;
     use std::collections::BTreeMap;
 
@@ -203,9 +207,10 @@ mod decoder {
                 Diagnostic::invalid(&self.pointer, message)
             })?;
             if mesh.num_points() != self.vertices {
-                let (actual, promised) = (mesh.num_points(), self.vertices);
+                let actual = counted(mesh.num_points(), "vertex", "vertices");
+                let promised = self.vertices;
                 let message = format!(
-                    "the stream has {actual} vertices, but the accessors \
+                    "the stream has {actual}, but the accessors \
                      declare {promised}"
                 );
                 return Err(Diagnostic::invalid(&self.pointer, message));
@@ -258,7 +263,9 @@ mod decoder {
             let (actual, expected) =
                 (usize::from(attribute.num_components()), shape.multiplicity());
             if actual != expected {
-                return invalid(format!("attribute {id} has {actual} components, not {expected}"));
+                return invalid(format!(
+                    "the component count of attribute {id} is {actual}, not {expected}"
+                ));
             }
             let mut bytes = Vec::with_capacity(self.vertices * expected * component.size());
             for vertex in 0..self.vertices {

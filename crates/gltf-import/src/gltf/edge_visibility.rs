@@ -75,7 +75,7 @@ impl EdgeReader<'_, '_> {
     fn warn_if_soft(&mut self, read: Result<(), Diagnostic>) -> Result<(), Diagnostic> {
         match read {
             Err(diagnostic) if diagnostic.is_downgradable() => {
-                self.warnings.downgrade(&diagnostic, "its edges are skipped");
+                self.warnings.downgrade(&diagnostic, "the edges are skipped");
                 Ok(())
             }
             read => read,
@@ -147,14 +147,14 @@ impl EdgeReader<'_, '_> {
         if (elements.element_type, elements.component_type) != (Type::Scalar, ComponentType::U8) {
             return Err(Diagnostic::invalid(
                 pointer,
-                "the visibility must be unsigned bytes of type SCALAR",
+                "the visibility values must be unsigned bytes of type SCALAR",
             ));
         }
         let (actual, expected) = (elements.count, (6 * self.triangles).div_ceil(8));
         if actual != expected {
-            let triangles = self.triangles;
-            let message =
-                format!("expected {expected} bytes for {triangles} triangles, found {actual}");
+            let bytes = counted(expected, "byte", "bytes");
+            let triangles = counted(self.triangles, "triangle", "triangles");
+            let message = format!("expected {bytes} for {triangles}, found {actual}");
             return Err(Diagnostic::invalid(pointer, message));
         }
         self.source.charge_array(accessor, self.triangles, 3)?;

@@ -57,7 +57,7 @@ const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
     ("KHR_lights_punctual", Full),
     (
         "KHR_materials_anisotropy",
-        Partly("approximate under an environment: reflections are bent but not stretched"),
+        Partly("under an environment, reflections are bent but not stretched"),
     ),
     ("KHR_materials_clearcoat", Full),
     (
@@ -115,7 +115,7 @@ pub(super) fn check_extensions(
             format!("the file requires the extension {name}: {reason}"),
             "export the file without it, or load the rest with --lenient",
         );
-        warnings.downgrade_if_lenient(diagnostic, "it is ignored")?;
+        warnings.downgrade_if_lenient(diagnostic, "the extension is ignored")?;
     }
     let mut reported = BTreeSet::new();
     for (list, names) in [

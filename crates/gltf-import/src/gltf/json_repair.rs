@@ -64,7 +64,7 @@ fn deserialize_root(value: &Value) -> Result<Root, Diagnostic> {
         end_unless_found(value, 0, &place, &mut pointer);
         let message = match (&place, value.pointer(&pointer).and_then(Value::as_array)) {
             (Place::Within(_), Some(items)) => {
-                format!("invalid length {}, expected fewer elements in array", items.len())
+                format!("invalid length {}, expected fewer elements in the array", items.len())
             }
             _ => {
                 let message = error.to_string();
@@ -270,12 +270,12 @@ mod tests {
             (
                 json!({"materials": [{"emissiveFactor": [1, 2, 3, 4, 5]}]}),
                 "/materials/0/emissiveFactor",
-                "invalid length 5, expected fewer elements in array",
+                "invalid length 5, expected fewer elements in the array",
             ),
             (
                 json!({"materials": [{"emissiveFactor": [1, 2, 3, [4]]}]}),
                 "/materials/0/emissiveFactor",
-                "invalid length 4, expected fewer elements in array",
+                "invalid length 4, expected fewer elements in the array",
             ),
             (
                 json!({"meshes": [{"primitives": []}, {"name": "a/b"}]}),

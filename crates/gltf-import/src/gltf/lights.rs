@@ -65,7 +65,7 @@ fn attach_lights(
         } else {
             let pointer = format!("/nodes/{at}/extensions/{EXTENSION}/light");
             let diagnostic = Diagnostic::unresolved_index(&pointer, "light", light, is_valid.len());
-            warnings.downgrade(&diagnostic, "the node has no light");
+            warnings.downgrade(&diagnostic, "the reference is ignored");
         }
     }
 }
@@ -142,8 +142,12 @@ impl LightNumbers<'_, '_> {
             Some(given) if (min..=max).contains(&given) => given,
             _ => {
                 let clamped = given.map_or(default, |given| given.clamp(min, max));
-                let message =
-                    format!("{value} is not a number in [{min}, {max}]; {clamped} is used");
+                let range = match (max < f32::MAX, min > 0.0) {
+                    (true, _) => format!("in [{min}, {max}]"),
+                    (false, true) => "greater than 0".to_owned(),
+                    (false, false) => "that is at least 0".to_owned(),
+                };
+                let message = format!("{value} is not a number {range}; {clamped:?} is used");
                 self.warnings.push_warning(&format!("{}/{member}", self.pointer), message);
                 clamped
             }

@@ -130,10 +130,15 @@ impl<'a> MaterialReader<'a, '_> {
         }
         if given != numbers {
             let range = match max {
-                f32::MAX => format!("not at least {min}"),
-                _ => format!("not in [{min}, {max}]"),
+                f32::MAX => format!("{min} or more"),
+                _ => format!("{min} to {max}"),
             };
-            let message = format!("{given:?} is {range}; {numbers:?} is used");
+            let text = |numbers: &[f32]| match numbers {
+                [number] => number.to_string(),
+                numbers => format!("{numbers:?}"),
+            };
+            let [given, used] = [text(&given), text(numbers)];
+            let message = format!("{given} is out of range ({range}); {used} is used");
             self.warnings.push_warning(&self.member_pointer(member), message);
         }
     }

@@ -40,7 +40,7 @@ impl NodeTransform {
         };
         let downgrade = |taken: Result<Self, Diagnostic>| match taken {
             Err(diagnostic) => warnings
-                .downgrade_if_lenient(diagnostic, "its transform is ignored")
+                .downgrade_if_lenient(diagnostic, "the transform is ignored")
                 .map(|()| Self::Trs(Trs::default())),
             taken => taken,
         };

@@ -56,7 +56,7 @@ fn read_node(
     let mut placement = document.node_transforms.get(at);
     let to_parent = match placement.map_or(Ok(Affine::IDENTITY), |p| p.to_affine(&pointer)) {
         Err(diagnostic) => {
-            warnings.downgrade_if_lenient(diagnostic, "its transform is ignored")?;
+            warnings.downgrade_if_lenient(diagnostic, "the transform is ignored")?;
             placement = None;
             Affine::IDENTITY
         }
@@ -212,7 +212,7 @@ fn update_transforms_below(
         if !nodes[at].to_model.is_finite() {
             let message = "the accumulated transform overflows";
             let diagnostic = Diagnostic::invalid(&format!("/nodes/{at}"), message);
-            warnings.downgrade_if_lenient(diagnostic, "its transform is ignored")?;
+            warnings.downgrade_if_lenient(diagnostic, "the transform is ignored")?;
             (nodes[at].to_parent, nodes[at].to_model) = (Affine::IDENTITY, parent);
             nodes[at].trs = Some(Trs::default());
         }
@@ -256,7 +256,7 @@ pub(super) fn scene_roots(
             None => {
                 let diagnostic =
                     Diagnostic::unresolved_index(&pointer, "node", node.value(), nodes.len());
-                warnings.downgrade_if_lenient(diagnostic, "it is not shown")?;
+                warnings.downgrade_if_lenient(diagnostic, "the reference is ignored")?;
             }
             Some(true) => {
                 warnings.push_warning(&pointer, "the node is listed twice; it is shown once");

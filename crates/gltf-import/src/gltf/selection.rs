@@ -90,14 +90,17 @@ pub(super) fn variant_materials(
             assignments.extend(known.iter().map(|&variant| VariantMaterial { variant, material }));
             let pointer = format!("{pointer}/variants");
             unknown.first().map(|&position| {
-                Diagnostic::unresolved_index(&pointer, "variant", position, variants)
+                let diagnostic =
+                    Diagnostic::unresolved_index(&pointer, "variant", position, variants);
+                (diagnostic, "the reference is ignored")
             })
         } else {
-            let pointer = format!("{pointer}/material");
-            Some(Diagnostic::unresolved_index(&pointer, "material", material, root.materials.len()))
+            let (pointer, count) = (format!("{pointer}/material"), root.materials.len());
+            let diagnostic = Diagnostic::unresolved_index(&pointer, "material", material, count);
+            Some((diagnostic, "the mapping is skipped"))
         };
-        if let Some(diagnostic) = diagnostic {
-            warnings.downgrade(&diagnostic, "it is skipped");
+        if let Some((diagnostic, consequence)) = diagnostic {
+            warnings.downgrade(&diagnostic, consequence);
         }
     }
     assignments

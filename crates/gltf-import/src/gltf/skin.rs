@@ -58,7 +58,8 @@ fn read_skin(source: &AccessorReader<'_>, at: usize) -> Result<Skin, Diagnostic>
         return Err(Diagnostic::invalid(&pointer, "the matrices must be floats of type MAT4"));
     }
     if elements.count < joints.len() {
-        let message = format!("{} matrices for {} joints", elements.count, joints.len());
+        let message =
+            format!("there are fewer matrices ({}) than joints ({})", elements.count, joints.len());
         return Err(Diagnostic::invalid(&pointer, message));
     }
     let matrices = source.read_floats::<16>(&elements.slice_range(0..joints.len()))?;

@@ -114,7 +114,7 @@ impl<'a> Ktx2File<'a> {
             (2, TexelEncoding::Uastc | TexelEncoding::Rgb8 | TexelEncoding::Rgba8) => true,
             _ => {
                 return Err(format!(
-                    "the KTX2 image is {encoding:?} with supercompression scheme {scheme}, which \
+                    "the KTX2 image uses {encoding:?} with supercompression scheme {scheme}, which \
                      is not supported"
                 ));
             }
@@ -287,7 +287,7 @@ fn part(bytes: &[u8], offset: u64, length: u64) -> Result<&[u8], String> {
     };
     let name = || {
         format!(
-            "the KTX2 image is truncated: {length} bytes at offset {offset} exceed its {} bytes",
+            "the KTX2 image is truncated: it has {} bytes, but {length} are needed at offset {offset}",
             bytes.len()
         )
     };
