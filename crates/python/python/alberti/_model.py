@@ -313,8 +313,8 @@ class Scene(Model):
             if (settings := model._native.scene_settings())
         ]
         warn_all(lost, stacklevel=2)
-        poses = [np.array(pose, dtype=float) for pose in placed] if placed else None
-        super().__init__(_native.compose(parts), ("Scene", (models, poses)))
+        native = _native.compose(parts)
+        super().__init__(native, ("Scene", (models, [np.array(pose) for pose in placed])))
 
 
 def load(
