@@ -46,7 +46,7 @@ pub use memory_budget::MemoryBudget;
 pub use memory_folder::MemoryFolder;
 pub use name_or_index::NameOrIndex;
 pub use normals::{NormalRepairs, normalize_normals};
-pub use options::{ImageLoading, ImportOptions};
+pub use options::{ImageLoading, ImportOptions, LessonModel};
 pub use percent_encoding::{percent_decode, percent_encode};
 pub use scalars::ScalarColors;
 pub use srgb::{linear_from_srgb, linear_table};

@@ -4,6 +4,9 @@ use crate::{Limits, NameOrIndex, ScalarColors};
 use model::{LengthUnit, Timings, UpAxis};
 use std::path::{Path, PathBuf};
 
+/// A function that returns a model by name, in a binary glTF file.
+pub type LessonModel = fn(&str) -> Option<Vec<u8>>;
+
 /// Options for loading a file.
 #[derive(Clone, Debug, Default)]
 pub struct ImportOptions {
@@ -33,9 +36,9 @@ pub struct ImportOptions {
     /// The largest angle between the normals of two faces that are shaded as one smooth surface, in
     /// degrees, for files without normals. Default: 30.
     pub crease_angle: Option<f64>,
-    /// Models that the program contains, by name: `lesson:house` in place of a path loads the
-    /// binary glTF file that this function returns for `house`. Default: none.
-    pub lesson_model: Option<fn(&str) -> Option<Vec<u8>>>,
+    /// Models that the program contains: `lesson:house` in place of a path loads the file that this
+    /// function returns for `house`. Default: none.
+    pub lesson_model: Option<LessonModel>,
     /// Timings for the loading stages. Default: none.
     pub timings: Timings,
 }

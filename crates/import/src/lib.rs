@@ -40,8 +40,9 @@ pub use obj::PhongMaterial;
 
 // Parameter and result types of the functions in this crate.
 pub use gltf_import::{
-    ExtensionUse, ImageLoading, ImportError, ImportOptions, Limits, MemoryFolder, NameOrIndex,
-    ScalarColors, UriResolver, decode_image, extension_use, percent_decode, percent_encode,
+    ExtensionUse, ImageLoading, ImportError, ImportOptions, LessonModel, Limits, MemoryFolder,
+    NameOrIndex, ScalarColors, UriResolver, decode_image, extension_use, percent_decode,
+    percent_encode,
 };
 
 /// Compiles and runs the examples in the README.
