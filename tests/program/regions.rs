@@ -91,7 +91,7 @@ fn invalid_regions_are_refused() {
             &["--crop", "100,0,30,10"][..],
             "--crop 100,0,30,10 is not inside the picture of 120 x 90 pixels",
         ),
-        (&["--band", "91/200"], "--band 91/200 is empty: the picture has only 90 rows"),
+        (&["--band", "91/200"], "--band 91/200 is empty; set N to at most 90, the number of rows"),
         (&["--band", "5/4"], "expected I/N with I from 1 to N, such as 2/8"),
         (&["--crop", "1,2,0,4"], "expected column, row, width and height in pixels"),
         (&["--bits", "12"], "for '--bits <N>': expected 8 or 16"),
@@ -178,7 +178,7 @@ fn comparisons_print_statistics_and_set_the_exit_code() {
     assert_eq!(run.code, 0);
     assert_eq!(
         run.stderr,
-        "compared: agrees; maximum difference 0 of 255; 0 pixels (0.0000%) exceed the tolerance of 0\n"
+        "compared: agrees; the maximum difference is 0 of 255, and 0.0000% of the pixels (0) exceed the tolerance of 0\n"
     );
     let (width, height, _) = sandbox.read_picture("same.compare.png");
     assert_eq!((width, height), (360, 90));
@@ -187,7 +187,7 @@ fn comparisons_print_statistics_and_set_the_exit_code() {
     let flags = ["--compare", "expected.png", "--tolerance", "40"];
     let run = sandbox.run(&[&other[..], &flags, &SIZE].concat());
     assert_eq!(run.code, 1);
-    assert!(run.stderr.starts_with("compared: differs; maximum difference 255 of 255; "));
+    assert!(run.stderr.starts_with("compared: differs; the maximum difference is 255 of 255, "));
     assert!(sandbox.path_of("other.png").exists(), "the picture is written for inspection");
     let run = sandbox.run(&["render", "crate.glb", "--size", "10x10", "--compare", "expected.png"]);
     assert_eq!(run.code, 1);

@@ -37,7 +37,7 @@ fn flags_without_effect_are_reported() {
         ),
         (
             &["--camera-axes", "opencv"],
-            "warning: --camera-axes does nothing here: it applies only to --extrinsics or --pose\n",
+            "warning: --camera-axes does nothing here: it applies only to --extrinsics and --pose\n",
         ),
         (
             &["--arc-tolerance", "0.1"],

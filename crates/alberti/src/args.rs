@@ -108,7 +108,7 @@ pub(crate) enum Command {
     Explain(Deferred<ExplainArgs>),
     /// Explore the viewing pipeline in the browser, in lessons or with your own model
     Explore(ExploreArgs),
-    /// Show the book's exercises and check answers, naming the mistake
+    /// Show the book's exercises, check answers and identify mistakes
     Exercise(Deferred<ExerciseArgs>),
     /// Draw a subject in every classical projection, side by side, with formulas and numbers
     CompareProjections(Deferred<CompareProjectionsArgs>),
@@ -200,7 +200,7 @@ pub(crate) struct RenderArgs {
     /// that cross flat faces, where the z-buffer image shows no edge, are also reported.
     #[arg(help_heading = "Lines", long)]
     pub(crate) verify: bool,
-    /// Print a JSON report: size, camera, models, times, warnings, files with their SHA-256
+    /// Print a JSON report: size, camera, models, times, warnings, and files with SHA-256 hashes
     #[arg(help_heading = "Output", long)]
     pub(crate) json: bool,
     /// Show the picture in the terminal, with kitty's graphics protocol or half blocks
@@ -239,7 +239,7 @@ pub(crate) struct InfoArgs {
 /// The values of `--style`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
 pub(crate) enum StyleArg {
-    /// Physically based shading with the normals of the file
+    /// Physically based shading with the file's normals
     Shaded,
     /// Physically based shading with one normal per triangle
     Flat,

@@ -35,8 +35,8 @@ pub(crate) struct BatchArgs {
     /// List of jobs, one per line: JSON (.jsonl) or CSV (.csv); `-` is the standard input
     ///
     /// In `{"input": "fox.glb", "output": "a.png", "size": "64x64"}`, input is relative to the
-    /// list, and output to the output folder. Other members are picture flags by name, which
-    /// override flags of the command. The member "pictures" is a list of such objects, for several
+    /// list, and output to the output folder. Other members are named after picture flags and
+    /// override the command's flags. The member "pictures" is a list of such objects, for several
     /// pictures of one input. The columns of a CSV file have the same names. The list is read as
     /// needed and may have any length.
     #[arg(long, value_name = "FILE")]
@@ -72,7 +72,7 @@ pub(crate) struct BatchArgs {
     retry_failed: bool,
     /// Check that every job has a record and an intact picture; render nothing
     ///
-    /// Missing and wrong pictures are printed, one per line; the exit code is then 1.
+    /// Missing and wrong pictures are listed, one per line; the exit code is then 1.
     #[arg(long, conflicts_with_all = ["force", "retry_failed"])]
     verify: bool,
     /// Merge the reports of all runs into report.jsonl and write the contact sheet; render nothing

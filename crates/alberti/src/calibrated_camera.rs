@@ -13,7 +13,7 @@ use scene_file::file::{
 pub(crate) struct CalibratedCameraArgs {
     /// Camera intrinsics: focal lengths and principal point in pixels
     ///
-    /// Alternatively, all nine entries of the matrix K, row by row. The values must apply to
+    /// Also accepts all nine entries of the matrix K, row by row. The values must apply to
     /// pictures of the same size as this one.
     #[arg(
         help_heading = "Camera",
@@ -110,9 +110,9 @@ fn parse_intrinsics(text: &str) -> Result<ProjectionFile, String> {
         [fx, fy, cx, cy] => (fx, fy, cx, cy, 0.0),
         [fx, skew, cx, 0.0, fy, cy, 0.0, 0.0, 1.0] => (fx, fy, cx, cy, skew),
         _ => {
-            let found = numbers.len();
+            let found = files::counted(numbers.len(), "number", "numbers");
             return Err(format!(
-                "expected fx,fy,cx,cy or K as fx,skew,cx,0,fy,cy,0,0,1; found {found} numbers"
+                "expected fx,fy,cx,cy or K as fx,skew,cx,0,fy,cy,0,0,1; found {found}"
             ));
         }
     };

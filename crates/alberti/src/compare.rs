@@ -76,7 +76,8 @@ impl PictureComparison {
 }
 
 /// ```text
-/// compared: differs; maximum difference 12 of 255; 31 pixels (0.0045%) exceed the tolerance of 0
+/// compared: differs; the maximum difference is 12 of 255, and 0.0045% of the pixels (31) exceed
+/// the tolerance of 0
 /// ```
 impl fmt::Display for PictureComparison {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -85,7 +86,7 @@ impl fmt::Display for PictureComparison {
         let percent = 100.0 * self.differing_fraction();
         write!(
             f,
-            "compared: {verdict}; maximum difference {greatest} of 255; {beyond} pixels ({percent:.4}%) exceed the tolerance of {tolerance}"
+            "compared: {verdict}; the maximum difference is {greatest} of 255, and {percent:.4}% of the pixels ({beyond}) exceed the tolerance of {tolerance}"
         )
     }
 }

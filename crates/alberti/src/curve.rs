@@ -63,9 +63,9 @@ enum DepthRangeArg {
 /// The spacing of an axis.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 enum AxisArg {
-    /// Equal ratios at equal distances on the page
+    /// Equal lengths on the page represent equal ratios
     Logarithmic,
-    /// Equal differences at equal distances on the page
+    /// Equal lengths on the page represent equal differences
     Linear,
 }
 

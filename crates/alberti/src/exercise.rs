@@ -21,7 +21,7 @@ Examples:
   alberti exercise 3 --hint                       how to begin
   alberti exercise 3 --answer 'A=1; B=0'          incorrect: the divide is missing …
 
-Exits with 0 if the answer is correct, with 1 if it is incorrect.";
+Exits with 0 if the answer is correct, and with 1 if it is incorrect.";
 
 /// Arguments of `alberti exercise`.
 #[derive(Debug, clap::Args)]

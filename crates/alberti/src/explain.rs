@@ -36,7 +36,7 @@ pub(crate) struct ExplainArgs {
     subject: ExplainSubjectArgs,
     #[command(flatten)]
     map: BareMapArgs,
-    /// API conventions of view space, canonical volume and pixels
+    /// API conventions for view space, the canonical volume and pixels
     #[arg(long, value_name = "NAME", default_value = "alberti", value_parser = conventions_parser())]
     conventions: ApiConventions,
     /// Print the explanation as JSON
@@ -58,7 +58,7 @@ pub(crate) struct ExplainArgs {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Without a scene")]
 struct BareMapArgs {
-    /// Map --point or --segment by this 4x4 matrix, row by row, instead of a scene's camera
+    /// Map --point or --segment with this 4x4 matrix (row by row) instead of a scene's camera
     #[arg(
         long,
         value_name = "NUMBERS",
@@ -67,7 +67,7 @@ struct BareMapArgs {
         conflicts_with_all = ["input", "planes", "node", "pixel", "html"]
     )]
     matrix: Option<Box<[f64; 16]>>,
-    /// Map --point or --segment by the textbook's matrix P of the planes z = N and z = F
+    /// Map --point or --segment with the textbook's matrix P for the planes z = N and z = F
     ///
     /// Both numbers are z-coordinates, negative ahead of the camera, as in -1,-3.
     #[arg(
@@ -93,7 +93,7 @@ struct ExplainSubjectArgs {
         conflicts_with_all = ["segment", "node"]
     )]
     point: Option<SubjectPoint>,
-    /// Pixel by column and row from the upper left: shows what is visible and explains the color
+    /// Pixel by column and row from the upper left, to show what is visible and explain the color
     #[arg(
         long,
         value_name = "X,Y",
@@ -110,7 +110,7 @@ struct ExplainSubjectArgs {
         conflicts_with = "node"
     )]
     segment: Option<[f64; 6]>,
-    /// Node of the model, by name or index: explains why it is visible or not
+    /// Node of the model, by name or index, to explain why it is visible or not
     #[arg(long, value_name = "NAME|INDEX")]
     node: Option<String>,
     /// Vertex of the node's mesh, by index
@@ -119,10 +119,10 @@ struct ExplainSubjectArgs {
     /// Triangle of the node's mesh, by index
     #[arg(long, value_name = "INDEX", requires = "node")]
     triangle: Option<usize>,
-    /// Primitive of the mesh that contains the vertex or triangle
+    /// Primitive that contains the vertex or triangle, by index
     #[arg(long, value_name = "INDEX", requires = "node", default_value_t = 0)]
     primitive: usize,
-    /// Model of the scene that contains the node
+    /// Model that contains the node, by index
     #[arg(long, value_name = "INDEX", requires = "node", default_value_t = 0)]
     model: usize,
 }
@@ -321,9 +321,8 @@ impl BareMapArgs {
 
 /// Parses sixteen numbers, boxed to keep the command's argument struct small.
 fn parse_matrix(text: &str) -> Result<Box<[f64; 16]>, String> {
-    let one_word = |problem| {
-        format!("{problem}; write one argument, with commas or quoted: \"1 0 0 0  0 1 …\"")
-    };
+    let one_word =
+        |problem| format!("{problem}; join numbers with commas, or quote them: \"1 0 0 0  0 1 …\"");
     parse_numbers(text).map(Box::new).map_err(one_word)
 }
 

@@ -39,11 +39,11 @@ pub(crate) struct ExploreArgs {
     port: Option<u16>,
     /// Open the page in the default browser
     ///
-    /// The address, with its secret, is then an argument of another program, so other users of the
-    /// machine may be able to see it.
+    /// The address, which contains a secret, is passed to another program as an argument, so other
+    /// users of the machine may be able to see it.
     #[arg(long)]
     open: bool,
-    /// Compute in this program instead of the browser: faster, with identical bytes
+    /// Compute in this program, not in the browser (faster, identical output)
     #[arg(long)]
     native: bool,
 }

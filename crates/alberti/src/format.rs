@@ -118,7 +118,7 @@ impl OutputFormat {
                 moving_picture_error(output, ending)
             }
             _ if output.is_dir() || name.ends_with('/') => CliError::Usage(format!(
-                "{name} is a folder\n  = help: name a file in it, such as -o '{}'",
+                "{name} is a folder\n  = help: name a file in it, as in -o '{}'",
                 visible_path(output.join("{stem}.png"))
             )),
             _ => CliError::Usage(format!(

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 /// Arguments of `alberti completions`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct CompletionArgs {
-    /// Shell to complete for
+    /// Shell to print the script for
     shell: Shell,
 }
 

@@ -81,7 +81,7 @@ pub(crate) struct MatrixArgs {
         conflicts_with = "code"
     )]
     point: Option<SubjectPoint>,
-    /// API conventions of the matrix that is built from parameters [default: opengl]
+    /// API conventions for a matrix from parameters [default: opengl]
     #[arg(
         long,
         value_name = "NAME",

@@ -30,7 +30,7 @@ use schema::SchemaName;
 pub(crate) struct ReferenceArgs {
     /// Flag, command, type, field, field path or formula [default: all flags and fields]
     ///
-    /// For example --size, render, LookAt, camera.projection or the formula id PE-1. A word from a
+    /// Examples: --size, render, LookAt, camera.projection, PE-1 (a formula id). A word from a
     /// formula's name or text lists the matching ids; `formulas` lists all formulas.
     #[arg(allow_hyphen_values = true)]
     word: Option<String>,

@@ -72,7 +72,7 @@ impl RegionArgs {
         if band.height == 0 {
             let rows = crop.height;
             return Err(CliError::Usage(format!(
-                "--band {index}/{count} is empty: the picture has only {rows} rows"
+                "--band {index}/{count} is empty; set N to at most {rows}, the number of rows"
             )));
         }
         Ok(band)

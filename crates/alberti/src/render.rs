@@ -299,7 +299,7 @@ pub(super) fn missing_input_help(input: &Path) -> Option<String> {
     }
     if word.ends_with(".json") {
         return Some(format!(
-            "`--json` takes no value and prints a report: redirect it, as in `--json > {word}`"
+            "`--json` takes no value; redirect its report, as in `--json > {word}`"
         ));
     }
     matches!(&*word, "on" | "off" | "true" | "false" | "yes" | "no")

@@ -82,7 +82,7 @@ pub(crate) struct SceneOverrideArgs {
     /// Up to this many trilinear samples are taken along the longer axis of a pixel's footprint.
     #[arg(help_heading = "Picture", long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8))]
     pub(crate) max_anisotropy: Option<u32>,
-    /// Size of the points of a model in pixels, from 1 to 256 [default: 3]
+    /// Size of a model's points in pixels, from 1 to 256 [default: 3]
     #[arg(help_heading = "Picture", long, value_name = "N", value_parser = parse_point_size)]
     pub(crate) point_size: Option<PointSize>,
     #[command(flatten)]

@@ -8,7 +8,7 @@ pub(crate) struct SectionArgs {
     /// Cut the models in a line drawing open at a plane; repeatable
     ///
     /// x=0.5 removes everything with a larger x, and -x=0.5 removes everything with a smaller x.
-    /// Six numbers, such as 0,1,0,1,0,1, are a point on the plane and the direction to remove.
+    /// Six numbers, as in 0,1,0,1,0,1, are a point on the plane and a vector into the removed part.
     #[arg(
         help_heading = "Lines",
         long = "section",
@@ -41,7 +41,7 @@ impl SectionArgs {
 /// Returns an error if the text has another form or a nonfinite number, or if the normal is zero.
 fn parse_section_plane(text: &str) -> Result<SectionFile, String> {
     let fault = || {
-        "expected a plane such as x=0.5 or -z=0, or six numbers: a point and the direction to remove".to_owned()
+        "expected a plane such as x=0.5 or -z=0, or six numbers: a point and a vector into the removed part".to_owned()
     };
     let number = |text: &str| text.trim().parse::<f64>().map_err(|_| fault());
     let (point, normal) = if let Some((axis, at)) = text.split_once('=') {

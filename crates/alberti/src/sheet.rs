@@ -188,7 +188,7 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
 /// Warns about a resolution for an output without pixels.
 fn warn_of_unused_dpi(args: &SheetArgs, format: OutputFormat) {
     if args.dpi.is_some() && !format.is_raster() {
-        let message = "--dpi does nothing here: it applies only to pixels; write a .png to use it";
+        let message = "--dpi does nothing here: it applies only to PNG; write a .png to use it";
         print_message("warning", message);
     }
 }
@@ -231,7 +231,8 @@ pub(super) fn rasterize_page<W>(page: &Page<W>, dpi: u32) -> Result<Picture, Cli
         page.to_picture(width, height)
     };
     size().ok_or_else(|| {
-        let message = format!("the paper is too large for a picture at {dpi} dpi");
+        let message =
+            format!("the paper is too large for a picture at {dpi} dpi; write a .pdf instead");
         CliError::Usage(message)
     })
 }

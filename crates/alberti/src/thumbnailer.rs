@@ -53,10 +53,9 @@ pub(crate) struct ThumbnailerArgs {
     max_memory_bytes: u64,
     /// Install the thumbnailer and the MIME types for the current user, or below --prefix
     ///
-    /// Writes thumbnailers/alberti.thumbnailer and mime/packages/alberti.xml to $XDG_DATA_HOME,
-    /// which is ~/.local/share if it is not set, and runs update-mime-database. Restart file
-    /// managers to use them. To retry files that had no thumbnail before, remove
-    /// ~/.cache/thumbnails/fail.
+    /// Writes thumbnailers/alberti.thumbnailer and mime/packages/alberti.xml to $XDG_DATA_HOME
+    /// (by default ~/.local/share) and runs update-mime-database. Then restart the file manager. To
+    /// retry files that had no thumbnail before, remove ~/.cache/thumbnails/fail.
     #[arg(long, conflicts_with_all = ["input", "uninstall", "print"])]
     install: bool,
     /// Remove the files that --install writes
@@ -65,7 +64,7 @@ pub(crate) struct ThumbnailerArgs {
     /// Folder to install in, such as /usr/local; the files are written below DIR/share
     #[arg(long, value_name = "DIR", conflicts_with_all = ["input", "print"])]
     prefix: Option<PathBuf>,
-    /// Print one of the two files that --install writes, for packages
+    /// Print one of the two files that --install writes, for packagers
     #[arg(long, value_name = "FILE", conflicts_with = "input")]
     print: Option<InstalledFile>,
 }

@@ -91,7 +91,7 @@ pub(super) fn find_unused_overrides(
         warnings.push(format!("{} {verb} nothing here: {reason}", list_flags(&unused)));
     }
     if flags.calibrated.has_axes_alone() {
-        let message = "--camera-axes does nothing here: it applies only to --extrinsics or --pose";
+        let message = "--camera-axes does nothing here: it applies only to --extrinsics and --pose";
         warnings.push(message.to_owned());
     }
     warnings

@@ -110,8 +110,8 @@ impl<'a> ContactSheet<'a> {
     /// Writes this page, unless the file already has this content, and clears it for the next one.
     fn write_page(&mut self) -> Result<(), BatchError> {
         let mut page = String::from(PAGE_HEAD);
-        let _ =
-            writeln!(page, "<p>{} pictures, {} failed</p>", self.counts.done, self.counts.failed);
+        let pictures = files::counted(self.counts.done, "picture", "pictures");
+        let _ = writeln!(page, "<p>{pictures}, {} failed</p>", self.counts.failed);
         let links = self.page_links();
         let _ = writeln!(page, "{links}<main>\n{}</main>", self.figures);
         if !self.failures.is_empty() {

@@ -99,7 +99,7 @@ fn open_scene_around(
 ) -> Result<(Origin, SceneFile), CliError> {
     if is_scene_file(input) {
         return Err(CliError::Usage(format!(
-            "{} is a scene, not a model for {}",
+            "{} is a scene, not a model; `--scene {}` takes only models",
             visible_path(input),
             visible_path(scene)
         )));
@@ -117,8 +117,8 @@ fn open_scene_around(
     }
     if !is_there {
         return Err(CliError::Usage(format!(
-            "the scene {} has no model for the input\n  = help: add models: [Model(path: \
-             \"{INPUT_PATH}\")]",
+            "the scene {} has no model for the input\n  = help: add `models: [Model(path: \
+             \"{INPUT_PATH}\")]`",
             visible_path(scene)
         )));
     }

@@ -195,8 +195,8 @@ pub(super) fn build_oblique(list: &NumberList, options: BuildOptions) -> Built {
     let numbers: [f64; 6] = NumberList(rest.to_vec()).exactly("oblique with a volume")?;
     let [l, r, b, t, n, f] = numbers;
     if options.onto_plane {
-        let message = "--onto-plane drops z, but --oblique with a volume keeps it; remove one of \
-                       them";
+        let message = "--onto-plane drops z, but --oblique with a volume keeps it; omit the flag \
+                       or the volume";
         return Err(CliError::Usage(message.to_owned()));
     }
     check_distances("oblique", n, f, least_near(options))?;

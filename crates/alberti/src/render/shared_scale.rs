@@ -34,7 +34,7 @@ pub(super) fn share_scale(
         let other = Scene::from_models(origin, &other, &scene.models)?;
         let scale = other.pixels_per_unit().ok_or_else(|| {
             CliError::Usage(
-                "--same-scale needs a parallel projection\n  = help: add --projection orthographic or another parallel projection"
+                "--same-scale needs a parallel projection\n  = help: set --projection to orthographic or another parallel projection"
                     .to_owned(),
             )
         })?;

@@ -51,7 +51,7 @@ pub(super) fn plan_tasks(args: &RenderArgs) -> Result<Vec<RenderTask>, CliError>
     let to_stdout = args.output.as_deref() == Some(Path::new("-"));
     if to_stdout && count > 1 {
         return Err(CliError::Usage(format!(
-            "cannot write {count} pictures to the standard output\n  = help: use a template such as -o '{{stem}}.png'"
+            "cannot write {count} pictures to the standard output\n  = help: use a template, as in -o '{{stem}}.png'"
         )));
     }
     args.output.as_deref().map_or(Ok(()), refuse_blender_path)?;
@@ -192,7 +192,7 @@ fn check_distinct_outputs(jobs: &[RenderTask]) -> Result<(), CliError> {
             };
             let (output, template) = (visible_path(output), visible_path(template));
             return Err(CliError::Usage(format!(
-                "the pictures of {first} and {second} would both be written to {output}\n  = help: use a template such as -o '{template}'{other}"
+                "the pictures of {first} and {second} would both be written to {output}\n  = help: use a template, as in -o '{template}'{other}"
             )));
         }
     }

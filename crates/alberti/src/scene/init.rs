@@ -168,11 +168,11 @@ fn header_comment(model: &Model, path: &str, output: &str) -> String {
     let triangles =
         model.scene_primitives().filter(|(_, part)| part.topology == Topology::Triangles);
     let triangles: usize = triangles.map(|(_, part)| part.item_count()).sum();
-    let size =
+    let triangles = files::counted(triangles, "triangle", "triangles");
+    let [x, y, z] =
         model.bounds().map_or([0.0; 3], |bounds| (bounds.max() - bounds.min()).raw().to_array());
-    let [x, y, z] = size;
     format!(
-        "// {}: {triangles} triangles, {x:.3} wide, {y:.3} high, {z:.3} deep.\n\
+        "// {}: {triangles}, {x:.3} wide, {y:.3} high, {z:.3} deep.\n\
          // Render: alberti render {output}\n\
          // Validate: alberti scene check {output}\n\
          // Reference for all fields: alberti scene doc\n",

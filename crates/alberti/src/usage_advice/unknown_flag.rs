@@ -232,7 +232,7 @@ fn advise_on_no_window(name: &str, words: &[String]) -> Option<String> {
     };
     let color = match name {
         "-b" => "",
-        _ => ", whose `--background` is the color behind the model",
+        _ => "; here, `--background` sets the color behind the model",
     };
     Some(format!("this program never opens a window, so omit `{name}`: {help}{color}"))
 }

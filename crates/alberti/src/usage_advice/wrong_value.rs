@@ -146,7 +146,7 @@ fn other_file_help(flag: &str, given: &str) -> Option<String> {
             ))
         }
         "background" if is_picture => Some(format!(
-            "expected a color; a scene file puts a picture behind the model, as in \
+            "expected a color; a scene file can put a picture behind the model, as in \
              `image: (background: Picture(path: \"{given}\"))`"
         )),
         _ => None,
