@@ -65,7 +65,7 @@ fn verdicts_have_an_exit_code_and_name_the_mistake() {
         ),
         ("21", "100 0 -190; 0 50 70; 0 0 1", 1, "incorrect: the window was moved by +1 in y"),
         ("4", "f*n*[z1-z2]/(z1*z2)", 0, "correct\n"),
-        ("3", "n+f, -f_n", 1, "incorrect: f_n is a subscript"),
+        ("3", "n+f, -f_n", 1, "incorrect: this has a subscript"),
         ("7", "n*(1,1,1,1)", 0, "correct\n"),
         ("17", "1/3", 1, "incorrect: your value for d is 0.333333\n"),
     ] {

@@ -220,8 +220,8 @@ impl Explorer {
 
     fn pick(&mut self, request: &Request) -> Result<Answer, ExplorerError> {
         let pixel = request.pixel.ok_or_else(|| {
-            let help = "add pixel=x,y, counted from the upper left corner";
-            ExplorerError::new("malformed_query", "missing pixel", help)
+            let help = "add pixel=x,y, a position measured from the upper left corner";
+            ExplorerError::new("malformed_query", "missing key `pixel`", help)
         })?;
         if request.state.is_torn() {
             return Err(ExplorerError::in_language(

@@ -209,7 +209,11 @@ fn parse_value(
     let Parameter { key, domain, label, .. } = parameter;
     match *domain {
         Domain::Number { min, max, .. } => {
-            let number = parse_number(key, text)?;
+            let help = format!("use a number from {min} to {max}");
+            let number = finite_number(text).ok_or_else(|| {
+                let message = format!("`{key}` is not a number: `{text}`");
+                ExplorerError::new("malformed_value", message, help.as_str())
+            })?;
             if (min..=max).contains(&number) {
                 return Ok(ParameterValue::Number(number));
             }
@@ -220,10 +224,7 @@ fn parse_value(
                     format!("`{key}` is out of range: {number}"),
                     format!("{}（`{key}`）不能是 {number}", label.zh),
                 ),
-                sentence(
-                    format!("use a number from {min} to {max}"),
-                    format!("请给出 {min} 到 {max} 之间的数"),
-                ),
+                sentence(help, format!("请给出 {min} 到 {max} 之间的数")),
             ))
         }
         Domain::Choice(choices) => {
@@ -238,13 +239,11 @@ fn parse_value(
     }
 }
 
-fn parse_number(key: &str, text: &str) -> Result<f64, ExplorerError> {
+/// Parses a finite number.
+fn finite_number(text: &str) -> Option<f64> {
     let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
     // −0 would make a second link to the same state.
-    number.map(|number| number + 0.0).ok_or_else(|| {
-        let message = format!("`{key}` is not a number: `{text}`");
-        ExplorerError::new("malformed_value", message, format!("write it as {key}=2.5"))
-    })
+    number.map(|number| number + 0.0)
 }
 
 /// Removes a key and parses its `N` numbers, whose magnitudes must not exceed `limit`.
@@ -254,13 +253,13 @@ fn take_numbers<const N: usize>(
     limit: f64,
 ) -> Result<Option<[f64; N]>, ExplorerError> {
     let Some(text) = query.take(key) else { return Ok(None) };
-    let numbers: Vec<f64> =
-        text.split(',').map(|number| parse_number(key, number.trim())).collect::<Result<_, _>>()?;
-    let numbers = <[f64; N]>::try_from(numbers).ok();
+    let numbers = text.split(',').map(|number| finite_number(number.trim()));
+    let numbers = numbers.collect::<Option<Vec<f64>>>();
+    let numbers = numbers.and_then(|numbers| <[f64; N]>::try_from(numbers).ok());
     let numbers = numbers.filter(|all| all.iter().all(|number| number.abs() <= limit));
     numbers.map(Some).ok_or_else(|| {
         let message = format!("`{key}` cannot be `{text}`");
-        let help = format!("use {N} numbers up to {limit}, separated by commas");
+        let help = format!("use {N} numbers from -{limit} to {limit}, separated by commas");
         ExplorerError::new("malformed_value", message, help)
     })
 }

@@ -108,11 +108,11 @@ fn different(differences: &[Difference], count: usize, letters: &[(&str, f64)]) 
         zh = format!("取 {} 时，{zh}", at("，"));
     }
     let wrong = differences.len();
+    let place = if wrong > 1 { format!(" in {wrong} of {count} entries") } else { String::new() };
     if wrong > 1 {
-        en = format!("{wrong} of {count} entries: {en}");
         zh = format!("{count} 个元素中错了 {wrong} 个：{zh}");
     }
-    sentence(format!("incorrect: {en}"), format!("不对：{zh}"))
+    sentence(format!("incorrect{place}: {en}"), format!("不对：{zh}"))
 }
 
 impl Difference {

@@ -38,7 +38,7 @@ pub(super) static ORTHOGRAPHIC_VOLUME: Lesson = Lesson {
     items: &["C7", "C8", "C34"],
     title: words("Orthographic view volume", "正交视见体"),
     statement: words(
-        "A scale and a translation map the box [l, r] × [b, t] × [f, n] in camera space to the canonical view volume [−1, 1]³. The camera looks along −z, so 0 > n > f. Because w stays 1, nothing shrinks with distance.",
+        "A scaling and a translation map the box [l, r] × [b, t] × [f, n] in camera space to the canonical view volume [−1, 1]³. The camera looks along −z, so 0 > n > f. Because w stays 1, nothing shrinks with distance.",
         "观察坐标系中的长方体 [l, r] × [b, t] × [f, n] 经缩放和平移变成规范视见体 [−1, 1]³。相机看向 −z，所以 0 > n > f。w 始终为 1：物体不随距离变小。",
     ),
     parameters: &[

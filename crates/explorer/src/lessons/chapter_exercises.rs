@@ -19,7 +19,7 @@ pub(super) static EXERCISES: Lesson = Lesson {
     items: &["C39", "C44", "C46", "C47"],
     title: words("Exercises", "习题"),
     statement: words(
-        "Figures for the chapter's exercises. 2: M_vp M_orth maps a window to pixels. 7: M_per takes the corner (r, t, n) to (1, 1, 1). 10: the camera at (0, 1, 0) looks down. 11: the image of the point a fraction t of the way along a segment.",
+        "Figures for the chapter's exercises. 2: M_vp M_orth maps a window to pixels. 7: M_per takes the corner (r, t, n) to (1, 1, 1). 10: the camera at (0, 1, 0) looks down. 11: f(t) locates the image of a point on a segment.",
         "本章习题的图：2，M_vp M_orth 把窗口映射到像素；7，M_per 把角点 (r, t, n) 映为 (1, 1, 1)；10，位于 (0, 1, 0) 向下看的相机；11，线段上比例 t 处的点的像在哪里。",
     ),
     models: &[HOUSE, CRATE],
@@ -108,7 +108,7 @@ fn exercise_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
             let [scale, offset] = [width / 8.0, 4.0 * width / 8.0 - 0.5].map(|n| decimals(n, 3));
             vec![sentence(
                 format!(
-                    "x_s = {scale} x + {offset}: the window from −4 to 4 becomes −½ … {}.",
+                    "x_s = {scale} x + {offset}: x from −4 to 4 maps to x_s from −½ to {}.",
                     decimals(width - 0.5, 1)
                 ),
                 format!(
@@ -131,7 +131,7 @@ fn exercise_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
             let (start, end) = (decimals(start, 2), decimals(end, 2));
             vec![sentence(
                 format!(
-                    "w is {start} at a and {end} at b. The point a fraction {t} of the way along the segment maps to a fraction f(t) = {image} of the way along its image."
+                    "w is {start} at a and {end} at b. The image of the point at t = {t} is a fraction f(t) = {image} of the way along the segment's image."
                 ),
                 format!(
                     "a 处 w 为 {start}，b 处 w 为 {end}：线段上 {t} 处的点，其像位于线段的像的 f(t) = {image} 处。"
@@ -140,7 +140,7 @@ fn exercise_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
         }
         _ => vec![sentence(
             format!(
-                "The corner (r, t, n) of the window maps to (1, 1, 1) and to the upper right corner of the picture: ({}, {}).",
+                "The corner (r, t, n) of the window maps to (1, 1, 1) and thus to the upper right corner of the picture, ({}, {}).",
                 decimals(width - 0.5, 1),
                 decimals(height - 0.5, 1)
             ),

@@ -16,7 +16,7 @@ pub(super) static TEAR: Lesson = Lesson {
     items: &["C36", "C54"],
     title: words("Clip before the divide", "先裁剪，后做透视除法"),
     statement: words(
-        "Behind the eye, w is negative. The divide by this w makes a point appear upside down and in front of the eye, and a triangle with corners on both sides of the eye is torn through infinity. So clip first, while w is still a coordinate.",
+        "Behind the eye, w is negative. After the divide by this w, objects appear upside down in front of the eye, and triangles with corners on both sides of the eye are torn through infinity. So clip first, while w is still a coordinate.",
         "视点之后 w 为负。除以它，点会上下颠倒，出现在前方；两侧都有顶点的三角形会被撕裂到无穷远。所以先裁剪，这时 w 还是一个坐标。",
     ),
     models: &[FLOOR],
@@ -60,16 +60,16 @@ pub(super) static TEAR: Lesson = Lesson {
 fn tear_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
     let (behind, all) = (facts.survey.behind_eye, facts.triangles[1]);
     let mut sentences = vec![sentence(
-        format!("{behind} of {all} triangles have a corner with w ≤ 0."),
+        format!("Triangles with a corner where w ≤ 0: {behind} of {all}."),
         format!("{all} 个三角形中有 {behind} 个带有 w ≤ 0 的顶点。"),
     )];
     sentences.push(match values.choice("order") {
         "divide" => sentence(
-            "Divided first, they wrongly appear upside down above the horizon or tear across the picture. A scene file is always clipped first, so this picture cannot be copied as a scene or command.",
+            "If divided first, these triangles wrongly appear upside down above the horizon or are torn across the picture. The program always clips first, so this picture cannot be copied as a scene or command.",
             "先做透视除法，它们会上下颠倒地出现在视平线之上，或撕裂整幅图像：这幅图像是错误的。场景文件总是先裁剪，所以这幅图像不能复制为场景或命令。",
         ),
         _ => sentence(
-            "If clipped first, every remaining corner has w > 0.",
+            "After clipping, every remaining corner has w > 0.",
             "先裁剪，剩下的每个顶点都有 w > 0。",
         ),
     });

@@ -18,7 +18,7 @@ pub(super) fn distortion(facts: &Facts) -> Option<Sentence> {
     let stretch = decimals(stretch, 2);
     Some(sentence(
         format!(
-            "The window is {window} : 1 but the picture is {picture} : 1, so everything is {stretch} \
+            "The window is {window} : 1, but the picture is {picture} : 1, so everything is {stretch} \
              times as wide as it should be."
         ),
         format!(
@@ -39,24 +39,30 @@ pub(super) fn planes_only_clip(facts: &Facts) -> Vec<Sentence> {
     if near > farthest {
         all.push(sentence(
             format!(
-                "near {near_text}: the whole model is in front of the near plane and is clipped."
+                "The near plane, at distance {near_text}, is behind the whole model and clips all of it."
             ),
             format!("近平面 {near_text}：整个模型都在近平面之前，全部被裁掉。"),
         ));
     } else if near > nearest {
         all.push(sentence(
-            format!("near {near_text}: the front corner, at distance {nearest_text}, is clipped."),
+            format!(
+                "The near plane, at distance {near_text}, clips the front corner, which is at distance {nearest_text}."
+            ),
             format!("近平面 {near_text}：距离 {nearest_text} 处的前角被裁掉。"),
         ));
     }
     if far < nearest {
         all.push(sentence(
-            format!("far {far_text}: the whole model is behind the far plane and is clipped."),
+            format!(
+                "The far plane, at distance {far_text}, is in front of the whole model and clips all of it."
+            ),
             format!("远平面 {far_text}：整个模型都在远平面之后，全部被裁掉。"),
         ));
     } else if far < farthest {
         all.push(sentence(
-            format!("far {far_text}: the back, at distances up to {farthest_text}, is clipped."),
+            format!(
+                "The far plane, at distance {far_text}, clips the back, which extends to distance {farthest_text}."
+            ),
             format!("远平面 {far_text}：最远到 {farthest_text} 的后部被裁掉。"),
         ));
     }

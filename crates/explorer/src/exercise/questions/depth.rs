@@ -11,7 +11,7 @@ pub(super) static DEPTH_ZERO: Exercise = Exercise {
     number: 16,
     title: words("Where depth is 0", "深度为 0 处"),
     question: words(
-        "A perspective projection in OpenGL has its near plane at distance N = 2 and its far plane at distance F = 40. The depths z_ndc of these planes are −1 and +1. At which distance D from the eye is z_ndc = 0?",
+        "A perspective projection in OpenGL has its near plane at distance N = 2 and its far plane at distance F = 40. The depths z_ndc of these planes are −1 and +1. At what distance D from the eye is z_ndc = 0?",
         "OpenGL 的透视投影，近平面距离 N = 2，远平面距离 F = 40；它们的深度 z_ndc 为 −1 和 +1。到视点的距离 D 为多少时 z_ndc = 0？",
     ),
     hints: &[
@@ -41,7 +41,7 @@ pub(super) static DEPTH_ZERO: Exercise = Exercise {
         mistake(
             "printed-rounding",
             Wrong::Answer("-3.8"),
-            "this is the lesson's rounded z-coordinate: at 3.8 the depth is −1/361, and distances are positive",
+            "this is the lesson's rounded z-coordinate: the distance must be positive, and at 3.8 the depth is −1/361",
             "这是教程中舍入的 z 坐标：在 3.8 处深度是 −1/361，而距离应为正",
         ),
         mistake(
@@ -103,13 +103,13 @@ pub(super) static REVERSED_DEPTH: Exercise = Exercise {
         mistake(
             "linear",
             Wrong::Computed(|_| depth(Convention::WEBGPU.reversed(), false)),
-            "this is linear in the distance, as in a parallel projection: a perspective projection divides by D",
+            "this is linear in the distance, as in a parallel projection, but a perspective projection divides by D",
             "这与距离成线性关系，如同平行投影：透视投影要除以 D",
         ),
         mistake(
             "linear-and-not-reversed",
             Wrong::Computed(|_| depth(Convention::WEBGPU, false)),
-            "this is linear with the near plane at 0, but a perspective projection divides by D, and reversed depth is 1 at the near plane",
+            "this depth is linear and starts at 0, but a perspective projection divides by D, and reversed depth starts at 1",
             "这是线性的，而且近平面为 0：透视投影要除以 D，反向深度在近平面为 1",
         ),
         mistake(
@@ -121,7 +121,7 @@ pub(super) static REVERSED_DEPTH: Exercise = Exercise {
         mistake(
             "opengl-range",
             Wrong::Computed(|_| depth(Convention::OPENGL, true)),
-            "this is depth in OpenGL, from −1 to 1",
+            "this is OpenGL depth, from −1 to 1: here it runs from 1 to 0",
             "这是 OpenGL 的深度，范围 −1 到 1",
         ),
     ],

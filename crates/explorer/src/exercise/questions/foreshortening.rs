@@ -11,16 +11,16 @@ pub(super) static IMAGE_PARAMETER: Exercise = Exercise {
     number: 11,
     title: words("f(t)", "f(t)"),
     question: words(
-        "M_per maps the ends of a segment to the homogeneous points r (with w_r) and R (with w_R), where both w have the same sign. The image of the point r + t (R − r) is at the fraction f(t) of the image segment. Find f(t).",
+        "M_per maps the ends of a segment to the homogeneous points r and R, whose w-coordinates w_r and w_R have the same sign. After the divide, the point r + t (R − r) is a fraction f(t) of the way along the image of the segment. Find f(t).",
         "经过 M_per 后，线段两端是齐次点 r（w 为 w_r）和 R（w 为 w_R），两个 w 同号。点 r + t (R − r) 的像位于线段的像的比例 f(t) 处。求 f(t)。",
     ),
     hints: &[
         words(
-            "The image is (r + t (R − r))/(w_r + t (w_R − w_r)); compare it with (1 − s) r/w_r + s R/w_R.",
+            "The image is (r + t (R − r))/(w_r + t (w_R − w_r)); compare it with (1 − s) r/w_r + s R/w_R, where s = f(t).",
             "像是 (r + t (R − r))/(w_r + t (w_R − w_r))；把它与 (1 − s) r/w_r + s R/w_R 比较。",
         ),
         words(
-            "Compare only the factors of R: on one side, the factor is s/w_R.",
+            "Compare only the coefficients of R: one of them is s/w_R.",
             "只比较 R 的系数：一边是 s/w_R。",
         ),
     ],
@@ -35,7 +35,7 @@ pub(super) static IMAGE_PARAMETER: Exercise = Exercise {
         mistake(
             "inverse",
             Wrong::Answer("wr*t/(wR+t*(wr-wR))"),
-            "this is the inverse, from the image to the segment: the ends are swapped",
+            "this is the inverse, from the image to the segment: swap w_r and w_R",
             "这是从像回到线段的反函数：两端互换了",
         ),
         mistake(
@@ -59,7 +59,7 @@ pub(super) static IMAGE_PARAMETER: Exercise = Exercise {
         mistake(
             "from-the-other-end",
             Wrong::Answer("wr*(1-t)/(wr+t*(wR-wr))"),
-            "this is 1 − f(t), the fraction counted from R",
+            "this is 1 − f(t), the fraction measured from R",
             "这是 1 − f(t)，即从 R 算起的比例",
         ),
         mistake(
@@ -88,7 +88,7 @@ pub(super) static ATTRIBUTE: Exercise = Exercise {
     number: 23,
     title: words("A perspective-correct attribute", "透视校正的属性"),
     question: words(
-        "An edge has the attribute a = 2 at its first end, where w = 1, and a = 10 at its second end, where w = 4. What is the attribute at a quarter of the edge's image, counted from the first end?",
+        "An edge has the attribute a = 2 at its first end, where w = 1, and a = 10 at its second end, where w = 4. In the image of the edge, what is the attribute one quarter of the way from the first end to the second?",
         "一条边的一端属性 a = 2、w = 1，另一端 a = 10、w = 4。从第一端算起，在边的像的四分之一处，属性是多少？",
     ),
     hints: &[
@@ -106,13 +106,13 @@ pub(super) static ATTRIBUTE: Exercise = Exercise {
         mistake(
             "linear",
             Wrong::Answer("3/4*2+1/4*10"),
-            "a was interpolated on the screen, but it is linear in space and not on the screen",
+            "a was interpolated on the screen, but it is linear only in space",
             "直接在屏幕上对 a 作线性插值了：它在空间中是线性的，在屏幕上不是",
         ),
         mistake(
             "weights-by-w",
             Wrong::Answer("(3/4*2*1+1/4*10*4)/(3/4*1+1/4*4)"),
-            "weighted by w instead of 1/w: the far end has less weight, not more",
+            "the ends are weighted by w instead of 1/w: the far end must have less weight, not more",
             "权重用了 w 而不是 1/w：远端的权重应更小，而不是更大",
         ),
         mistake(
@@ -124,7 +124,7 @@ pub(super) static ATTRIBUTE: Exercise = Exercise {
         mistake(
             "from-the-other-end",
             Wrong::Answer("(1/4*2/1+3/4*10/4)/(1/4/1+3/4/4)"),
-            "counted from the other end: the weight of the first end is 3/4",
+            "this is measured from the other end: the weight of the first end is 3/4",
             "从另一端算起了：第一端的权重是 3/4",
         ),
     ],
@@ -141,12 +141,12 @@ pub(super) static MIDDLE_OF_THE_IMAGE: Exercise = Exercise {
     number: 24,
     title: words("The middle of the image", "像的中点"),
     question: words(
-        "A segment has w = 1 at its first end and w = 4 at its second end. Which point, as the fraction t from the first end, appears in the middle of the image?",
+        "A segment has w = 1 at its first end and w = 4 at its second end. At what fraction t of the way from the first end is the point that appears in the middle of the segment's image?",
         "线段第一端 w = 1，第二端 w = 4。它的哪一点（用从第一端算起的比例 t 表示）出现在像的中点？",
     ),
     hints: &[
         words(
-            "f(t) = w_R t/(w_r + t (w_R − w_r)) maps the segment to its image. Here f(t) = 1/2 is known.",
+            "f(t) = w_R t/(w_r + t (w_R − w_r)) maps the segment to its image. Here f(t) = 1/2.",
             "f(t) = w_R t/(w_r + t (w_R − w_r)) 从线段到像。这里已知 f(t) = 1/2。",
         ),
         words(

@@ -30,7 +30,7 @@ pub(super) static MULTIPLES_OF_A_POINT: Exercise = Exercise {
         mistake(
             "divided-too-early",
             Wrong::Answer("a, b, c, 1"),
-            "this is the same point after the divide, but the matrix returns h times this",
+            "this is the same point after the divide, but the matrix gives h times these values",
             "这已经除过了：点是同一个，但矩阵给出的是它的 h 倍",
         ),
         mistake(
@@ -48,7 +48,7 @@ pub(super) static MULTIPLES_OF_A_POINT: Exercise = Exercise {
         mistake(
             "divided-by-h",
             Wrong::Answer("a/h, b/h, c/h, 1"),
-            "this is divided by h once too often: the divide gives (a, b, c) again",
+            "this was divided by h one time too many: the divide gives (a, b, c)",
             "多除了一次 h：除法之后的点仍是 (a, b, c)",
         ),
         mistake(
@@ -60,7 +60,7 @@ pub(super) static MULTIPLES_OF_A_POINT: Exercise = Exercise {
         mistake(
             "w-inverted",
             Wrong::Places(&[(0, 3, "1/h")]),
-            "w is inverted: it is multiplied by h like the other three coordinates",
+            "w is inverted: multiply it by h, like the other three coordinates",
             "w 取成了倒数：它和另外三个坐标一样要乘以 h",
         ),
     ],
@@ -92,13 +92,13 @@ pub(super) static PLACE_OF_A_POINT: Exercise = Exercise {
         mistake(
             "w-lost",
             Wrong::Answer("-2, 6, 4"),
-            "w is ignored: x, y and z are divided by w",
+            "w is ignored: x, y and z must be divided by it",
             "w 丢失了：x、y、z 都要除以它",
         ),
         mistake(
             "multiplied",
             Wrong::Answer("4, -12, -8"),
-            "multiplied by w instead of divided",
+            "you multiplied by w: divide by it instead",
             "应除以 w，却乘上了它",
         ),
         mistake(
@@ -116,7 +116,7 @@ pub(super) static PLACE_OF_A_POINT: Exercise = Exercise {
         mistake(
             "signs-of-y-and-z",
             Wrong::Answer("1, 3, 2"),
-            "x is correct, but y and z ignore the sign of w: they are also divided by −2",
+            "x is correct, but y and z have the wrong sign: divide them by −2 too",
             "x 正确，但 y 和 z 丢了 w 的符号：它们也要除以 −2",
         ),
     ],
@@ -133,12 +133,12 @@ pub(super) static VANISHING_POINT: Exercise = Exercise {
     number: 15,
     title: words("A vanishing point", "灭点"),
     question: words(
-        "The eye is at the origin, and the picture plane is z = −2. At which point (x, y) of that plane is the vanishing point of all lines along (1, −2, −4)?",
+        "The eye is at the origin, and the picture plane is z = −2. Find the vanishing point (x, y) of all lines in the direction (1, −2, −4).",
         "视点在原点，画面是平面 z = −2。沿方向 (1, −2, −4) 的所有直线，其灭点 (x, y) 在画面何处？",
     ),
     hints: &[
         words(
-            "The vanishing point is the image of the direction, where the line through the eye in this direction meets the plane.",
+            "The vanishing point is the image of the direction: the point where the line through the eye in this direction meets the plane.",
             "灭点是方向的像：过视点、沿该方向的直线与画面的交点。",
         ),
         words("Which multiple of (1, −2, −4) has z = −2?", "(1, −2, −4) 的哪个倍数满足 z = −2？"),
@@ -154,13 +154,13 @@ pub(super) static VANISHING_POINT: Exercise = Exercise {
         mistake(
             "distance-forgotten",
             Wrong::Answer("1/4, -1/2"),
-            "the distance of the picture plane, 2, is missing",
+            "the factor 2, the distance to the picture plane, is missing",
             "忘了画面的距离 2",
         ),
         mistake(
             "sign-and-distance",
             Wrong::Answer("-1/4, 1/2"),
-            "this is only x/z and y/z: multiply by z = −2, the plane",
+            "this is only x/z and y/z: multiply both by −2, the z of the plane",
             "只求了 x/z 和 y/z：还要乘以画面的 z = −2",
         ),
         mistake(
@@ -172,7 +172,7 @@ pub(super) static VANISHING_POINT: Exercise = Exercise {
         mistake(
             "distance-divided",
             Wrong::Answer("1/8, -1/4"),
-            "divided by the distance of the plane instead of multiplied",
+            "you divided by the distance to the plane: multiply by it instead",
             "应乘以画面的距离，却除以了它",
         ),
     ],

@@ -23,7 +23,7 @@ pub(super) static CABINET: Exercise = Exercise {
     ),
     hints: &[
         words(
-            "In a cabinet projection depth is drawn at half its length.",
+            "In a cabinet projection, depths are drawn at half their length.",
             "斜二测投影中，深度方向按一半长度画出。",
         ),
         words(
@@ -36,7 +36,7 @@ pub(super) static CABINET: Exercise = Exercise {
         mistake(
             "cavalier",
             Wrong::Computed(|_| Some(image(Oblique::cavalier(30_f64.to_radians()).ok()?, 4.0))),
-            "this is the cavalier projection with L = 1, but a cabinet projection draws depth at half its length",
+            "this is the cavalier projection, with L = 1, but a cabinet projection has L = 1/2",
             "这是斜等测投影，L = 1：斜二测按一半长度画深度",
         ),
         mistake(
@@ -54,13 +54,13 @@ pub(super) static CABINET: Exercise = Exercise {
         mistake(
             "sine-and-cosine-exchanged",
             Wrong::Answer("1+4*sin(30°)/2, 1+4*cos(30°)/2"),
-            "sine and cosine are swapped: x has the cosine",
+            "sine and cosine are swapped: x needs the cosine, and y the sine",
             "正弦与余弦互换了：x 用余弦",
         ),
         mistake(
             "degrees-as-radians",
             Wrong::Computed(|_| Some(image(Oblique::cabinet(30.0).ok()?, 4.0))),
-            "degrees were used as radians: write `30°` or pi/6",
+            "degrees were used as radians: write `30°` or `pi/6`",
             "把角度当成了弧度：请写 `30°` 或 pi/6",
         ),
         mistake(

@@ -12,16 +12,16 @@ pub(super) static THIRD_ROW_OF_P: Exercise = Exercise {
     number: 3,
     title: words("The third row of P", "P 的第三行"),
     question: words(
-        "The bottom row of P is (0 0 1 0), so that w = z, and its third row is (0 0 A B). After the divide, points with z = n and points with z = f must keep their z, where 0 > n > f. Find A and B.",
+        "The third row of P is (0 0 A B), and the bottom row is (0 0 1 0), so w = z. After the divide, points with z = n and points with z = f must keep their z, where 0 > n > f. Find A and B.",
         "P 的最后一行是 (0 0 1 0)，所以 w = z；第三行是 (0 0 A B)。除法之后，z = n 的点和 z = f 的点都应保持各自的 z；0 > n > f。求 A 和 B。",
     ),
     hints: &[
         words(
-            "After the divide z' = (A z + B)/z = A + B/z.",
+            "After the divide, z' = (A z + B)/z = A + B/z.",
             "除法之后 z' = (A z + B)/z = A + B/z。",
         ),
         words(
-            "Subtract A + B/n = n and A + B/f = f to eliminate A.",
+            "Subtract A + B/f = f from A + B/n = n to eliminate A.",
             "A + B/n = n，A + B/f = f：两式相减可消去 A。",
         ),
     ],
@@ -36,7 +36,7 @@ pub(super) static THIRD_ROW_OF_P: Exercise = Exercise {
         mistake(
             "sign-of-a",
             Wrong::Places(&[(0, 0, "-(n+f)")]),
-            "the sign of A is wrong: insert z = n into A + B/z",
+            "the sign of A is wrong: substitute z = n into A + B/z",
             "A 的符号不对：把 z = n 代入 A + B/z 验证",
         ),
         mistake(
@@ -48,7 +48,7 @@ pub(super) static THIRD_ROW_OF_P: Exercise = Exercise {
         mistake(
             "a-and-b-exchanged",
             Wrong::Answer("-n*f, n+f"),
-            "A and B are swapped: A multiplies z, and B multiplies w",
+            "A and B are swapped: A multiplies z, and B is the constant",
             "A 与 B 互换了：A 乘 z，B 乘 w",
         ),
         mistake(
@@ -78,7 +78,7 @@ pub(super) static THIRD_ROW_OF_P: Exercise = Exercise {
         mistake(
             "m5-subscript",
             Wrong::Written(&["f_n", "n_f"]),
-            "f_n is a subscript, as misprinted in the textbook: write the product of n and f as `n*f`",
+            "this has a subscript, as misprinted in the textbook: write the product of n and f as `n*f`",
             "f_n 写成了下标，与教科书印错的一样：应是 f 与 n 的乘积 `n*f`",
         ),
         mistake(
@@ -88,7 +88,7 @@ pub(super) static THIRD_ROW_OF_P: Exercise = Exercise {
                 "-(n+f)/(n-f), 2*n*f/(n-f)",
                 "-(n+f)/(f-n), -2*n*f/(f-n)",
             ]),
-            "this resembles the third row of a perspective projection in OpenGL, which takes near and far to −1 and +1, but P keeps z = n and z = f",
+            "this resembles the third row of OpenGL's perspective matrix, which takes near and far to −1 and +1, but P keeps z = n and z = f",
             "这像 OpenGL 透视矩阵的第三行，它把近平面和远平面映为 −1 和 +1：P 应保持 z = n 和 z = f 不变",
         ),
     ],
@@ -106,13 +106,13 @@ pub(super) static ORDER_OF_DEPTHS: Exercise = Exercise {
     number: 4,
     title: words("The order of depths", "深度的次序"),
     question: words(
-        "P takes z to z' = n + f − f n/z. To see that this preserves the order of depths, write the difference z1' − z2' with the factor (z1 − z2).",
+        "P takes z to z' = n + f − f n/z. To show that this preserves the order of depths, write the difference z1' − z2' with (z1 − z2) as a factor.",
         "P 把 z 映为 z' = n + f − f n/z。为说明它保持深度的次序，把差 z1' − z2' 写成含因子 (z1 − z2) 的形式。",
     ),
     hints: &[
         words("n + f cancels in the difference.", "相减时 n + f 消去。"),
         words(
-            "1/z2 − 1/z1 = (z1 − z2)/(z1 z2). What is the sign of the factor if all four numbers are negative?",
+            "1/z2 − 1/z1 = (z1 − z2)/(z1 z2). What is the sign of the other factor if all four numbers are negative?",
             "1/z2 − 1/z1 = (z1 − z2)/(z1 z2)。四个数都为负时，这个因子是正还是负？",
         ),
     ],
@@ -121,7 +121,7 @@ pub(super) static ORDER_OF_DEPTHS: Exercise = Exercise {
         mistake(
             "sign",
             Wrong::Negated,
-            "the sign is reversed: −f n/z1 + f n/z2 = f n (z1 − z2)/(z1 z2), and the order is preserved",
+            "the sign is reversed: −f n/z1 + f n/z2 = f n (z1 − z2)/(z1 z2), so the order is preserved",
             "符号反了：−f n/z1 + f n/z2 = f n (z1 − z2)/(z1 z2)，次序保持不变",
         ),
         mistake(
@@ -133,7 +133,7 @@ pub(super) static ORDER_OF_DEPTHS: Exercise = Exercise {
         mistake(
             "factor-forgotten",
             Wrong::Answer("(z1-z2)/(z1*z2)"),
-            "the factor f n is missing (it is a product, not a subscript)",
+            "the factor f n (f times n) is missing",
             "缺少因子 f n（它是乘积，不是下标）",
         ),
         mistake(
@@ -145,7 +145,7 @@ pub(super) static ORDER_OF_DEPTHS: Exercise = Exercise {
         mistake(
             "m5-subscript",
             Wrong::Written(&["f_n", "n_f"]),
-            "f_n is a subscript, as misprinted in the textbook: write the product of f and n as `n*f`",
+            "this has a subscript, as misprinted in the textbook: write the product of n and f as `n*f`",
             "f_n 写成了下标，与教科书印错的一样：f 与 n 的乘积请写成 `n*f`",
         ),
     ],
@@ -182,7 +182,7 @@ pub(super) static INVERSE_OF_P: Exercise = Exercise {
         mistake(
             "not-inverted",
             Wrong::Computed(|letters| Some(rows_of(p(letters[0], letters[1]).ok()?.raw()))),
-            "this is P itself",
+            "this is P itself, not its inverse",
             "这就是 P 本身",
         ),
         mistake(
@@ -194,7 +194,7 @@ pub(super) static INVERSE_OF_P: Exercise = Exercise {
         mistake(
             "last-row-sign",
             Wrong::Places(&[(3, 2, "1")]),
-            "the −1 in the last row lacks its sign: multiply by P and look at the last row",
+            "the −1 in the last row lacks its minus sign: multiply by P and look at the last row",
             "最后一行的 −1 丢了负号：与 P 相乘，看最后一行",
         ),
         mistake(
@@ -212,13 +212,13 @@ pub(super) static INVERSE_OF_P: Exercise = Exercise {
         mistake(
             "m5-subscript",
             Wrong::Written(&["f_n", "n_f"]),
-            "f_n is a subscript, as misprinted in the textbook: write the product of f and n as `n*f`",
+            "this has a subscript, as misprinted in the textbook: write the product of n and f as `n*f`",
             "f_n 写成了下标，与教科书印错的一样：f 与 n 的乘积请写成 `n*f`",
         ),
         mistake(
             "last-row-negated",
             Wrong::Places(&[(3, 2, "1"), (3, 3, "-(n+f)")]),
-            "the whole last row has the wrong sign: multiply by P; all rows must have the same factor",
+            "the whole last row has the wrong sign: in the product with P, all rows must have the same factor",
             "最后一行整行的符号不对：与 P 相乘，各行的因子应相同",
         ),
         mistake(
@@ -248,7 +248,7 @@ pub(super) static NEAR_CORNER: Exercise = Exercise {
     number: 7,
     title: words("The corner (r, t, n)", "角点 (r, t, n)"),
     question: words(
-        "M_per = M_orth P takes the view volume with the window [l, r] × [b, t] on z = n to [−1, 1]³, where 0 > n > f and w = z. Where does M_per take (r, t, n, 1) before the divide, as a homogeneous point (x, y, z, w)?",
+        "M_per = M_orth P takes the view volume with the window [l, r] × [b, t] on z = n to [−1, 1]³, where 0 > n > f and w = z. To which homogeneous point (x, y, z, w) does M_per take (r, t, n, 1) before the divide?",
         "M_per = M_orth P 把 z = n 上以 [l, r] × [b, t] 为窗口的视见体映为 [−1, 1]³；0 > n > f，且 w = z。除法之前，M_per 把 (r, t, n, 1) 映为哪个齐次点 (x, y, z, w)？",
     ),
     hints: &[
@@ -257,7 +257,7 @@ pub(super) static NEAR_CORNER: Exercise = Exercise {
             "P 使 z = n 上的点保持原位；作为齐次点，它们乘上了 n。",
         ),
         words(
-            "M_orth takes (r, t, n) to (1, 1, 1), and it is affine.",
+            "M_orth is affine and takes (r, t, n) to (1, 1, 1).",
             "M_orth 把 (r, t, n) 映为 (1, 1, 1)，而它是仿射变换。",
         ),
     ],
@@ -266,13 +266,13 @@ pub(super) static NEAR_CORNER: Exercise = Exercise {
         mistake(
             "divided-too-early",
             Wrong::Answer("1, 1, 1, 1"),
-            "this is already divided: before the divide w = z = n",
+            "this is already divided: before the divide, w = z = n",
             "这已经除过了：除法之前 w = z = n",
         ),
         mistake(
             "divided-too-early",
             Wrong::Answer("1, 1, 1"),
-            "this is the point after the divide: before the divide it has four coordinates, and w = z = n",
+            "this is the point after the divide: before the divide, it has four coordinates, and w = z = n",
             "这是除法之后的点：除法之前有四个数，且 w = z = n",
         ),
         mistake(
@@ -314,7 +314,7 @@ pub(super) static NEAR_CORNER: Exercise = Exercise {
         mistake(
             "only-w-kept",
             Wrong::Answer("1, 1, 1, n"),
-            "x, y and z are already divided, but w is not: before the divide all four have the same factor",
+            "x, y and z are already divided, but w is not: before the divide, all four have the same factor",
             "x、y、z 已经除过，而 w 没有：除法之前四个数有同一个因子",
         ),
     ],
@@ -364,7 +364,7 @@ pub(super) static P_OF_ONE_AND_TWO: Exercise = Exercise {
         mistake(
             "w-lost",
             Wrong::Places(&[(3, 2, "0"), (3, 3, "1")]),
-            "w is wrong: with the last row (0 0 0 1) w stays 1, and nothing gets smaller with distance",
+            "w is wrong: with the last row (0 0 0 1), w stays 1, and nothing gets smaller with distance",
             "w 丢失了：最后一行为 (0 0 0 1) 时 w 恒为 1，远处的物体不会变小",
         ),
         mistake(
@@ -388,19 +388,19 @@ pub(super) static P_OF_ONE_AND_TWO: Exercise = Exercise {
         mistake(
             "m9-negative-planes",
             Wrong::Answer("-1 0 0 0; 0 -1 0 0; 0 0 -3 -2; 0 0 1 0"),
-            "this is P for n = −1 and f = −2, but here n and f are +1 and +2, although the chapter has 0 > n > f",
+            "this is P for n = −1 and f = −2, as in the chapter, where 0 > n > f, but here n = 1 and f = 2",
             "这是 n = −1、f = −2 时的 P：这里 n 和 f 是 +1 和 +2，虽然教科书该章规定 0 > n > f",
         ),
         mistake(
             "opengl-signs",
             Wrong::Answer("1 0 0 0; 0 1 0 0; 0 0 -3 -2; 0 0 -1 0"),
-            "these are the signs of OpenGL matrices with w = −z, but P has w = z and n + f in its third row",
+            "these are the signs of an OpenGL matrix, which has w = −z, but P has w = z and n + f in its third row",
             "这是 OpenGL 矩阵的符号，w = −z：P 的 w = z，第三行含 n + f",
         ),
         mistake(
             "image-turned",
             Wrong::Answer("1 0 0 0; 0 1 0 0; 0 0 -3 2; 0 0 -1 0"),
-            "with w = −z and unchanged x and y the image is rotated by 180°: P has w = z",
+            "with w = −z and unchanged x and y, the image is rotated by 180°, but P has w = z",
             "w = −z 而 x、y 不变时，像转了 180°：P 的 w = z",
         ),
         TRANSPOSED,
@@ -430,7 +430,7 @@ pub(super) static IMAGE_OF_A_POINT: Exercise = Exercise {
         mistake(
             "not-divided",
             Wrong::Answer("x, y, 3*z-2, z; x, y, 3*z-2"),
-            "the second point is not divided: all three coordinates are divided by w = z",
+            "the second point is not divided: divide all three coordinates by w = z",
             "第二个点没有除：三个坐标都要除以 w = z",
         ),
         mistake(
@@ -442,7 +442,7 @@ pub(super) static IMAGE_OF_A_POINT: Exercise = Exercise {
         mistake(
             "m1-coordinate-lost",
             Wrong::Places(&[(1, 0, "1/z"), (1, 1, "1/z")]),
-            "x and y of the point are missing, as in the misprint y_s = d/z: the result is x/z and y/z",
+            "the point's x and y are missing, as in the misprint y_s = d/z: the result must be x/z and y/z",
             "点自身的 x 和 y 丢失了，与印错的 y_s = d/z 一样：应为 x/z 和 y/z",
         ),
         mistake(
@@ -460,7 +460,7 @@ pub(super) static IMAGE_OF_A_POINT: Exercise = Exercise {
         mistake(
             "no-divide",
             Wrong::Answer("x, y, 3*z-2, 1; x, y, 3*z-2"),
-            "w is missing, so nothing is divided: the bottom row (0 0 1 0) gives w",
+            "w is missing, so nothing is divided: the bottom row (0 0 1 0) gives w = z",
             "w 丢失了，因此没有做除法：w 由最后一行 (0 0 1 0) 给出",
         ),
     ],

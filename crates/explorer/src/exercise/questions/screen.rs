@@ -22,16 +22,16 @@ pub(super) static PIXEL_POSITION: Exercise = Exercise {
     number: 20,
     title: words("A position in the image", "图像中的位置"),
     question: words(
-        "In an image of 200 × 100 pixels, pixel (i, j) covers [i, i + 1) × [j, j + 1), and rows are counted from the top. At which position, in pixels, is the point (x, y) = (1/4, 3/10) in normalized device coordinates, where y is up?",
+        "In an image of 200 × 100 pixels, pixel (i, j) covers [i, i + 1) × [j, j + 1), and rows are counted from the top. The point (x, y) = (1/4, 3/10) is given in normalized device coordinates, where y points up. What is its position in pixels?",
         "200 × 100 像素的图像中，像素 (i, j) 覆盖 [i, i + 1) × [j, j + 1)，行自上而下计数。规范化设备坐标（y 向上）的点 (x, y) = (1/4, 3/10) 位于图像的什么位置（以像素计）？",
     ),
     hints: &[
         words(
-            "x = −1 is the left border, 0; x = +1 is the right border, 200.",
+            "x = −1 is the left border, at 0, and x = +1 is the right border, at 200.",
             "x = −1 是左边界 0；x = +1 是右边界 200。",
         ),
         words(
-            "y = +1 is the top border, 0; y = −1 is the bottom border, 100.",
+            "y = +1 is the top border, at 0, and y = −1 is the bottom border, at 100.",
             "y = +1 是上边界 0；y = −1 是下边界 100。",
         ),
     ],
@@ -46,19 +46,19 @@ pub(super) static PIXEL_POSITION: Exercise = Exercise {
         mistake(
             "centers-at-whole-numbers",
             Wrong::Computed(|_| position(YAxis::Down, PixelCenters::Integer)),
-            "the centers are at integers, as in the chapter: here pixel 0 begins at 0, and its center is at ½",
+            "you put the centers at integers, as in the chapter: here pixel 0 begins at 0, and its center is at ½",
             "像素中心取在了整数处，如教科书那样：这里像素 0 从 0 开始，中心在 ½",
         ),
         mistake(
             "chapter-viewport",
             Wrong::Computed(|_| position(YAxis::Up, PixelCenters::Integer)),
-            "this is the chapter's viewport, with rows from the bottom and centers at integers",
+            "this is the chapter's viewport: here rows are counted from the top, and centers are at half-integers",
             "这是教科书的视口：行自下而上，像素中心在整数处",
         ),
         mistake(
             "range-forgotten",
             Wrong::Answer("25, 15"),
-            "multiplied by half the size, but the center of the image is missing: x = 0 is at 100",
+            "you multiplied by half the size but did not add the center of the image: x = 0 is at 100",
             "只乘了尺寸的一半，没有加图像的中心：x = 0 位于 100",
         ),
         mistake(
@@ -84,7 +84,7 @@ pub(super) static TOP_LEFT_RULE: Exercise = Exercise {
     number: 22,
     title: words("The top-left rule", "左上填充规则"),
     question: words(
-        "Pixel (i, j) has its center at (i + ½, j + ½), and y runs down. The triangle with the corners (½, ½), (9/2, ½), (½, 9/2) has pixel centers on all of its edges. By the top-left rule, how many pixels belong to it?",
+        "Pixel (i, j) has its center at (i + ½, j + ½), and y points down. The triangle with the corners (½, ½), (9/2, ½) and (½, 9/2) has pixel centers on all of its edges. By the top-left rule, how many pixels belong to it?",
         "像素 (i, j) 的中心在 (i + ½, j + ½)，y 向下。三角形的顶点为 (½, ½)、(9/2, ½)、(½, 9/2)，它的每条边上都有像素中心。按左上填充规则，它拥有多少个像素？",
     ),
     hints: &[
@@ -102,7 +102,7 @@ pub(super) static TOP_LEFT_RULE: Exercise = Exercise {
         mistake(
             "closed",
             Wrong::Answer("15"),
-            "all three edges were counted: the neighbor at the right edge would draw these pixels a second time",
+            "all three edges were counted, but pixels on the right edge belong to the neighboring triangle",
             "三条边都算上了：右侧边上的相邻三角形会重复绘制这些像素",
         ),
         mistake(
@@ -114,7 +114,7 @@ pub(super) static TOP_LEFT_RULE: Exercise = Exercise {
         mistake(
             "bottom-right",
             Wrong::Answer("6"),
-            "the right edge was counted but the top and left edges were not: it must be the opposite",
+            "the right edge was counted but the top and left edges were not: it must be the other way around",
             "算了右边，没有算上边和左边：应当相反",
         ),
         mistake(

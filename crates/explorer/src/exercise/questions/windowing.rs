@@ -84,7 +84,7 @@ pub(super) static ONE_WINDOWING: Exercise = Exercise {
     number: 2,
     title: words("One windowing", "一次窗口变换"),
     question: words(
-        "M_orth takes the box [l, r] × [b, t] × [f, n] to [−1, 1]³, where 0 > n > f, z = n maps to +1 and z = f to −1. M_vp takes [−1, 1]² to the image [−½, nx − ½] × [−½, ny − ½], with rows counted from the bottom, and preserves z. Write their product M_vp M_orth as one matrix.",
+        "M_orth takes the box [l, r] × [b, t] × [f, n] to [−1, 1]³, where 0 > n > f; z = n maps to +1, and z = f maps to −1. M_vp takes [−1, 1]² to the image [−½, nx − ½] × [−½, ny − ½], with rows counted from the bottom, and preserves z. Write their product M_vp M_orth as one matrix.",
         "M_orth 把长方体 [l, r] × [b, t] × [f, n] 映为 [−1, 1]³，其中 0 > n > f，z = n 映为 +1，z = f 映为 −1。M_vp 把 [−1, 1]² 映为图像 [−½, nx − ½] × [−½, ny − ½]，行自下而上计数，z 不变。把乘积 M_vp M_orth 写成一个矩阵。",
     ),
     hints: &[
@@ -141,7 +141,7 @@ pub(super) static ONE_WINDOWING: Exercise = Exercise {
         mistake(
             "sign-of-the-offset",
             Wrong::Places(&[(0, 3, "-1/2+l*nx/(r-l)"), (1, 3, "-1/2+b*ny/(t-b)")]),
-            "the offsets have the wrong sign: substitute x = l and y = b, which must map to −½",
+            "a sign in each offset is wrong: substitute x = l and y = b, which must map to −½",
             "偏移的符号不对：代入 x = l 和 y = b 验证，它们应映为 −½",
         ),
         TRANSPOSED,
@@ -178,7 +178,7 @@ pub(super) static WINDOW_TO_VIEWPORT: Exercise = Exercise {
     ),
     hints: &[
         words(
-            "There are three steps: move the window's lower left corner to the origin, scale, and move it to the viewport's corner.",
+            "There are three steps: move the window's lower left corner to the origin, scale, and move the corner to that of the viewport.",
             "分三步：把窗口左下角移到原点，缩放，再移到视口的左下角。",
         ),
         words(

@@ -27,7 +27,7 @@ pub(super) const CHAPTER: [Case; 11] = [
         ],
         unknown: (
             "nx/2 0 0 (nx-1)/2; 0 -ny/2 0 ny; 0 0 -1 0; 0 0 0 1",
-            "incorrect: 2 of 16 entries: for nx = 640, ny = 480, your value for row 2, column 4 is 480; your value for row 3, column 3 is -1 (only the sign is wrong)",
+            "incorrect in 2 of 16 entries: for nx = 640, ny = 480, your value for row 2, column 4 is 480; your value for row 3, column 3 is -1 (only the sign is wrong)",
         ),
     },
     Case {
@@ -416,7 +416,7 @@ pub(super) const OWN: [Case; 13] = [
         ],
         unknown: (
             "35, 125",
-            "incorrect: 2 of 2 entries: your value for x is 35; your value for y is 125",
+            "incorrect in 2 of 2 entries: your value for x is 35; your value for y is 125",
         ),
     },
     Case {
