@@ -261,8 +261,9 @@ fn shard_of_task(
     let count = match (wanted, count) {
         (Some(wanted), Some(count)) if wanted != count => {
             return Err(format!(
-                "the array job's task count is {count}, not {wanted}; to run some of its tasks again, \
-                 use --shard I/{wanted}"
+                "the array job has {}, not {wanted}; to run some of its tasks again, \
+                 use --shard I/{wanted}",
+                files::counted(count, "task", "tasks")
             ));
         }
         (None, None) => {

@@ -31,7 +31,7 @@ const INTRODUCTION: [&str; 4] = [
     "Each panel shows the models in one projection, with its class, formula ids (look them up, as",
     "in `alberti reference OB-1`) and first formula. For parallel projections, it lists the drawn",
     "length and direction of one unit along each axis, with 0° to the right; for perspectives, the",
-    "vertical field of view and the vanishing points, in half heights from the center.",
+    "vertical field of view and the vanishing points in half heights from the center.",
 ];
 
 /// The named world axes as unit vectors. Their images give foreshortening and vanishing points.
