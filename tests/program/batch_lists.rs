@@ -63,7 +63,7 @@ fn invalid_lines_fail_by_number_and_the_others_run() {
         ("{\"input\": \"models/a.glb\", \"output\": \"../x.png\"}", "outside the output folder"),
         ("{\"input\": \"models/a.glb\", \"output\": \"/x.png\"}", "outside the output folder"),
         ("{\"input\": \"models/a.glb\", \"output\": \"x.jpg\"}", "end the name in .png"),
-        ("{\"input\": \"models/a.glb\", \"pictures\": []}", "must be a list of pictures"),
+        ("{\"input\": \"models/a.glb\", \"pictures\": []}", "must be a nonempty list of pictures"),
         ("{\"input\": \"models/a.glb\", \"pictures\": [{\"sice\": 1}]}", "pictures[0]: unknown"),
         ("{\"input\": \"models/a.glb\", \"samples\": 3}", "expected 1, 4, 8 or 16"),
         (

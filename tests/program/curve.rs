@@ -136,7 +136,7 @@ fn the_wrap_around_is_shown_with_and_without_clipping() {
     assert!(first == std::fs::read(sandbox.path_of("wrap-around.svg")).expect("a drawing"));
     assert_succeeds(&sandbox, &["demo", "wrap-around", "-o", "wrap-around.html"]);
     let html = std::fs::read_to_string(sandbox.path_of("wrap-around.html")).expect("a page");
-    assert!(html.contains("(1, 0, 3) has w = -3, maps to (-0.433, 0.924)"), "{html}");
+    assert!(html.contains("(1, 0, 3) has w = -3 and maps to (-0.433, 0.924)"), "{html}");
 }
 
 #[test]

@@ -78,7 +78,7 @@ fn matrices_from_the_sources_are_not_misprints() {
         ("-2 0 0 0 0 -2 0 0 0 0 -8 -12 0 0 1 0", "It is the textbook's P: n = -2, f = -6."),
         (
             "-1 0 -.5 0 0 -4/3 1/3 0 0 0 -2 -6 0 0 1 0",
-            "in the convention of the textbook (near +1, far −1), times -1",
+            ", for the textbook (near +1, far −1), times -1",
         ),
         (
             "1 0 0 0 0 1 0 0 0 0 0 0 0 0 -0.2 1",

@@ -26,7 +26,7 @@ fn the_likeliest_reading_matches_the_source_program() {
         ("1 0 0 0 0 1 0 0 0 0 0 0 0 0 1 0", "from the origin onto the plane z = 1, z dropped."),
         (
             "0.9743 0 0 0 0 1.7321 0 0 0 0 -1.0020 -0.2002 0 0 1 0",
-            "It looks like a misprint: with its last row negated, it is a perspective projection: left -0.1026",
+            "It looks like a misprint. With its last row negated, it is a perspective projection: left -0.1026",
         ),
         (
             "0.8575 0 -0.5145 0 0.291 0.8246 -0.4851 0 0.4243 0.5657 0.7071 -7.0711 0 0 0 1",

@@ -45,7 +45,7 @@ impl CsvRecord {
             }
             (FieldState::Plain, '"') => {
                 return Err(
-                    "a quote inside an unquoted field; quote the field, and double the quote"
+                    "an unquoted field contains `\"`; quote the field, and write `\"\"` inside"
                         .to_owned(),
                 );
             }

@@ -15,7 +15,7 @@ use super::output_names::{OutputNames, same_output_fault};
 use super::picture_name::PictureName;
 use crate::BatchError;
 use crate::flag_table::FlagTable;
-use files::{visible_path, visible_text};
+use files::{counted, visible_path, visible_text};
 use serde_json::{Map, Value};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read as _};
@@ -141,7 +141,7 @@ impl JobList {
         };
         let fault = |what: &str| {
             BatchError::Unusable(format!(
-                "{}:1: {what}\n  = help: the first line names the columns: input and, if needed, \
+                "{}:1: {what}\n  = help: name the columns in the first line: input and, if needed, \
                  output, scene and flags such as size",
                 self.name
             ))
@@ -229,8 +229,8 @@ impl JobList {
         let columns = self.columns.as_deref().unwrap_or_default();
         if fields.len() != columns.len() {
             return Err(format!(
-                "the line has {} fields, but the header has {}",
-                fields.len(),
+                "the line has {}, but the header has {}",
+                counted(fields.len(), "field", "fields"),
                 columns.len()
             ));
         }

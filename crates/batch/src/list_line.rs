@@ -72,7 +72,7 @@ impl LineReader<'_> {
                 return Ok(JobGroup { jobs: vec![one], bytes });
             }
             Some(Value::Array(pictures)) if !pictures.is_empty() => pictures,
-            Some(_) => return Err("`pictures` must be a list of pictures".to_owned()),
+            Some(_) => return Err("`pictures` must be a nonempty list of pictures".to_owned()),
         };
         if members.contains_key("output") {
             return Err("`output` conflicts with `pictures`; set it for each picture".to_owned());

@@ -62,7 +62,7 @@ impl RunCounts {
             ("failed", self.failed),
             ("failed_before", self.failed_before),
         ];
-        head(&mut text, "jobs_total", "counter", "Finished jobs of this run, by status.");
+        head(&mut text, "jobs_total", "counter", "Jobs finished in this run, by status.");
         for (status, count) in jobs {
             let _ = writeln!(text, "alberti_batch_jobs_total{{status=\"{status}\"}} {count}");
         }

@@ -130,8 +130,7 @@ pub(super) fn worker_end_message(end: &WorkerEnd, text: &str, policy: JobPolicy)
             return format!("timed out after {seconds} s\n  = help: raise --job-seconds");
         }
         WorkerEnd::Signal(9) => {
-            "the worker was killed twice (SIGKILL), probably by the system because it was out of \
-             memory"
+            "the worker was killed twice (SIGKILL), probably because the system was out of memory"
                 .to_owned()
         }
         WorkerEnd::Signal(signal) => {
@@ -147,7 +146,7 @@ pub(super) fn worker_end_message(end: &WorkerEnd, text: &str, policy: JobPolicy)
     };
     // Rust's allocator prints this before it aborts.
     if text.contains("memory allocation of") {
-        return format!("out of memory: {what}: {text}\n  = help: raise --job-memory");
+        return format!("the worker ran out of memory: {text}\n  = help: raise --job-memory");
     }
     if text.is_empty() { what } else { format!("{what}: {text}") }
 }

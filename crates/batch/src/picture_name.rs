@@ -110,7 +110,7 @@ pub(super) fn check_picture_name(name: &str) -> Result<(), String> {
     if !is_normal || name.contains('\0') {
         return Err(format!(
             "the picture {shown} would be outside the output folder\n  = help: give a relative \
-             path without `.` and `..`"
+             path without `.` or `..`"
         ));
     }
     if !has_png_extension(name) {

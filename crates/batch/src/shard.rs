@@ -97,7 +97,7 @@ pub fn parse_shard(text: &str) -> Result<Shard, String> {
 
 /// Parses a shard like [`parse_shard`], with these environment variables.
 fn parse_shard_with(text: &str, variable: impl Fn(&str) -> Option<usize>) -> Result<Shard, String> {
-    let fault = || "expected I/N with I from 1 to N, such as 2/8, or auto, or auto/N".to_owned();
+    let fault = || "expected I/N (I from 1 to N, as in 2/8), auto or auto/N".to_owned();
     if text == "auto" {
         return shard_of_task(variable, None);
     }
@@ -253,15 +253,17 @@ fn shard_of_task(
     let Some((name, index, count)) = known.next() else {
         let names: Vec<&str> = SCHEDULERS.iter().map(|scheduler| scheduler.index).collect();
         return Err(format!(
-            "no array job found in the environment: none of {} is set together with its count",
+            "no array job in the environment: none of {} is set together with its task count; use \
+             --shard I/N",
             names.join(", ")
         ));
     };
     let count = match (wanted, count) {
         (Some(wanted), Some(count)) if wanted != count => {
             return Err(format!(
-                "the array job has {count} tasks, not {wanted}; to run some of its tasks again, \
-                 use --shard I/{wanted}"
+                "the array job has {}, not {wanted}; to run some of its tasks again, \
+                 use --shard I/{wanted}",
+                files::counted(count, "task", "tasks")
             ));
         }
         (None, None) => {
@@ -271,9 +273,8 @@ fn shard_of_task(
         }
         (wanted, count) => wanted.or(count).unwrap_or(1),
     };
-    Shard::new(index, count).ok_or_else(|| {
-        format!("{name} selects task {}, but there are only {count} shards", index + 1)
-    })
+    Shard::new(index, count)
+        .ok_or_else(|| format!("{name} selects task {}, but the shard count is {count}", index + 1))
 }
 
 #[cfg(test)]

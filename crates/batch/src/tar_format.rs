@@ -68,7 +68,7 @@ fn append_block(
     if size.len() != SIZE.len() {
         return Err(Error::new(
             ErrorKind::FileTooLarge,
-            "a file in a tar must be smaller than 8 GiB",
+            "files in a tar archive must be smaller than 8 GiB",
         ));
     }
     header[SIZE].copy_from_slice(size.as_bytes());

@@ -163,13 +163,13 @@ fn parse_field(
     match (found(words), format) {
         (Some(word), None) => Ok(TemplatePart::Word(word)),
         (Some(_), Some(_)) => Err(format!(
-            "`{{{field}}}` in the template {text} is a text field and allows no digits\n  = help: write {{{name}}}"
+            "the text field `{{{field}}}` in the template {text} allows no digits\n  = help: write {{{name}}}"
         )),
         (None, _) => {
             let known = words.iter().chain(numbers).map(|name| format!("{{{name}}}"));
             let known = known.collect::<Vec<_>>().join(", ");
             Err(format!(
-                "unknown field `{{{name}}}` in the template {text}\n  = help: possible fields: {known}; write {{{{ and }}}} for braces"
+                "unknown field `{{{name}}}` in the template {text}\n  = help: use one of {known}; write {{{{ and }}}} for braces"
             ))
         }
     }
@@ -232,7 +232,7 @@ mod tests {
             ("{stem", "unmatched brace"),
             ("stem}", "unmatched brace"),
             ("{stm}", "{stem}, {view}, {frame}"),
-            ("{}", "possible fields"),
+            ("{}", "use one of"),
             ("{frame:4}", "{frame:04}"),
             ("{frame:00}", "{frame:04}"),
             ("{stem:04}", "no digits"),

@@ -79,7 +79,7 @@ impl VerdictCounts {
             Verdict::Wrong(why) => (&mut self.wrong, Some(format!("wrong: {why}"))),
             Verdict::Failed => {
                 let words =
-                    "failed: see the report for its message; use --retry-failed to retry it";
+                    "failed: see the report for the message; use --retry-failed to retry it";
                 (&mut self.failed, Some(words.to_owned()))
             }
         };

@@ -75,8 +75,8 @@ pub enum CameraError {
     },
     /// A matrix that should be a rotation has rows that are not perpendicular unit vectors.
     #[error(
-        "the matrix is not a rotation: dot products of its rows are off by {deviation:.2e}, and \
-         at most 1e-4 is allowed"
+        "the matrix is not a rotation: dot products of its rows are off by {deviation:.2e}, \
+         more than the allowed 1e-4"
     )]
     NotRotation {
         /// The largest deviation of a dot product of two rows from 1 or 0.

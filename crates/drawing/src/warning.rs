@@ -119,7 +119,7 @@ impl fmt::Display for Warning {
         match self {
             Self::Lines(warning) => warning.fmt(f),
             Self::SectionsIgnored => f.write_str(
-                "sections are ignored: they cut only line drawings; choose a style such as \
+                "sections are ignored: they apply only to line drawings; choose a style such as \
                  `--style lines`",
             ),
             Self::AnaglyphIgnored => f.write_str(
@@ -150,8 +150,8 @@ impl fmt::Display for Warning {
                 "so many faces overlap that their outlines are traced on a fine grid and are not exact",
             ),
             Self::OutlinesLeftOut => f.write_str(
-                "the models have so many instances that drawing their outlines would take too long, \
-                 so the outlines are omitted: `--no-line-limits` draws them",
+                "the outlines of the models are omitted because drawing so many instances would take \
+                 too long: use `--no-line-limits` to draw them",
             ),
             Self::InkReplaced { invisible, ink } => {
                 let [from, to] = [invisible, ink].map(|[r, g, b]| format!("#{r:02x}{g:02x}{b:02x}"));

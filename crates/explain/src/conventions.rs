@@ -90,7 +90,7 @@ impl ApiConventions {
                  rows from the bottom, centers at integers"
             }
             Self::ChapterYDown => {
-                "the textbook's with pixel rows from the top (exercise 1); centers at integers"
+                "the textbook, but with pixel rows from the top (exercise 1); centers at integers"
             }
             Self::OpenGl => {
                 "near at z = -1, far at 1; y up; looks along -z (right-handed); pixel rows from the \

@@ -21,7 +21,7 @@ pub(super) fn foreshortening_step<S: Space>(start: HPoint<S>, end: HPoint<S>) ->
         .with_item("w_r", "w_r, of a", start.w())
         .with_item("w_R", "w_R, of b", end.w());
     let Ok(f) = Foreshortening::from_endpoints(start, end) else {
-        let words = "not defined: w is 0 at an end or changes sign between them; clip first";
+        let words = "not defined: w is 0 at an end or changes sign between the ends; clip first";
         return step.with_item("f", "f(t)", words);
     };
     for (id, t) in SAMPLES {

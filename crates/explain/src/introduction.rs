@@ -5,7 +5,7 @@ use super::{Explanation, ItemValue};
 /// The introduction to the stages from the world to the screen.
 const PIPELINE: &str = "\
 The steps follow the viewing pipeline: model, camera, projection, clipping, divide by w, \
-viewport. Each shows its matrices and the resulting coordinates of the subject. Lengths in world \
+viewport. Each step shows its matrices and the resulting coordinates of the subject. Lengths in world \
 and view space are in scene units (meters in glTF), clip space and NDC have no unit, and screen \
 coordinates are in pixels. Matrices multiply column vectors, so products are read from right to left.";
 

@@ -143,7 +143,7 @@ fn affine_step(map: Projective<View, Clip>, meaning: &MatrixMeaning) -> Option<S
     } else if slanted {
         "the axes do not stay at right angles: there is a shear"
     } else {
-        "the axes stay at right angles: a rotation and scales"
+        "the axes stay at right angles: a rotation and scaling"
     };
     let determinant = axes[0].cross(axes[1]).dot(axes[2]);
     let handedness = match determinant {
@@ -249,7 +249,7 @@ fn misprint_step(at: usize, rows: [[f64; 4]; 4], slip: &Suspicion) -> Step {
     let known = slip.misprint.id().unwrap_or("unnumbered");
     let title = match (slip.misprint, slip.strength) {
         (Misprint::Transposed, SuspicionStrength::Likely) => {
-            "It looks like a matrix for row vectors, or stored column by column".to_owned()
+            "It looks like a matrix for row vectors, or one stored by columns".to_owned()
         }
         (Misprint::Transposed, SuspicionStrength::Equal) => {
             "It may also be a matrix for row vectors: the numbers are the same".to_owned()
@@ -308,26 +308,29 @@ fn matrix_verdict(map: Projective<View, Clip>, found: &Recognition) -> String {
             Some(Misprint::LastRowNegated) => "its last row negated".to_owned(),
             _ => format!("the sign of {} flipped", entry_words(map.rows(), found)),
         };
-        return format!("It looks like a misprint: with {slip}, it is {corrected}.");
+        return format!("It looks like a misprint. With {slip}, it is {corrected}.");
     }
     if let Some((reading, _)) = corrected {
         let turned = describe_meaning(&reading);
         let stands = what.replacen("It is", "As given, for column vectors, it is", 1);
         return format!(
-            "Transposed, it is {turned}: the matrix is for row vectors, or stored by columns. {stands}"
+            "Transposed, it is {turned}. The matrix is for row vectors, or stored by columns. {stands}"
         );
     }
     if let Some(slip) = found.misprint() {
-        return format!("{what} But it looks like a misprint: {}.", slip.misprint.description());
+        return format!(
+            "{what} But it looks like a misprint in which {}.",
+            slip.misprint.description()
+        );
     }
     match found.suspicions.first() {
         Some(slip) if slip.misprint == Misprint::Transposed => {
-            format!("{what} For row vectors the same numbers are {}.", turned(slip))
+            format!("{what} For row vectors, the same numbers are {}.", turned(slip))
         }
         Some(slip) => {
             let id = slip.misprint.id().map_or(String::new(), |id| format!(" ({id})"));
             format!(
-                "{what} A known misprint{id} has the same numbers: {}.",
+                "{what} A known misprint{id} has the same numbers; in it, {}.",
                 slip.misprint.description()
             )
         }

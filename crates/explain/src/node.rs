@@ -72,7 +72,8 @@ fn tree_step(model: &Model, node: usize) -> Step {
     let mesh = here.and_then(|node| node.mesh).and_then(|mesh| model.meshes.get(mesh));
     let mesh = mesh.map_or("none".to_owned(), |mesh| {
         let name = mesh.name.as_deref().unwrap_or("unnamed");
-        format!("{name}, {} primitives", mesh.primitives.len())
+        let count = mesh.primitives.len();
+        format!("{name}, {count} {}", if count == 1 { "primitive" } else { "primitives" })
     });
     let step = Step::new("tree", "The node in its model", None)
         .with_item("path", "from the root", path.join(" › "))
@@ -212,9 +213,14 @@ impl PrimitiveCounts {
             );
         };
         let common = self.common_outcode.unwrap_or(Outcode::INSIDE);
+        let place = if common.is_inside() {
+            "not outside any one plane".to_owned()
+        } else {
+            describe_outcode(common)
+        };
         step.with_item("least", "minimum x, y, z in world space", min.to_array())
             .with_item("most", "maximum x, y, z", most.to_array())
-            .with_item("outside", "the whole mesh is", describe_outcode(common))
+            .with_item("outside", "the whole mesh is", place)
     }
 
     /// Returns the step with the counts.
@@ -250,7 +256,7 @@ impl PrimitiveCounts {
         } else if self.visible > 0 {
             let percentage = format_number(100.0 * self.visible as f64 / self.total as f64);
             format!(
-                "{} of {} ({percentage}%) are in the view volume; any that are not visible are behind other surfaces.",
+                "Points, lines and triangles in the view volume: {} of {} ({percentage}%). Any that are not visible are behind other surfaces.",
                 self.visible, self.total
             )
         } else if self.back_facing > 0

@@ -31,10 +31,15 @@ pub fn explain_pixel(
     x: u32,
     y: u32,
 ) -> Result<Explanation, String> {
-    let pixel = inspect_pixel(scene, x, y).map_err(|error| error.to_string())?.ok_or_else(|| {
-        let (width, height) = (scene.image.width, scene.image.height);
-        format!("there is no shaded pixel ({x}, {y}): the picture is {width} x {height}, and line drawings have no shaded pixels")
-    })?;
+    let pixel =
+        inspect_pixel(scene, x, y).map_err(|error| error.to_string())?.ok_or_else(|| {
+            let (width, height) = (scene.image.width, scene.image.height);
+            if x < width && y < height {
+                "line drawings have no shaded pixels: choose another style".to_owned()
+            } else {
+                format!("the pixel ({x}, {y}) is outside the {width} x {height} picture")
+            }
+        })?;
     let mut steps = Vec::new();
     steps.extend(
         pixel.fragments.iter().enumerate().map(|(at, seen)| fragment_step(scene, at, seen)),

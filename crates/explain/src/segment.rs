@@ -11,7 +11,7 @@ use super::foreshortening::foreshortening_step;
 use super::plain_text::format_number;
 use super::transform_chain::{TransformChain, describe_outcode};
 use super::{Explanation, Step};
-use clip::{clip_segment, segment_outcomes};
+use clip::{Volume, clip_segment, segment_outcomes};
 use homog::{Clip, HPoint, Point, World};
 
 /// Follows a world segment through every stage.
@@ -44,8 +44,7 @@ pub fn explain_segment(chain: &TransformChain, ends: [Point<World>; 2]) -> Expla
             )
         }
         None => {
-            let by = segment_outcomes(a, b, &volume).rejected;
-            format!("None of it is in the picture: it is {}.", describe_outcode(by))
+            format!("None of it is in the picture: it is {}.", describe_rejection(a, b, &volume))
         }
     };
     Explanation { subject: "A segment from a to b".to_owned(), steps, verdict }
@@ -54,7 +53,7 @@ pub fn explain_segment(chain: &TransformChain, ends: [Point<World>; 2]) -> Expla
 /// Returns the clipping step: the planes through which the visible part enters and leaves.
 ///
 /// `left` is `None` for a segment rejected trivially or because its interval is empty (t₀ > t₁);
-/// the step then names the planes that the segment is outside of.
+/// the step then names the planes that reject it.
 fn clip_step(
     chain: &TransformChain,
     a: HPoint<Clip>,
@@ -63,8 +62,8 @@ fn clip_step(
 ) -> Step {
     let step = Step::new("clip", "Clipping, in homogeneous space", Some("CL-2"));
     let Some(left) = left else {
-        let by = segment_outcomes(a, b, &chain.clip_volume()).rejected;
-        return step.with_item("rejected", "rejected", describe_outcode(by));
+        let why = describe_rejection(a, b, &chain.clip_volume());
+        return step.with_item("rejected", "rejected", why);
     };
     let plane = |plane: Option<clip::PlaneIndex>, otherwise: &str| {
         plane.map_or_else(|| otherwise.to_owned(), |plane| format!("the {plane} plane"))
@@ -74,4 +73,14 @@ fn clip_step(
         .with_item("t", "from t to t", [left.t0, left.t1])
         .with_item("start", "start, clip", <[f64; 4]>::from(left.start))
         .with_item("end", "end, clip", <[f64; 4]>::from(left.end))
+}
+
+/// Describes why a segment is rejected.
+///
+/// Two planes can reject a segment that passes outside a corner of the volume, although it is not
+/// completely outside either of them.
+fn describe_rejection(a: HPoint<Clip>, b: HPoint<Clip>, volume: &Volume) -> String {
+    let planes = describe_outcode(segment_outcomes(a, b, volume).rejected);
+    let is_outside = !(volume.outcode(a) & volume.outcode(b)).is_inside();
+    if is_outside { planes } else { planes.replacen("outside", "rejected by", 1) }
 }

@@ -199,7 +199,7 @@ impl TransformChain {
                 .with_item("w", "w, against the gaze", <[f64; 3]>::from(self.camera.w()))
                 .with_item(
                     "translation",
-                    "T, moves the eye to the origin",
+                    "T, which moves the eye to the origin",
                     self.camera.translation().rows(),
                 )
                 .with_item("rotation", "R, with rows u, v, w", self.camera.rotation().rows());
@@ -273,8 +273,11 @@ impl TransformChain {
     /// A bit is set if the signed distance of the point from a plane is negative, such as w − x for
     /// the right plane (Cohen and Sutherland). Bits are printed in binary and as plane names.
     pub(super) fn outcode_step(&self, points: &[NamedPoint<'_, HPoint<Clip>>]) -> Step {
-        let mut step =
-            Step::new("outcodes", "Outcodes: the planes each point is outside", Some("CL-1"));
+        let mut step = Step::new(
+            "outcodes",
+            "Outcodes: the planes that each point is outside of",
+            Some("CL-1"),
+        );
         for (name, point) in points {
             let code = self.clip_volume().outcode(*point);
             let words = format!("{:06b}, {}", code.bits(), describe_outcode(code));
@@ -378,14 +381,18 @@ fn infinity_item(name: &str) -> ExplanationEntry {
     }
 }
 
-/// Describes an outcode in words: `inside`, or `outside the near, left planes`.
+/// Describes an outcode in words: `inside`, or `outside the near and left planes`.
 pub(super) fn describe_outcode(code: Outcode) -> String {
     if code.is_inside() {
         return "inside".to_owned();
     }
     let names: Vec<String> = code.planes().map(|plane| plane.to_string()).collect();
-    let planes = if names.len() == 1 { "plane" } else { "planes" };
-    format!("outside the {} {planes}", names.join(", "))
+    match names.as_slice() {
+        [first @ .., last] if !first.is_empty() => {
+            format!("outside the {} and {last} planes", first.join(", "))
+        }
+        _ => format!("outside the {} plane", names.join("")),
+    }
 }
 
 /// Returns the suffix of an item's id for a labeled point.

@@ -63,7 +63,13 @@ pub fn explain_triangle(
         clip_step(&clipped),
     ];
     let verdict = if clipped.is_empty() {
-        format!("None of it is in the picture: {}.", describe_outcode(clipped.outcomes.rejected))
+        let rejected = clipped.outcomes.rejected;
+        let why = if rejected.is_inside() {
+            "a corner is not a finite point".to_owned()
+        } else {
+            describe_outcode(rejected).replacen("outside", "it is rejected by", 1)
+        };
+        format!("None of it is in the picture: {why}.")
     } else {
         let names: Vec<String> = (1..=clipped.vertices().len()).map(|n| n.to_string()).collect();
         let corners: Vec<_> = names
@@ -75,7 +81,7 @@ pub fn explain_triangle(
         let area = screen_area(chain, &clipped);
         steps.push(area_step(area));
         format!(
-            "{} corners remain, covering {} pixels.",
+            "After clipping, it has {} corners and covers {} pixels.",
             clipped.vertices().len(),
             format_number(area.abs())
         )

@@ -98,7 +98,7 @@ const TEXTS = {
 const TERMS = {
   'Camera: from the world to view space': '相机：从世界坐标到观察坐标',
   'Projection: from view to clip space': '投影：从观察坐标到裁剪坐标',
-  'Outcodes: the planes each point is outside': '区域码：在哪些平面之外',
+  'Outcodes: the planes that each point is outside of': '区域码：在哪些平面之外',
   'The divide by w': '透视除法：除以 w',
   'Viewport: to pixels': '视口变换：到像素',
   eye: '视点',
@@ -106,7 +106,7 @@ const TERMS = {
   'u, to the right': 'u，向右',
   'v, up': 'v，向上',
   'w, against the gaze': 'w，与视线相反',
-  'T, moves the eye to the origin': 'T，视点移到原点',
+  'T, which moves the eye to the origin': 'T，视点移到原点',
   'R, with rows u, v, w': 'R，各行为 u、v、w',
   'M_cam, the product': 'M_cam，二者之积',
   view: '观察坐标',

@@ -183,7 +183,7 @@ impl Exercise {
         let (en, zh) = blanks.map_or_else(Default::default, |product| {
             (
                 format!(
-                    "; a space separates entries: write `{product}`, or put commas between entries"
+                    "; spaces separate entries, so write `{product}` or put commas between entries"
                 ),
                 format!("；空格用来分隔元素：请写成 `{product}`，或在元素之间用逗号"),
             )

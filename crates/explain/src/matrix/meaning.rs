@@ -10,13 +10,14 @@ use recognition::{CameraReading, Lens, MatrixMeaning, MatrixReading, ViewportRea
 pub(super) fn describe_meaning(reading: &MatrixReading) -> String {
     let meaning = &reading.meaning;
     let convention = match meaning.convention() {
-        Some(convention) => format!(", in the convention of {}", volume_name(convention)),
+        Some(convention) => format!(", for {}", volume_name(convention)),
         None => String::new(),
     };
     let factor = match reading.factor {
         1.0 => String::new(),
         -1.0 if has_distance(meaning) => {
-            ", times -1: w is negative in front of the eye, so negate it before clipping".to_owned()
+            ", times -1 (w is negative in front of the eye; negate the matrix before clipping)"
+                .to_owned()
         }
         factor => format!(", all times {}", format_number(factor)),
     };
@@ -224,10 +225,10 @@ fn describe_transform(meaning: &MatrixMeaning) -> String {
     match meaning {
         MatrixMeaning::Identity => "the identity".to_owned(),
         MatrixMeaning::Translation { by } => format!("a translation by {}", list(*by)),
-        MatrixMeaning::Scale { factors } => format!("a scale by {}", list(*factors)),
+        MatrixMeaning::Scale { factors } => format!("a scaling by {}", list(*factors)),
         MatrixMeaning::Windowing { scale, offset } => {
             format!(
-                "windowing: a scale by {}, then a translation by {}",
+                "windowing: a scaling by {}, then a translation by {}",
                 list(*scale),
                 list(*offset)
             )

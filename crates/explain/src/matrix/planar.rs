@@ -38,7 +38,7 @@ pub fn explain_planar_matrix(rows: [[f64; 3]; 3]) -> Result<Explanation, String>
         let turned = [0, 1, 2].map(|i| [0, 1, 2].map(|j| rows[j][i]));
         let meant = first(&recognize_planar(turned).0, &turned);
         verdict = format!(
-            "Transposed, it is {meant}: the matrix is for row vectors, or stored by columns. As given, \
+            "Transposed, it is {meant}. The matrix is for row vectors, or stored by columns. As given, \
              for column vectors, it is {stands}."
         );
         let step = Step::new("misprint", "It looks like a matrix for row vectors", None).with_item(

@@ -140,7 +140,7 @@ impl DepthTable {
         let planes = [self.near, self.far].map(|distance| format_short(distance, 6));
         let mut notes = vec![
             format!("near {}, far {}, {format}; distances in scene units", planes[0], planes[1]),
-            format!("half of the range is used up to 2FN/(F+N) = {half_range_distance}"),
+            format!("half of the range covers distances up to 2FN/(F+N) = {half_range_distance}"),
         ];
         notes.extend(self.moved_midpoint().map(|[middle, moved]| {
             let [middle, moved] = [middle, moved].map(|distance| format_short(distance, 5));

@@ -28,10 +28,10 @@ use scene_file::file::{CameraFile, ProjectionFile, SceneFile};
 
 /// The text at the top of the page.
 const INTRODUCTION: [&str; 4] = [
-    "Each panel shows the same models in one projection, with its class, the ids of its formulas",
-    "(look them up with `alberti reference OB-1`) and the first formula. Parallel projections list",
-    "the drawn length and direction of one unit along each axis, with 0° to the right; perspectives",
-    "list the vertical field of view, and the vanishing points in half heights from the center.",
+    "Each panel shows the models in one projection, with its class, formula ids (look them up, as",
+    "in `alberti reference OB-1`) and first formula. For parallel projections, it lists the drawn",
+    "length and direction of one unit along each axis, with 0° to the right; for perspectives, the",
+    "vertical field of view and the vanishing points in half heights from the center.",
 ];
 
 /// The named world axes as unit vectors. Their images give foreshortening and vanishing points.
@@ -229,7 +229,7 @@ fn describe_axes(map: Projective<World, Clip>, size: DVec2, pixels: Option<f64>)
     let drawn = images.map(|(name, image)| {
         let length_in_units = length(image) / unit;
         if length_in_units < 1e-9 {
-            return format!("{name} a point");
+            return format!("{name} as a point");
         }
         let degrees = libm::atan2(image.y, image.x).to_degrees();
         let degrees = libm::round(degrees * 10.0) / 10.0;
@@ -299,7 +299,7 @@ mod tests {
             (
                 ProjectionFile::Multiview(projection::PrincipalView::Front),
                 "MV-1",
-                "x 1 at 0° · y 1 at 90° · z a point",
+                "x 1 at 0° · y 1 at 90° · z as a point",
             ),
         ];
         for (projection, formula, axes) in cases {

@@ -110,14 +110,14 @@ impl SweepParameter {
     /// It follows the name of the parameter in the page title.
     const fn caption(self) -> &'static str {
         match self {
-            Self::Fov => "a smaller angle enlarges",
-            Self::Height => "a smaller window enlarges, regardless of the eye",
-            Self::Aspect => "an aspect ratio that differs from the picture's distorts",
+            Self::Fov => "a smaller angle enlarges the models",
+            Self::Height => "a smaller window enlarges the models, wherever the eye is",
+            Self::Aspect => "an aspect ratio unlike that of the picture distorts the models",
             Self::Near => "the near plane only clips",
             Self::Far => "the far plane only clips",
             Self::Lens => "the distance of a fixed-size window sets the angle",
             Self::Shift => "a shifted window moves the picture without distorting it",
-            Self::Distance => "a closer eye enlarges and steepens the perspective",
+            Self::Distance => "a closer eye enlarges the models and steepens the perspective",
             Self::Dolly => "distance and angle balance: only the center keeps its size",
             Self::Angle => "the camera orbits the models",
         }

@@ -170,7 +170,7 @@ fn side_panel(boards: &[Board]) -> Panel {
     page.layers.extend([plane, with_thin_pen(angle), with_thin_pen(words)]);
     let notes = vec![
         format!("eye at height {EYE_HEIGHT}, looking along -z; near plane at {NEAR}"),
-        "black: in front of the eye; red: crossing the plane of the eye; blue: behind it"
+        "black boards are in front of the eye, red ones cross its plane, blue ones are behind it"
             .to_owned(),
     ];
     let (id, title) = ("side".to_owned(), "from the side".to_owned());
@@ -219,7 +219,7 @@ fn clipped_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
         format!("{left} of {} {}", boards_of_kind.count(), BOARD_KINDS[kind].0)
     };
     let notes = vec![
-        format!("remaining boards: {}, {}, {}", count(0), count(1), count(2)),
+        format!("remaining: {}, {}, {}", count(0), count(1), count(2)),
         format!("the smallest divisor w is {}", format_short(least, 4)),
     ];
     boards_panel("clipped", "clipped first", notes, boards, outline)
@@ -271,7 +271,7 @@ fn describe_image(map: Projective<World, Clip>, point: Point<World>) -> String {
     let clip = map.transform_point(point);
     let Some(image) = clip.divide() else { return "has no image".to_owned() };
     let [w, x, y] = [clip.w(), image.x(), image.y()].map(|number| format_short(number, 3));
-    format!("has w = {w}, maps to ({x}, {y})")
+    format!("has w = {w} and maps to ({x}, {y})")
 }
 
 /// Returns text as strokes.
@@ -338,7 +338,7 @@ mod tests {
         for (z, note) in [(3.0, 0), (0.01, 1)] {
             let [ahead, behind] = [z, -z].map(|w: f64| {
                 format!(
-                    "w = {}, maps to ({}, {})",
+                    "w = {} and maps to ({}, {})",
                     format_short(w, 3),
                     format_short(x / w, 3),
                     format_short(y / w, 3)

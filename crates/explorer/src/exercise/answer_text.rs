@@ -167,7 +167,7 @@ fn order_by_name(entries: Vec<&str>, names: &[&str]) -> Result<Vec<String>, Answ
     let unknown = |name: &str| {
         let known = names.join(", ");
         AnswerError::new(
-            format!("enter each of {known} once, such as `{} = …`; see `{name}`", names[0]),
+            format!("enter each of {known} once, as in `{} = …`; check `{name}`", names[0]),
             format!("请把 {known} 各给出一次，例如 `{} = …`；`{name}`", names[0]),
         )
     };

@@ -72,7 +72,7 @@ pub(super) fn evaluate(entry: &str, letters: Letters<'_>) -> Result<f64, AnswerE
     let at: Vec<String> = each.map(|(name, value)| format!("{name} = {value}")).collect();
     let at = at.join(", ");
     Err(AnswerError::new(
-        format!("`{entry}` is not a finite number ({at})").replace(" ()", ""),
+        format!("`{entry}` is not a finite number (for {at})").replace(" (for )", ""),
         format!("`{entry}` 不是有限数 {at}").trim_end().to_owned(),
     ))
 }

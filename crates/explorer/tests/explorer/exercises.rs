@@ -83,7 +83,7 @@ fn rounded_answers_are_flagged_and_invalid_answers_rejected() {
         (
             2,
             "nx/(r-l) 0 0 -1/2 - l nx/(r-l); 0 ny/(t-b) 0 -1/2 - b ny/(t-b); 0 0 2/(n-f) -(n+f)/(n-f); 0 0 0 1",
-            "5 + 5 + 4 + 4 entries instead of 4 + 4 + 4 + 4: enter a 4 × 4 matrix, its rows separated by `;`, in terms of nx, ny, l, r, b, t, n, f; a space separates entries: write `l*nx`, or put commas",
+            "5 + 5 + 4 + 4 entries instead of 4 + 4 + 4 + 4: enter a 4 × 4 matrix, its rows separated by `;`, in terms of nx, ny, l, r, b, t, n, f; spaces separate entries, so write `l*nx` or put commas",
         ),
         (2, "f_n, 1", "write `f*n`"),
         (5, "1 + (a, b, c, 1)", "write out every entry"),

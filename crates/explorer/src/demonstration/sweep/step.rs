@@ -56,10 +56,10 @@ impl BaseProjection {
         );
         match self {
             Self::Parallel(_) if is_of_perspective => Some(
-                "the scene's projection is parallel; use a perspective projection, or vary the height",
+                "the scene's projection is parallel; use a perspective projection, or vary `height`",
             ),
             Self::Perspective(_) if vary == SweepParameter::Height => Some(
-                "the scene has a perspective projection; use an orthographic projection, or vary the fov",
+                "the scene has a perspective projection; use an orthographic projection, or vary `fov`",
             ),
             _ => None,
         }
@@ -155,17 +155,18 @@ impl SweepBase {
     /// Values that are not finite are rejected for every parameter.
     fn unmet_requirement(&self, vary: SweepParameter, value: f64) -> Option<&'static str> {
         let is_parallel = matches!(self.projection, BaseProjection::Parallel(_));
+        if !value.is_finite() {
+            return Some("it must be finite");
+        }
         let (is_allowed, allowed) = match vary {
             SweepParameter::Fov => {
                 (value > 0.0 && value < 180.0, "it must be between 0 and 180 degrees")
             }
-            SweepParameter::Shift | SweepParameter::Angle => (true, "it must be a number"),
-            SweepParameter::Near | SweepParameter::Far if is_parallel => {
-                (true, "it must be a number")
-            }
+            SweepParameter::Shift | SweepParameter::Angle => return None,
+            SweepParameter::Near | SweepParameter::Far if is_parallel => return None,
             _ => (value > 0.0, "it must be greater than 0"),
         };
-        (!is_allowed || !value.is_finite()).then_some(allowed)
+        (!is_allowed).then_some(allowed)
     }
 
     /// Returns the camera for a value of a parameter that moves it.

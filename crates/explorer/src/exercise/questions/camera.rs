@@ -22,12 +22,12 @@ pub(super) static CAMERA_ABOVE: Exercise = Exercise {
     ),
     hints: &[
         words(
-            "Find w, then t × w, which becomes a unit vector only after dividing by its length.",
+            "Find w, then t × w, and divide it by its length to obtain the unit vector u.",
             "先求 w，再求 t × w；它在除以长度之前不必是单位向量。",
         ),
         words(
-            "The rows of M_cam begin with u, v and w, and end with −u·e, −v·e and −w·e.",
-            "M_cam 的各行以 u、v、w 开头，以 −u·e、−v·e、−w·e 结尾。",
+            "The first three rows of M_cam begin with u, v and w, and end with −u·e, −v·e and −w·e.",
+            "M_cam 的前三行以 u、v、w 开头，以 −u·e、−v·e、−w·e 结尾。",
         ),
     ],
     letters: &[],
@@ -65,7 +65,7 @@ pub(super) static CAMERA_ABOVE: Exercise = Exercise {
         mistake(
             "eye-added",
             Wrong::Places(&[(2, 3, "1")]),
-            "the eye was added: M_cam moves it to the origin, so it is subtracted",
+            "the eye was added: M_cam moves it to the origin, so subtract it",
             "加上了视点：M_cam 应把视点映为原点，所以要减去它",
         ),
         mistake(
@@ -103,7 +103,7 @@ pub(super) static CAMERA_ABOVE: Exercise = Exercise {
         mistake(
             "u-and-v-turned",
             Wrong::Places(&[(0, 2, "-1"), (1, 0, "-1")]),
-            "u and v are both reversed: u is t × w, not w × t, and v = w × u follows u",
+            "u and v are both reversed: u is t × w, not w × t, which also reverses v = w × u",
             "u 和 v 都反了：u 应为 t × w，而不是 w × t，v = w × u 也随之反向",
         ),
         mistake(
@@ -124,7 +124,7 @@ pub(super) static CAMERA_COORDINATES: Exercise = Exercise {
     number: 13,
     title: words("Camera coordinates", "观察坐标"),
     question: words(
-        "The eye is at (2, 0, 0), the gaze is (−1, 0, 0), and the view-up vector is (0, 1, 0). The camera looks along −z of its coordinates, with x to the right and y up. What are the camera coordinates of the world-space point (−1, 2, −4)?",
+        "The eye is at (2, 0, 0), the gaze is (−1, 0, 0), and the view-up vector is (0, 1, 0). The camera looks along −z in its coordinates, with x to the right and y up. What are the camera coordinates of the world-space point (−1, 2, −4)?",
         "视点在 (2, 0, 0)，视线方向为 (−1, 0, 0)，观察向上向量为 (0, 1, 0)；相机沿自身坐标系的 −z 方向看，x 向右，y 向上。世界坐标系的点 (−1, 2, −4) 的观察坐标是什么？",
     ),
     hints: &[

@@ -12,7 +12,7 @@ pub(super) static CLIPPED_SEGMENT: Exercise = Exercise {
     number: 18,
     title: words("Clipping a segment", "裁剪线段"),
     question: words(
-        "In clip space a segment goes from a = (−3, 0, 0, 1) to b = (5, 1, 0, 3), as a + t (b − a). The volume is −w ≤ x, y, z ≤ w. Find the values t0 and t1 between which the segment is inside the volume.",
+        "In clip space, a segment goes from a = (−3, 0, 0, 1) to b = (5, 1, 0, 3); its points are a + t (b − a). The volume is −w ≤ x, y, z ≤ w. Find the values t0 and t1 between which the segment is inside the volume.",
         "裁剪空间中的线段从 a = (−3, 0, 0, 1) 到 b = (5, 1, 0, 3)，写成 a + t (b − a)。视见体为 −w ≤ x, y, z ≤ w。线段从哪个 t0 到哪个 t1 在其内部？",
     ),
     hints: &[
@@ -30,13 +30,13 @@ pub(super) static CLIPPED_SEGMENT: Exercise = Exercise {
         mistake(
             "m28-cube",
             Wrong::Answer("1/4, 1/2"),
-            "clipped against x = ±1: in clip space the volume is −w ≤ x ≤ w",
+            "the segment was clipped against x = ±1: in clip space, the volume is −w ≤ x ≤ w",
             "按 x = ±1 裁剪了：裁剪空间中视见体是 −w ≤ x ≤ w",
         ),
         mistake(
             "divided-too-early",
             Wrong::Answer("3/7, 6/7"),
-            "divided too early: these are fractions of the image on the screen and not of the segment in clip space",
+            "the points were divided too early: these are fractions of the image on the screen, not of the segment in clip space",
             "过早做了除法：这是屏幕上像的比例，不是裁剪空间中线段的比例",
         ),
         mistake(
@@ -48,13 +48,13 @@ pub(super) static CLIPPED_SEGMENT: Exercise = Exercise {
         mistake(
             "from-the-other-end",
             Wrong::Answer("1/3, 4/5"),
-            "counted from b, but t is 0 at a",
+            "t was counted from b, but it is 0 at a",
             "从 b 算起了：a 处 t 为 0",
         ),
         mistake(
             "one-end-divided-too-early",
             Wrong::AnyOf(&["3/5, 6/7", "1/5, 6/7"]),
-            "t1 is divided too early: 6/7 is a fraction of the image on the screen and not of the segment in clip space",
+            "t1 was computed after the divide: 6/7 is a fraction of the image on the screen, not of the segment in clip space",
             "t1 过早做了除法：6/7 是屏幕上像的比例，不是裁剪空间中线段的比例",
         ),
         mistake(
@@ -102,7 +102,7 @@ pub(super) static OUTCODE: Exercise = Exercise {
         mistake(
             "m28-cube",
             Wrong::Answer("2+4+16"),
-            "compared with ±1: in clip space the limits are −w and w, and y = −3/2 is greater than −2",
+            "the point was compared with ±1: in clip space, the limits are −w and w, and y = −3/2 is greater than −2",
             "与 ±1 比较了：裁剪空间的边界是 −w 和 w，y = −3/2 大于 −2",
         ),
         mistake(
@@ -114,7 +114,7 @@ pub(super) static OUTCODE: Exercise = Exercise {
         mistake(
             "inside-bits",
             Wrong::Answer("1+4+8+32"),
-            "these are the planes that the point is inside of, but the bits mean outside",
+            "these are the planes that the point is inside of, but a set bit means outside",
             "这些是点在其内侧的平面：区域码的位表示外侧",
         ),
         mistake(
