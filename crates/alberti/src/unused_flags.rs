@@ -88,7 +88,7 @@ pub(super) fn find_unused_overrides(
     let mut warnings = flags.colormap.find_unused(scene, draws_lines, style_name(scene.style));
     if !unused.is_empty() {
         let verb = if unused.len() == 1 { "does" } else { "do" };
-        warnings.push(format!("{} {verb} nothing here: {reason}", list_flags(&unused)));
+        warnings.push(format!("{} {verb} nothing here: {reason}", files::listed(&unused)));
     }
     if flags.calibrated.has_axes_alone() {
         let message = "--camera-axes does nothing here: it applies only to --extrinsics and --pose";
@@ -139,13 +139,5 @@ const fn style_name(style: Style) -> &'static str {
         Style::XRay => "x-ray",
         Style::Wireframe => "wireframe",
         Style::Lines(_) => "lines",
-    }
-}
-
-/// Lists flag names for use in a sentence.
-fn list_flags(flags: &[&str]) -> String {
-    match flags {
-        [rest @ .., last] if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
-        _ => flags.concat(),
     }
 }

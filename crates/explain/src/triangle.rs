@@ -63,13 +63,7 @@ pub fn explain_triangle(
         clip_step(&clipped),
     ];
     let verdict = if clipped.is_empty() {
-        let rejected = clipped.outcomes.rejected;
-        let why = if rejected.is_inside() {
-            "a corner is not a finite point".to_owned()
-        } else {
-            describe_outcode(rejected).replacen("outside", "it is rejected by", 1)
-        };
-        format!("None of it is in the picture: {why}.")
+        format!("None of it is in the picture: {}.", rejection_reason(clipped.outcomes.rejected))
     } else {
         let names: Vec<String> = (1..=clipped.vertices().len()).map(|n| n.to_string()).collect();
         let corners: Vec<_> = names
@@ -92,6 +86,14 @@ pub fn explain_triangle(
         "Triangle {triangle_index} (vertices {a}, {b}, {c}) of primitive {primitive} at {at}"
     );
     Ok(Explanation { subject, steps, verdict })
+}
+
+/// Returns the reason why nothing of a triangle remains after clipping.
+fn rejection_reason(rejected: clip::Outcode) -> String {
+    if rejected.is_inside() {
+        return "a corner is not a finite point".to_owned();
+    }
+    describe_outcode(rejected).replacen("outside", "it is rejected by", 1)
 }
 
 /// Returns the clipping step: the planes, and the clipped polygon's vertices with their weights.

@@ -1,4 +1,4 @@
-//! Counts with singular or plural nouns, for messages.
+//! Counts with singular or plural nouns, and lists, for messages.
 
 use std::fmt::Display;
 
@@ -12,4 +12,18 @@ pub fn counted(count: impl Display, singular: &str, plural: &str) -> String {
     let count = count.to_string();
     let noun = if count == "1" { singular } else { plural };
     format!("{count} {noun}")
+}
+
+/// Returns the items separated by commas, with "and" before the last one.
+///
+/// ```
+/// assert_eq!(files::listed(&["left", "near", "top"]), "left, near and top");
+/// assert_eq!(files::listed(&["left"]), "left");
+/// ```
+pub fn listed<T: AsRef<str>>(items: &[T]) -> String {
+    let items: Vec<&str> = items.iter().map(AsRef::as_ref).collect();
+    match &items[..] {
+        [rest @ .., last] if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+        _ => items.concat(),
+    }
 }

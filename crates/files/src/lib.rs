@@ -24,7 +24,7 @@ mod partial_files;
 mod visible_text;
 
 pub use atomic_file::{AtomicFile, OutputError, write_file};
-pub use counted::counted;
+pub use counted::{counted, listed};
 pub use partial_files::{
     create_partial_file, forget_partial_file, register_partial_file, remove_partial_files,
 };

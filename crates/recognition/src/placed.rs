@@ -195,7 +195,7 @@ impl PlacedFrame {
     }
 }
 
-/// Returns the cost of an upside-down camera whose numbers may also describe an upright camera in
+/// Returns the cost of an upside-down camera whose numbers may also describe a normal camera in
 /// another convention.
 ///
 /// The up axis is y. It is z if the camera's right axis is level only with z up, or if the camera's

@@ -346,9 +346,7 @@ fn describe_rejection(scene: &Scene, survey: &VisibilitySurvey) -> String {
             format!("of {} points, lines and triangles, {each}", survey.total)
         }
         [plane] => format!("everything is outside the {plane} plane"),
-        [planes @ .., last] => {
-            format!("everything is outside the {} and {last} planes", planes.join(", "))
-        }
+        planes => format!("everything is outside the {} planes", files::listed(planes)),
     }
 }
 

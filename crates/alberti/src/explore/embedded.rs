@@ -16,9 +16,7 @@ pub(super) fn embedded_files() -> BTreeMap<String, Vec<u8>> {
 
 /// Returns the bytes of a lesson model: `models/house.glb` for `house`.
 pub(crate) fn lesson_model(name: &str) -> Option<Vec<u8>> {
-    let path = format!("models/{name}.glb");
-    let (_, bytes) = FILES.iter().find(|(known, _)| *known == path)?;
-    miniz_oxide::inflate::decompress_to_vec_zlib(bytes).ok()
+    embedded_files().remove(&format!("models/{name}.glb"))
 }
 
 /// Returns a file's content type from its extension.
