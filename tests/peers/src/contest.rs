@@ -164,7 +164,7 @@ fn agreement(peer: String, ours: &[[u8; 4]], theirs: &[[u8; 4]]) -> Agreement {
 }
 
 /// Returns the limits, measured in the same rounds as the scenes that are compared with them. The
-/// first kernel is called `kernel`; the others have the names of their instructions.
+/// first kernel is called `kernel`; the others have their instructions' names.
 pub fn bounds(count: usize) -> Result<Vec<Series>, String> {
     eprintln!("limits: clearing, the innermost loop, layers");
     let back = layers("back to front, flat", 50, Order::BackToFront, false)?;
