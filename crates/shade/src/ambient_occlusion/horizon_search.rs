@@ -61,7 +61,7 @@ pub(super) struct HorizonSearch<'a, const N: usize> {
     pub(super) y: usize,
 }
 
-/// The surfaces visible at some pixels.
+/// The surfaces visible at `N` pixels.
 struct Surfaces<const N: usize> {
     /// The pixel columns and rows.
     pixels: [Lanes<N>; 2],
