@@ -1,4 +1,4 @@
-//! Requested views: turns the requests for a sheet into planned views.
+//! Turns the requests for a sheet into planned views.
 //!
 //! | request | result |
 //! | --- | --- |
