@@ -221,8 +221,8 @@ impl Intrinsics {
     /// Returns the projection matrix; `far` may be infinite.
     ///
     /// ```text
-    ///  x' = 2fx/w x − 2s/w y + (2cx/w − 1) D       with cx, cy from the corner of the picture,
-    ///  y' =          2fy/h y + (1 − 2cy/h) D       and D the distance in front of the eye; depth as in GL-1
+    ///  x' = 2fx/w x − 2s/w y + (2cx/w − 1) D    with cx, cy from the corner of the picture,
+    ///  y' =          2fy/h y + (1 − 2cy/h) D    D the distance in front of the eye; depth by GL-1
     /// ```
     ///
     /// # Errors

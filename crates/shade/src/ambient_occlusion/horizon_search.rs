@@ -77,7 +77,7 @@ struct Surfaces<const N: usize> {
     radii: Lanes<N>,
 }
 
-/// The plane of a slice at each of some pixels.
+/// The plane of a slice at each of `N` pixels.
 struct Slice<const N: usize> {
     /// The screen direction: x and y.
     direction: [Lanes<N>; 2],
