@@ -11,7 +11,7 @@
 //! | module | subject |
 //! | --- | --- |
 //! | `scene` | [`Scene`]: models, camera, lights, style, image |
-//! | `origin`, `read_scene` | the source of a scene and its models; reports of all mistakes at once |
+//! | `origin`, `read_scene` | the source of a scene and its models; all mistakes in one report |
 //! | `resolve`, `single_view`, `insets` | the order of resolution; viewports, stereo |
 //! | `diagnostics` | mistakes, collected while a scene is resolved |
 //! | `model_files`, `instances`, `material_overrides` | models: loaded, posed, placed, recolored |
