@@ -41,8 +41,7 @@ pub(super) enum PrimitiveIndices<const N: usize> {
 }
 
 impl<const N: usize> PrimitiveIndices<N> {
-    /// Returns the vertices of each primitive, which `vertices_of` finds from the primitive's
-    /// index.
+    /// Returns the vertices of each primitive; `vertices_of` finds them by its index.
     #[inline(always)]
     pub(super) fn vertex_indices(
         &self,
