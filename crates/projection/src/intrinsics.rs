@@ -117,8 +117,8 @@ impl Intrinsics {
         Ok(lens.with_pixel_centers(PixelCenters::Half))
     }
 
-    /// Recovers the lens from a matrix like the result of [`view_to_clip`](Self::view_to_clip). Its
-    /// pixel centers are at half-integers.
+    /// Recovers the lens from a matrix like the result of [`view_to_clip`](Self::view_to_clip). The
+    /// lens has pixel centers at half-integers.
     ///
     /// # Errors
     /// Returns an error if the matrix is not the perspective projection of an unrotated camera, or
