@@ -3,7 +3,7 @@
     ray job submit -- python deploy/ray/batch.py MODELS OUT --size 256
 
 Each model is a task for one core. Ray assigns it to any free node, and restarts it elsewhere if its worker
-or its node dies. A picture gets its final name only when it is complete, and a model whose picture exists
+or its node dies. A picture gets its final name only when it is complete, and a model that has its picture
 is not drawn again, so the same command resumes after any interruption. Broken models are listed at the end
 and do not stop the others.
 

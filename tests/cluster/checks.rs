@@ -122,7 +122,7 @@ pub fn check_time(time: Duration, undisturbed: Duration) -> Result<(), String> {
     }
     let without = undisturbed.as_secs_f64();
     Err(format!(
-        "the run took {time:.1} s, more than {limit:.1} s; undisturbed, it takes {without:.1} s"
+        "the run took {time:.1} s; at most {limit:.1} s are allowed (undisturbed: {without:.1} s)"
     ))
 }
 

@@ -53,7 +53,7 @@ fn header<'a>(tags: &'a [(u16, String)], name: &str) -> &'a str {
     &tags[at + 1].1
 }
 
-/// Returns the minimum and maximum of some numbers.
+/// Returns the minimum and maximum of these numbers.
 fn extent(numbers: &[f64]) -> [f64; 2] {
     let least = numbers.iter().fold(f64::INFINITY, |least, number| least.min(*number));
     [least, numbers.iter().fold(-least, |most, number| most.max(*number))]

@@ -158,7 +158,7 @@ fn drawn_lines(content: &str, height: f64) -> Vec<Vec<PagePoint>> {
     lines
 }
 
-/// Returns the minimum and maximum coordinates of some layers.
+/// Returns the minimum and maximum coordinates of the wanted layers.
 pub(crate) fn layer_bounds(layers: &Layers, wanted: impl Fn(&str) -> bool) -> [PagePoint; 2] {
     let chosen = layers.iter().filter(|(id, _)| wanted(id));
     point_bounds(chosen.flat_map(|(_, lines)| lines).flatten())

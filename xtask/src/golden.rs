@@ -56,7 +56,7 @@ fn bless_goldens(names: &[&String]) -> Outcome {
         println!("{} ({bytes} bytes): look at it before you commit it.", relative_path(&golden));
         println!("  It should show this: {}", scene.scene_caption()?);
         if bytes > MAX_BYTES {
-            return Err(format!("{} is larger than {MAX_BYTES} bytes", relative_path(&golden)));
+            return Err(format!("{} can have at most {MAX_BYTES} bytes", relative_path(&golden)));
         }
     }
     Ok(())

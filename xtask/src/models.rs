@@ -42,7 +42,7 @@ fn check_models() -> Outcome {
         }
         if bytes.len() > MAX_BYTES {
             faults.push(format!(
-                "scenes/models/{name} has {} bytes, more than {MAX_BYTES}",
+                "scenes/models/{name} has {} bytes; at most {MAX_BYTES} are allowed",
                 bytes.len()
             ));
         }

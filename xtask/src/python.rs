@@ -67,7 +67,7 @@ pub fn run_python(arguments: &[String]) -> Outcome {
     let bytes = std::fs::metadata(&wheel).map_err(|error| error.to_string())?.len();
     println!("{} has {bytes} bytes", wheel.display());
     if is_release && bytes > MAX_WHEEL_BYTES {
-        return Err(format!("the wheel has {bytes} bytes, more than {MAX_WHEEL_BYTES}"));
+        return Err(format!("the wheel has {bytes} bytes; at most {MAX_WHEEL_BYTES} are allowed"));
     }
     test_wheel(&wheel)
 }

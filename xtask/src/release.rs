@@ -150,7 +150,9 @@ fn check_size(program: &Path) -> Outcome {
     let bytes = fs::metadata(program).map_err(|error| error.to_string())?.len();
     println!("{} has {bytes} bytes", program.display());
     if bytes > MAX_PROGRAM_BYTES {
-        return Err(format!("the program has {bytes} bytes, more than {MAX_PROGRAM_BYTES}"));
+        return Err(format!(
+            "the program has {bytes} bytes; at most {MAX_PROGRAM_BYTES} are allowed"
+        ));
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Figures: parses their blocks and writes their HTML elements.
+//! Parses the blocks of figures and writes their HTML elements.
 
 use crate::command::{Job, Kind, hash};
 use crate::language::Language;

@@ -1,4 +1,4 @@
-//! A page: replaces its marks with the HTML that they represent.
+//! Replaces the marks in a page with the HTML that they represent.
 
 use crate::command::{Job, Kind};
 use crate::figure::{Figure, FigureMark, escape_attribute};

@@ -71,8 +71,8 @@ pub(crate) struct AnimateArgs {
 /// missing texture before hundreds of frames are rendered without it.
 ///
 /// # Errors
-/// Returns an error if the input is invalid, a frame cannot be rendered, or the output cannot be
-/// written. No animation file is left behind in that case; PNG files for finished frames remain.
+/// Returns an error if the input is invalid, a frame cannot be rendered, or writing the output
+/// fails. No animation file is left behind in that case; PNG files for finished frames remain.
 pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
     let (origin, file, scene) = args.overrides.open_scene(&args.input, &args.load_options)?;
     let unused = find_unused_overrides(&args.overrides, &scene, false);

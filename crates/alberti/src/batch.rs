@@ -105,7 +105,7 @@ const STOPPED: u8 = 3;
 /// differ.
 ///
 /// # Errors
-/// Returns an error if the standard output cannot be written.
+/// Returns an error if writing to standard output fails.
 pub(crate) fn run(args: BatchArgs) -> Result<u8, CliError> {
     let (is_merge, is_verification) = (args.merge, args.verify);
     let options = args.into_options();

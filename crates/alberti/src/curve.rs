@@ -94,8 +94,8 @@ const TABLE_FORMATS: [(&str, TableFormatter); 4] = [
 /// Plots a function, or prints its table.
 ///
 /// # Errors
-/// Returns an error if the planes do not define a projection, a distance is invalid, or the output
-/// cannot be written.
+/// Returns an error if the planes do not define a projection, a distance is invalid, or writing the
+/// output fails.
 pub(crate) fn run(args: &CurveArgs) -> Result<(), CliError> {
     let CurveSubject::Depth(args) = &args.subject;
     let convention = match args.range {

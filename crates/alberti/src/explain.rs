@@ -132,7 +132,7 @@ struct ExplainSubjectArgs {
 /// The format is text, JSON or HTML. For HTML, the scene is rendered last.
 ///
 /// # Errors
-/// Returns an error if the input is invalid or lacks the subject, or the output cannot be written.
+/// Returns an error if the input is invalid or lacks the subject, or writing the output fails.
 pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
     if let Some(map) = args.map.build_map()? {
         let explanation =

@@ -43,7 +43,7 @@ pub(crate) fn print_stdout(bytes: &[u8]) -> Result<(), CliError> {
 /// Writes human-readable text to the standard output, with control characters shown as codes.
 ///
 /// # Errors
-/// The same as for [`print_stdout`].
+/// Returns the same errors as [`print_stdout`].
 pub(crate) fn print_text(text: &str) -> Result<(), CliError> {
     print_stdout(without_controls(text, color::stdout_has_color()).as_bytes())
 }
@@ -52,7 +52,7 @@ pub(crate) fn print_text(text: &str) -> Result<(), CliError> {
 /// escaped, so that all values stay the same.
 ///
 /// # Errors
-/// The same as for [`print_stdout`].
+/// Returns the same errors as [`print_stdout`].
 pub(crate) fn print_json(json: &str) -> Result<(), CliError> {
     if !json.contains(must_be_escaped) {
         return print_stdout(json.as_bytes());

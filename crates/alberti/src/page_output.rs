@@ -18,7 +18,7 @@ use std::path::Path;
 /// The progress line is removed before the first warning.
 ///
 /// # Errors
-/// Returns an error if the output cannot be written; in that case, no warnings are printed.
+/// Returns an error if writing the output fails; in that case, no warnings are printed.
 pub(super) fn finish_panels(
     output: &Path,
     panels: &Panels,

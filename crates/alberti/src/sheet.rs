@@ -126,7 +126,7 @@ pub(crate) struct SheetArgs {
 ///
 /// # Errors
 /// Returns an error if the input is invalid, if the views do not fit the paper at the requested
-/// scale, or if the output cannot be written.
+/// scale, or if writing the output fails.
 pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     let output = args.output.clone().map_or_else(|| default_output(args), Ok)?;
     let format = OutputFormat::from_path(&output)?;

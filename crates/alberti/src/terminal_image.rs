@@ -16,7 +16,7 @@ use std::io::Write as _;
 const DEFAULT_COLUMNS: u32 = 80;
 /// The maximum width of a picture sent with kitty's protocol, in pixels.
 ///
-/// A larger picture would be scaled down by the terminal anyway, and base64 of megabytes is slow
+/// The terminal would scale down a larger picture anyway, and megabytes of base64 are slow to send
 /// over a remote connection.
 const MAX_KITTY_WIDTH: u32 = 1280;
 /// The maximum payload of one command of kitty's protocol, in bytes of base64.
@@ -31,11 +31,11 @@ const ASCII_RAMP: &[u8; 10] = b" .:-=+*#%@";
 /// Prints the picture in the best way the terminal supports, judging by environment variables.
 ///
 /// `NO_COLOR` takes precedence over everything. Support for kitty's protocol is inferred from
-/// `KITTY_WINDOW_ID` and `TERM`, because querying the terminal would mean reading its answer from
-/// the keyboard input.
+/// `KITTY_WINDOW_ID` and `TERM`, because querying the terminal would mean reading its reply from
+/// keyboard input.
 ///
 /// # Errors
-/// Returns an error if the standard output cannot be written.
+/// Returns an error if writing to standard output fails.
 pub(super) fn print_image(painted: &RenderOutput) -> Result<(), CliError> {
     let Some(picture) = &painted.picture else { return Ok(()) };
     let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
@@ -59,8 +59,8 @@ pub(super) fn print_image(painted: &RenderOutput) -> Result<(), CliError> {
 ///
 /// Squared codes approximate linear light: a gamma of 2 is close enough to sRGB here.
 ///
-/// Transparent pixels are black in proportion to their transparency. A cell smaller than a pixel
-/// shows the nearest pixel; `range` is never empty.
+/// Pixels darken in proportion to their transparency. A cell smaller than a pixel shows the nearest
+/// pixel.
 fn downsample(picture: &Picture, columns: u32, rows: u32) -> Vec<[u8; 3]> {
     let range = |at: u32, of: u32, side: u32| {
         let bound = |at: u32| (u64::from(at) * u64::from(side) / u64::from(of)) as u32;
@@ -85,7 +85,7 @@ fn downsample(picture: &Picture, columns: u32, rows: u32) -> Vec<[u8; 3]> {
     shrunk
 }
 
-/// Returns the columns and rows that fit; `cells` is a cell's aspect ratio (0.5 for characters).
+/// Returns how many columns and rows fit; `cells` is a cell's aspect ratio (0.5 for characters).
 ///
 /// Both are at most 400, and there are no more columns than the picture has.
 fn fit_columns(picture: &Picture, columns: u32, cells: f64) -> (u32, u32) {
@@ -94,7 +94,7 @@ fn fit_columns(picture: &Picture, columns: u32, cells: f64) -> (u32, u32) {
     (columns, ((f64::from(columns) * ratio * cells + 0.5) as u32).clamp(1, 400))
 }
 
-/// Returns the picture as upper half blocks, whose two colors are the two pixels of a cell.
+/// Returns the picture as upper half blocks, each in the colors of the two pixels in its cell.
 ///
 /// A terminal cell is about twice as high as it is wide, so the pixels are square.
 ///

@@ -7,7 +7,7 @@ use std::io::Read;
 /// The size of the blocks in which content is hashed.
 const PIECE_BYTES: usize = 1 << 16;
 
-/// The size and SHA-256 of some content.
+/// The size and SHA-256 of a sequence of bytes.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct ContentDigest {
     /// The number of bytes.

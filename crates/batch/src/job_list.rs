@@ -224,7 +224,7 @@ impl JobList {
         }
     }
 
-    /// Returns the members of a CSV record; an empty field counts as absent.
+    /// Returns the members of a CSV record; an empty field is treated as absent.
     fn csv_members(&self, fields: Vec<String>) -> Members {
         let columns = self.columns.as_deref().unwrap_or_default();
         if fields.len() != columns.len() {

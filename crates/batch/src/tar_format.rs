@@ -28,7 +28,7 @@ const PREFIX: Range<usize> = 345..500;
 /// Appends a file to an archive.
 ///
 /// # Errors
-/// Returns an error if the file cannot be written, or if it has 8 GiB or more.
+/// Returns an error if writing to the archive fails, or if the file has 8 GiB or more.
 pub(super) fn append_file(writer: &mut impl Write, name: &str, content: &[u8]) -> Result<()> {
     let mut header = [0; BLOCK_BYTES];
     if let Some((prefix, name)) = split_name(name) {
@@ -51,7 +51,7 @@ pub(super) fn append_file(writer: &mut impl Write, name: &str, content: &[u8]) -
 /// Finishes an archive.
 ///
 /// # Errors
-/// Returns an error if the archive cannot be written.
+/// Returns an error if writing to the archive fails.
 pub(super) fn finish_archive(writer: &mut impl Write) -> Result<()> {
     writer.write_all(&[0; 2 * BLOCK_BYTES])
 }

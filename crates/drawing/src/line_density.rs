@@ -1,4 +1,4 @@
-//! Line density: draws dense lines thinner and paler so that they do not merge into a solid area.
+//! Draws dense lines thinner and paler so that they do not merge into a solid area.
 //!
 //! ```text
 //!   coverage   area of the ink / area of the page, near the lines

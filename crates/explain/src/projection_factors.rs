@@ -108,7 +108,7 @@ pub fn formula_ids(view_to_clip: Projective<View, Clip>) -> Option<&'static str>
     formula_ids_of_kind(&decomposition.kind, ApiConventions::Alberti)
 }
 
-/// Returns the formula ids for a kind of projection in some conventions.
+/// Returns the formula ids for a kind of projection in these conventions.
 ///
 /// Perspective and orthographic matrices have separate formulas for the volumes of graphics APIs
 /// (GL-1, GL-3); the classical projections have the same formulas in all of them.

@@ -72,7 +72,7 @@ impl Explorer {
     /// to it.
     ///
     /// # Errors
-    /// If the name is empty or absolute, or points outside the folder of the files.
+    /// Returns an error if the name is empty or absolute, or leads out of the files' folder.
     pub fn add_file(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), ExplorerError> {
         self.store.add_file(name, bytes)?;
         // Cached pictures may show the replaced file.
@@ -90,8 +90,8 @@ impl Explorer {
     /// Answers a request: a query string with the keys listed in the README.
     ///
     /// # Errors
-    /// If a key is unknown, repeated or malformed, if a model is missing or broken, or if the scene
-    /// is invalid. The explorer is then unchanged.
+    /// Returns an error if a key is unknown, repeated or malformed, if a model is missing or
+    /// broken, or if the scene is invalid. The explorer is then unchanged.
     pub fn answer(&mut self, query: &str) -> Result<Answer, ExplorerError> {
         self.answer_unless_canceled(query, &CancelToken::default())
     }
@@ -100,7 +100,7 @@ impl Explorer {
     /// drawing and model loading are not interrupted.
     ///
     /// # Errors
-    /// The same errors as `answer`, and `cannot_render` if the picture is canceled.
+    /// Returns the same errors as `answer`, and `cannot_render` if the picture is canceled.
     pub fn answer_unless_canceled(
         &mut self,
         query: &str,

@@ -59,8 +59,8 @@ impl LessonState {
     /// Reads the state from the keys of a query and removes them.
     ///
     /// # Errors
-    /// If the version is unsupported, if the lesson or style is unknown, or if a value is malformed
-    /// or out of range.
+    /// Returns an error if the version is unsupported, if the lesson or style is unknown, or if a
+    /// value is malformed or out of range.
     pub(crate) fn take_from(query: &mut Query) -> Result<Self, ExplorerError> {
         check_version(query.take("v"))?;
         let language = take_language(query)?;

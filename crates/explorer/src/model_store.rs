@@ -56,7 +56,7 @@ impl ModelStore {
     /// Adds a file, or replaces the file with this name.
     ///
     /// # Errors
-    /// If the name is not a path below the folder of the files.
+    /// Returns an error if the name is not a path below the folder of the files.
     pub(crate) fn add_file(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), ExplorerError> {
         if !self.folder.insert(name, bytes) {
             let message = format!("`{name}` is not a valid file path");
@@ -83,7 +83,7 @@ impl ModelStore {
     /// the scene.
     ///
     /// # Errors
-    /// If the scene is invalid or a model cannot be loaded.
+    /// Returns an error if the scene is invalid or a model cannot be loaded.
     pub(crate) fn resolve(
         &mut self,
         key: String,

@@ -33,7 +33,7 @@ impl PanePicture {
     /// on.
     ///
     /// # Errors
-    /// If the picture cannot be rendered.
+    /// Returns an error if the picture cannot be rendered.
     pub(crate) fn whole(&mut self, key: &str, drawn: Drawn<'_>) -> Result<&Picture, ExplorerError> {
         let known = self.whole.as_ref().is_some_and(|(known, _)| known == key);
         if !known {
@@ -47,11 +47,11 @@ impl PanePicture {
 
     /// Renders some rows of a picture, with the same bytes as in the whole picture.
     ///
-    /// A picture of surfaces is rendered band by band. Any other picture, for example with lines,
+    /// A picture of surfaces is rendered band by band. Any other picture, such as one with lines,
     /// is rendered once as a whole, for all bands.
     ///
     /// # Errors
-    /// If the picture cannot be rendered.
+    /// Returns an error if the picture cannot be rendered.
     pub(crate) fn band(
         &mut self,
         key: &str,

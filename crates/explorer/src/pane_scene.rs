@@ -69,7 +69,7 @@ impl PaneGeometry {
     /// Returns the scene, framed around points.
     ///
     /// # Errors
-    /// If there are no points, or if a point is not finite.
+    /// Returns an error if there are no points, or if a point is not finite.
     pub(crate) fn into_scene(
         self,
         observer: Observer,

@@ -11,7 +11,7 @@ use serde_json::{Value as Json, json};
 /// surface point.
 ///
 /// # Errors
-/// If the picture has no such pixel.
+/// Returns an error if the picture has no such pixel.
 pub(crate) fn pick_json(
     scene: &Scene,
     conventions: ApiConventions,

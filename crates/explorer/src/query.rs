@@ -16,8 +16,8 @@ impl Query {
     /// Parses a query string, with or without a leading `#` or `?`.
     ///
     /// # Errors
-    /// If a pair lacks `=`, if percent-encoding is broken, if a key is repeated, or if the query is
-    /// too long.
+    /// Returns an error if a pair lacks `=`, if percent-encoding is broken, if a key is repeated,
+    /// or if the query is too long.
     pub(crate) fn parse(text: &str) -> Result<Self, ExplorerError> {
         if text.len() > MAX_QUERY_BYTES {
             let message = format!("the request has {} bytes", text.len());

@@ -72,7 +72,7 @@ impl Request {
     /// Parses a request.
     ///
     /// # Errors
-    /// If a key is unknown, if a value is malformed, or if a band of a PNG is requested.
+    /// Returns an error if a key is unknown, a value is malformed, or a PNG band is requested.
     pub(crate) fn parse(text: &str) -> Result<Self, ExplorerError> {
         let mut query = Query::parse(text)?;
         let question = find_question(query.take("what").as_deref())?;

@@ -17,7 +17,7 @@ use serde_json::{Map, Value as Json, json};
 /// Returns the state as JSON: link, scene file, command, sentences, numbers, matrices and journey.
 ///
 /// # Errors
-/// If the view has no pixels.
+/// Returns an error if the view has no pixels.
 pub(crate) fn state_json(
     request: &Request,
     text: &str,

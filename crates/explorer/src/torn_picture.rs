@@ -22,7 +22,7 @@ const DEPTH_RANGE: f64 = 4.0;
 /// The near and far planes do not clip, because that would hide most of the mistake.
 ///
 /// # Errors
-/// Never in practice, because the camera is a constant.
+/// Never fails in practice, because the camera is a constant.
 pub(crate) fn torn_scene(loaded: &LoadedScene) -> Result<Scene, ExplorerError> {
     let mut scene = Scene::clone(&loaded.scene);
     let world_to_clip = scene.view_projection.world_to_clip();

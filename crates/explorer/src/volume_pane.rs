@@ -23,7 +23,7 @@ const TORN_LIMIT: f64 = 1e6;
 /// Returns the scene of the pane at a stage of the pipeline.
 ///
 /// # Errors
-/// If the scene cannot be framed.
+/// Returns an error if the scene cannot be framed.
 pub(crate) fn volume_scene(
     facts: &Facts,
     stage: VolumeStage,

@@ -35,7 +35,7 @@ pub(crate) struct Pointer {
 /// defaults, so that it stays in place while a value is dragged.
 ///
 /// # Errors
-/// If the scene cannot be framed.
+/// Returns an error if the scene cannot be framed.
 pub(crate) fn world_scene(
     loaded: &LoadedScene,
     defaults: &LoadedScene,

@@ -1,4 +1,4 @@
-//! Names for messages: writes terminal control characters as codes.
+//! Makes names safe for messages: writes terminal control characters as codes.
 
 use std::borrow::Cow;
 use std::path::Path;

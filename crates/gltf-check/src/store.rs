@@ -1,4 +1,4 @@
-//! Buffer data: reads each buffer once, and resolves buffer views within it.
+//! Reads each buffer once, and resolves buffer views within it.
 //!
 //! A [`BufferStore`] lends slices and never copies a buffer. A request returns `None` if any of its
 //! bytes are missing. Checks skip such data, because the missing bytes already have a diagnostic.

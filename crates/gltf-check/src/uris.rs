@@ -75,7 +75,7 @@ pub(super) fn read_uri(
     resolver.read_uri(uri, pointer).map_err(|fault| add_read_error(&fault, diagnostics)).ok()
 }
 
-/// Reports why a URI could not be read, under a code of the validator.
+/// Reports why a URI could not be read, under one of the validator's codes.
 fn add_read_error(fault: &Diagnostic, diagnostics: &Diagnostics) {
     let code = match fault.code {
         load::INVALID_DATA => &codes::INVALID_URI,

@@ -11,7 +11,7 @@ pub enum DrawError {
     #[error(transparent)]
     Raster(#[from] raster::RasterError),
     /// There are more triangles than z-buffer ids.
-    #[error("the scene has more than {} points, lines and triangles", u32::MAX)]
+    #[error("a scene can have at most {} points, lines and triangles", u32::MAX)]
     TooManyPrimitives,
     /// The [monitor](raster::Monitor) canceled the drawing.
     #[error("the drawing was canceled")]

@@ -1,4 +1,4 @@
-//! Meshes from memory: converts arrays of vertices and polygons to a [`Model`].
+//! Imports meshes from memory: converts arrays of vertices and polygons to a [`Model`].
 //!
 //! The arrays are treated like a PLY file: polygons are triangulated, missing normals are computed
 //! with the crease angle, and vertices are split between faces of different colors.

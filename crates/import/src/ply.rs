@@ -91,7 +91,7 @@ pub(super) fn import_ply(
     build_materials(&mut model, textures, &contents, options, &mut warnings);
     let budget = MemoryBudget::new(resolver.limits);
     let charge = |bytes: u64| budget.charge_bytes("", bytes, resolver.total_bytes());
-    // Charge the budget now, because building the primitives multiplies the memory of the arrays.
+    // Charge the budget now: building the primitives multiplies the memory that the arrays take.
     charge(array_bytes(&contents))?;
     let build = || build_primitives(contents, &model, options, &mut warnings);
     let primitives = options.timings.measure("geometry", build);
@@ -172,8 +172,8 @@ fn read_textures<'a>(
 
 /// Adds a material for each texture to the model, or an untextured material if there are none.
 ///
-/// Vertex and face colors multiply the material color. A surface whose texture exists shows only
-/// the texture colors, as in the programs that write such files.
+/// Vertex and face colors multiply the material color. A surface whose texture was loaded shows
+/// only the texture colors, as in the programs that write such files.
 fn build_materials(
     model: &mut Model,
     textures: Vec<TextureImage<'_>>,

@@ -1,5 +1,5 @@
-//! Surfaces of mesh formats: converts triangles with corner attributes to primitives, one per
-//! material, each with its own normals and vertices.
+//! Builds surfaces for mesh formats: converts triangles with corner attributes to primitives, one
+//! per material, each with its own normals and vertices.
 //!
 //! Missing normals are computed by crease angle from all triangles of the surface, so that a border
 //! between two colors does not become a crease.
@@ -119,7 +119,7 @@ fn compute_normals(
     (welded, computed.normals)
 }
 
-/// Returns each material that has triangles, with a list of these, both in ascending order.
+/// Returns each material that has triangles, with the list of its triangles; both ascend.
 fn triangles_by_material(surface: &Surface<'_>) -> Vec<(usize, Vec<u32>)> {
     let count = surface.triangles.len() as u32;
     if surface.materials.is_empty() {

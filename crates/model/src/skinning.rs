@@ -1,4 +1,4 @@
-//! Vertex skinning and morph targets: computes the deformed vertices of a mesh in the current pose.
+//! Vertex skinning and morphing: computes the deformed vertices of a mesh in the current pose.
 //!
 //! Morph targets are added first, in mesh coordinates (glTF 2.0 §3.7.2.2):
 //!

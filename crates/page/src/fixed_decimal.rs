@@ -1,4 +1,4 @@
-//! Fixed-point decimals: writes lengths exactly and as short as possible, with at most three
+//! Fixed-point formatting: writes lengths exactly and as short as possible, with at most three
 //! decimals.
 //!
 //! SVG and PDF use millimeters, and pages use micrometers. A number of thousandths is written digit

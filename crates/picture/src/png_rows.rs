@@ -64,8 +64,7 @@ impl PngRows<'_, '_> {
     /// Writes the next pixels, in row-major order, without alpha if the picture is opaque.
     ///
     /// # Errors
-    /// Fails if the pixels cannot be written, or if there are more of them than the picture still
-    /// needs.
+    /// Fails if writing fails, or if there are more pixels than the picture still needs.
     pub fn write_pixels<C: Channel>(&mut self, pixels: &[[C; 4]]) -> io::Result<()> {
         for pixels in pixels.chunks(PIXELS_PER_WRITE) {
             self.bytes.clear();

@@ -122,7 +122,7 @@ pub enum RenderError {
     #[error("ambient occlusion supports pictures up to {0} x {0} pixels", raster::MAX_SIDE)]
     OcclusionTooLarge,
     /// The scene has more points, lines and triangles than there are primitive ids.
-    #[error("the scene has more than {} points, lines and triangles", u32::MAX)]
+    #[error("a scene can have at most {} points, lines and triangles", u32::MAX)]
     TooManyPrimitives,
 }
 

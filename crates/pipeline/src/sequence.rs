@@ -156,8 +156,8 @@ impl Sequence {
     /// Automatic views use the models at 16 moments, or at one moment if they do not move.
     ///
     /// # Errors
-    /// Returns an error if the view is undefined at some time, for example because the eye
-    /// coincides with its target.
+    /// Returns an error if the view is undefined at any time, for example because the eye coincides
+    /// with its target.
     pub fn with_camera_path(
         mut self,
         origin: &Origin,

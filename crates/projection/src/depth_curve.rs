@@ -229,8 +229,8 @@ impl Orthographic {
     }
 }
 
-/// Returns A and B of the third row (0, 0, A, B) for w = z, where A + B/z is `at_1` for z = `z_1`
-/// and `at_2` for z = `z_2`. `first` is (`z_1`, `at_1`), and `second` is (`z_2`, `at_2`).
+/// Returns A and B of the third row (0, 0, A, B) for w = z, where A + B/z is `at_1` at z = `z_1`
+/// and `at_2` at z = `z_2`. `first` is (`z_1`, `at_1`), and `second` is (`z_2`, `at_2`).
 ///
 /// This determines the third row of P (exercise 3, C40): with z preserved on n and f, A = n + f and
 /// B = −nf. With −1 at z = −N and +1 at z = −F it gives the OpenGL row (C56) with its sign flipped.

@@ -64,8 +64,8 @@ impl Intrinsics {
     /// last entry.
     ///
     /// # Errors
-    /// Returns the same errors as [`new`](Self::new), and an error if `K[1][0]` or the last row is
-    /// not as shown above.
+    /// Returns the same errors as [`new`](Self::new), and an error if `K[1][0]` is not 0 or the
+    /// last row is not (0, 0, positive).
     pub fn from_rows(rows: [[f64; 3]; 3], size: [u32; 2]) -> Result<Self, ProjectionError> {
         for value in rows.as_flattened() {
             check_finite("K", *value)?;
@@ -84,7 +84,7 @@ impl Intrinsics {
     /// s/fy columns per row downward.
     ///
     /// # Errors
-    /// Returns an error if the skew is not finite or too large to compute with.
+    /// Returns an error if the skew is not finite or is too large to compute with.
     pub fn with_skew(self, skew: f64) -> Result<Self, ProjectionError> {
         Self { skew: check_finite("skew", skew)?, ..self }.checked()
     }
@@ -117,8 +117,8 @@ impl Intrinsics {
         Ok(lens.with_pixel_centers(PixelCenters::Half))
     }
 
-    /// Recovers the lens from a matrix such as [`view_to_clip`](Self::view_to_clip) returns, with
-    /// pixel centers at half-integers.
+    /// Recovers the lens from a matrix like the result of [`view_to_clip`](Self::view_to_clip). The
+    /// lens has pixel centers at half-integers.
     ///
     /// # Errors
     /// Returns an error if the matrix is not the perspective projection of an unrotated camera, or
@@ -203,7 +203,7 @@ impl Intrinsics {
         Point::new(x * depth, -y * depth, -depth)
     }
 
-    /// Returns the frustum with the same window, which requires a skew of 0.
+    /// Returns the frustum with the same window. The skew must be 0.
     ///
     /// # Errors
     /// Returns an error if the skew is not 0 or 0 < near < far does not hold.
@@ -221,8 +221,8 @@ impl Intrinsics {
     /// Returns the projection matrix; `far` may be infinite.
     ///
     /// ```text
-    ///  x' = 2fx/w x − 2s/w y + (2cx/w − 1) D       with cx, cy from the corner of the picture,
-    ///  y' =          2fy/h y + (1 − 2cy/h) D       and D in front of the eye; depth as in GL-1
+    ///  x' = 2fx/w x − 2s/w y + (2cx/w − 1) D    with cx, cy from the corner of the picture,
+    ///  y' =          2fy/h y + (1 − 2cy/h) D    D the distance in front of the eye; depth by GL-1
     /// ```
     ///
     /// # Errors

@@ -1,5 +1,5 @@
 //! Keyword arguments: a dictionary of options, each read by name and type. The Python functions
-//! define the signatures; an option that is `None` counts as absent.
+//! define the signatures; an option that is `None` is treated as absent.
 
 use crate::arrays;
 use crate::failure::Failure;

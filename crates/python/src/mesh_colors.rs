@@ -1,5 +1,5 @@
-//! Mesh colors and textures: converts sRGB bytes and fractions to linear colors, and arrays and
-//! files to images.
+//! Converts mesh colors and textures: sRGB bytes and fractions become linear colors, and arrays and
+//! files become images.
 
 use crate::arrays::{self, Numbers};
 use crate::failure::Failure;

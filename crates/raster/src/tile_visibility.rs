@@ -31,7 +31,7 @@ pub(crate) struct TranslucentLayer {
     pub(crate) depth: f32,
 }
 
-/// The visible surfaces of a tile: a plane for each sample, and the translucent layers over them.
+/// The visible surfaces of a tile: one plane per sample, and translucent layers over the planes.
 #[derive(Debug, Default)]
 pub(crate) struct TileVisibility {
     planes: Vec<SamplePlane>,

@@ -14,7 +14,7 @@ const CHUNK_BITS: u32 = 12;
 /// pass through the loop that fills it.
 const MIN_FREE: usize = 512;
 
-/// Consecutive triangles. The tiles that each of them touches are in a separate list, because
+/// Consecutive triangles. The tiles that each triangle touches are in a separate list, because
 /// binning reads nothing else.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TriangleChunk {

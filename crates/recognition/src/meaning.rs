@@ -101,7 +101,7 @@ pub enum MatrixMeaning {
         /// The z of the far plane.
         f: f64,
     },
-    /// A perspective projection, from view to clip space (GL-1, PE-2, D3D-1 and others).
+    /// A perspective projection from view to clip space, such as GL-1, PE-2 or D3D-1.
     Perspective {
         /// The window on the near plane, with near and far as distances.
         frustum: Frustum,

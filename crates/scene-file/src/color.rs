@@ -133,7 +133,7 @@ fn hex_help() -> String {
     "write \"#rrggbb\", such as \"#1a1f26\", or a CSS color name, such as \"white\"".to_owned()
 }
 
-/// Returns the 8-bit color for a tuple of three or four numbers from 0 to 1, for the hint in a
+/// Converts a tuple of three or four numbers in [0, 1] to an 8-bit color, for the hint in a
 /// message. Alpha is ignored.
 fn color_of_numbers(node: &Node<'_>) -> Option<[u8; 3]> {
     let items = &unnamed_group(node)?.items;

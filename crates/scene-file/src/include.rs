@@ -211,7 +211,7 @@ impl IncludeResolver<'_> {
             return Ok(MergedScene::default());
         }
         if self.includes.files.len() == MAX_INCLUDED_FILES {
-            return Err((format!("the scene includes more than {MAX_INCLUDED_FILES} files"), None));
+            return Err((format!("a scene can include at most {MAX_INCLUDED_FILES} files"), None));
         }
         let whole = self.scene.folder.join(path);
         let normalized = normalize_path(Path::new(""), &whole);

@@ -1,5 +1,5 @@
-//! Scene file syntax: splits RON text into tokens, and parses them into a tree in which every node
-//! records its byte range.
+//! Reads scene file syntax: splits RON text into tokens, and parses them into a tree in which every
+//! node records its byte range.
 //!
 //! ```text
 //!  text ─► tokens ─► tree of nodes ─► checked against the declarations of `scene_file::file`

@@ -11,7 +11,7 @@
 //! | module | subject |
 //! | --- | --- |
 //! | `scene` | [`Scene`]: models, camera, lights, style, image |
-//! | `origin`, `read_scene` | the source of a scene and its models; all mistakes at once |
+//! | `origin`, `read_scene` | the source of a scene and its models; all mistakes in one report |
 //! | `resolve`, `single_view`, `insets` | the order of resolution; viewports, stereo |
 //! | `diagnostics` | mistakes, collected while a scene is resolved |
 //! | `model_files`, `instances`, `material_overrides` | models: loaded, posed, placed, recolored |
@@ -19,8 +19,8 @@
 //! | `lights`, `shadows`, `surrounding_light`, `exposure`, `ground` | light |
 //! | `style`, `section`, `overlays`, `caption` | the content and style of the drawing |
 //! | `sheet`, `sheet_views`, `dimensions`, `assembly` | drawing sheets |
-//! | `lints` | valid scenes that are probably unintended |
-//! | `builder` | scenes of models in memory |
+//! | `lints` | valid scenes that probably do not show what was intended |
+//! | `builder` | scenes built from in-memory models |
 //! | `referenced_files` | the files that a model refers to, found by a quick scan |
 
 #[cfg(feature = "sheets")]

@@ -147,7 +147,7 @@ pub(super) fn check_model_paths(
 
 /// Creates the error for a model with which the models take more memory than a scene may use.
 fn scene_bytes_error(origin: &Origin, number: usize, most: u64) -> SceneError {
-    let message = format!("with this model, the scene's models take more than {} MiB", most >> 20);
+    let message = format!("with this model, the models exceed the limit of {} MiB", most >> 20);
     let help = "remove models, simplify them or use smaller textures; or raise `--max-scene-bytes`";
     origin.error_at(&[Field("models"), Index(number)], message, Some(help.to_owned()))
 }

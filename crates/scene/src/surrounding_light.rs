@@ -194,7 +194,7 @@ pub(super) fn read_image_bytes(
     };
     let about = std::fs::metadata(&full).map_err(unreadable)?;
     if !about.is_file() || about.len() > MAX_FILE_BYTES {
-        let message = format!("{path} is not a file, or has more than {MAX_FILE_BYTES} bytes");
+        let message = format!("{path} must be a file of at most {MAX_FILE_BYTES} bytes");
         return Err(origin.error_at(at, message, None));
     }
     std::fs::read(&full).map_err(unreadable)

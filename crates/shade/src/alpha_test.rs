@@ -1,7 +1,7 @@
 //! The alpha test: whether a fragment of a masked primitive is opaque (glTF 2.0 §3.9.4).
 //!
-//! The rasterizer runs it before depth is written, for eight fragments of a primitive at once, so
-//! that fragments that fail the test hide nothing.
+//! The rasterizer runs it before depth is written, for eight fragments of a primitive at once.
+//! Fragments that fail the test thus hide nothing.
 //!
 //! Styles with one color per fragment, such as normals and ids, also apply it to blended
 //! primitives. These then get holes where textures and vertex colors make them less than half as

@@ -22,7 +22,7 @@ pub const UV: usize = 6;
 /// An attribute with `K` components for each of three vertices, in all lanes.
 pub(super) type Attributes<const N: usize, const K: usize> = [[Lanes<N>; K]; 3];
 
-/// The vertex indices of some fragments' primitives.
+/// The vertex indices of the primitives of `N` fragments.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum VertexIndices<const N: usize> {
     /// All fragments belong to one primitive.
@@ -31,7 +31,7 @@ pub(super) enum VertexIndices<const N: usize> {
     Each([[usize; 3]; N]),
 }
 
-/// The indices of some fragments' primitives within their draw.
+/// The indices of the primitives of `N` fragments within their draw.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum PrimitiveIndices<const N: usize> {
     /// All fragments belong to one primitive.
@@ -41,8 +41,7 @@ pub(super) enum PrimitiveIndices<const N: usize> {
 }
 
 impl<const N: usize> PrimitiveIndices<N> {
-    /// Returns the vertices of each primitive, which `vertices_of` finds from the primitive's
-    /// index.
+    /// Returns the vertices of each primitive; `vertices_of` finds them by its index.
     #[inline(always)]
     pub(super) fn vertex_indices(
         &self,

@@ -7,7 +7,7 @@
 use super::lanes::{Lanes, map_to_lanes};
 use raster::{Fragment, Fragments, LANES};
 
-/// The vertex weights of some fragments' primitives.
+/// The vertex weights of the primitives of `N` fragments.
 ///
 /// This is implemented for single fragments, packets of eight, and the vertex fragments of shading
 /// styles. Weights and derivatives always refer to the whole triangle, even if it was clipped.

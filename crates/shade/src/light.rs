@@ -57,7 +57,7 @@ pub enum Light {
     },
 }
 
-/// The light from one source at some fragments.
+/// The light from one source at `N` fragments.
 ///
 /// The BRDF needs only this direction and illuminance, not the light's kind or position. Shadows
 /// reduce the illuminance, and so does sheen for the layers below.

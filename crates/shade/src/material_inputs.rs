@@ -1,4 +1,4 @@
-//! Material inputs: the parameters of a material at some fragments, from its factors, textures and
+//! Material inputs: the parameters of a material at `N` fragments, from its factors, textures and
 //! vertex colors (glTF 2.0 §3.9).
 //!
 //! ```text

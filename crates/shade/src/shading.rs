@@ -9,7 +9,7 @@
 //!
 //! The rasterizer requests the colors of eight fragments at once from [`Shading`]. If these belong
 //! to several draws, all eight are shaded for one draw after another, and each lane takes the color
-//! for its draw. Shading runs after visibility, so its cost does not grow with the number of hidden
+//! of its draw. Shading runs after visibility, so its cost does not grow with the number of hidden
 //! triangles.
 
 use super::ambient_occlusion::AmbientOcclusion;

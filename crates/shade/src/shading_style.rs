@@ -286,9 +286,9 @@ impl StyledShading<'_> {
         sum
     }
 
-    /// Computes the exposed and tone mapped color of a material in some diffuse light,
-    /// premultiplied by alpha if the material blends. Unlit colors are already display colors: they
-    /// are only exposed, and the light is ignored.
+    /// Computes the exposed and tone mapped color of a material in diffuse light, premultiplied by
+    /// alpha if the material blends. Unlit colors are already display colors: they are only
+    /// exposed, and the light is ignored.
     fn material_color(
         &self,
         draw: &Draw<'_>,

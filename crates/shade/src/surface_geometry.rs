@@ -24,7 +24,7 @@ use super::lanes::{Lanes, Mask, Vec3Lanes};
 use super::vector::try_normalize;
 use normal_mapping::apply_normal_map;
 
-/// The geometry of the surfaces at some fragments, and the directions to the viewer.
+/// The geometry of the surfaces at `N` fragments, and the directions to the viewer.
 ///
 /// All vectors are in world space. The geometry with smooth normals is used for shadows, ambient
 /// occlusion and a clearcoat without a normal map; the geometry with mapped normals is used for the

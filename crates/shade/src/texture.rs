@@ -18,7 +18,7 @@ pub use mip_chain::{MipChain, TexelEncoding};
 
 use super::lanes::{Lanes, Rgb};
 
-/// Texture coordinates at some fragments.
+/// Texture coordinates at `N` fragments.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct UvLanes<const N: usize> {
     /// u and v, from 0 to 1 across the image, starting at its upper left corner.
@@ -35,7 +35,7 @@ impl<const N: usize> UvLanes<N> {
         Self { uv: [Lanes::ZERO; 2], dx: [Lanes::ZERO; 2], dy: [Lanes::ZERO; 2] };
 }
 
-/// Filtered texels at some fragments: linear color with straight alpha.
+/// Filtered texels at `N` fragments: linear color with straight alpha.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct TexelLanes<const N: usize> {
     /// The linear color, not multiplied by alpha.

@@ -100,7 +100,7 @@ fn position_bounds_are_exact() {
                 };
                 let low = values.clone().fold(f64::INFINITY, f64::min);
                 let high = values.fold(f64::NEG_INFINITY, f64::max);
-                // The JSON parser may be off by the last bit of a double; as an f32, the value is
+                // The JSON parser may be off in the last bit of a double; as an f32, the value is
                 // exact.
                 assert_eq!(low as f32, stated("min") as f32, "{name}");
                 assert_eq!(high as f32, stated("max") as f32, "{name}");

@@ -26,7 +26,7 @@ impl<'a> Inputs<'a> {
         self.these(self.variables)
     }
 
-    /// Returns the values of some variables, whose names are separated by spaces.
+    /// Returns the values of the variables with these names, which are separated by spaces.
     pub fn these<const N: usize>(&self, names: &str) -> Result<[f64; N], Box<dyn Error>> {
         let numbers: Vec<f64> =
             names.split_whitespace().map(|name| self.number(name)).collect::<Result<_, _>>()?;

@@ -24,7 +24,7 @@ pub struct Series {
     pub times: Vec<Option<f64>>,
 }
 
-/// The median and spread of some figures.
+/// The median and spread of a list of figures.
 #[derive(Clone, Copy, Debug)]
 pub struct Spread {
     /// The minimum.
@@ -80,7 +80,7 @@ impl Series {
 }
 
 impl Spread {
-    /// Returns the spread of some figures, or `None` if there are none.
+    /// Returns the spread of these figures, or `None` if there are none.
     pub fn of(figures: impl Iterator<Item = f64>) -> Option<Self> {
         let mut sorted: Vec<f64> = figures.collect();
         sorted.sort_by(f64::total_cmp);

@@ -114,7 +114,7 @@ fn element<'a>(page: &'a str, start: &str, end: &str) -> Option<&'a str> {
     Some(&rest[..rest.find(end)?])
 }
 
-/// Returns the text of some HTML, without tags and without the labels of foldable parts.
+/// Returns the text of an HTML fragment, without tags and without the labels of foldable parts.
 fn plain_text(html: &str) -> String {
     let mut text = String::new();
     let mut rest = html;

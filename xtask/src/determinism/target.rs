@@ -1,4 +1,4 @@
-//! Targets: how the program is compiled for each of them and run on this machine.
+//! Targets: how the program is compiled for a target and run on this machine.
 
 use crate::program::capture_output;
 use crate::tool_chain::ToolChain;

@@ -1,5 +1,4 @@
-//! Writes packages. The same contents always produce the same bytes, regardless of the time and the
-//! user.
+//! Writes packages. The same contents always produce the same bytes, regardless of time and user.
 
 use super::contents::PackagedFile;
 use super::{Release, write_file};
@@ -76,7 +75,7 @@ pub fn write_tar(release: &Release, files: &[PackagedFile], staging: &Path, out:
     run_command(Command::new("gzip").args(["-n", "-9", "--force"]).arg(&tar))
 }
 
-/// Writes the checksums for all files in a folder, for use with `sha256sum --check`.
+/// Writes the checksums of all files in a folder, for use with `sha256sum --check`.
 pub fn write_checksums(out: &Path) -> Outcome {
     let entries = fs::read_dir(out).map_err(|error| format!("{}: {error}", out.display()))?;
     let names: BTreeSet<_> = entries.filter_map(|entry| Some(entry.ok()?.file_name())).collect();

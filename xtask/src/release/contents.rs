@@ -23,7 +23,7 @@ impl PackagedFile {
     }
 }
 
-/// The shells with completion scripts, each with the path where Debian's shells look for them.
+/// The shells with completion scripts, and the path at which each looks for its script in Debian.
 const COMPLETIONS: [(&str, &str); 3] = [
     ("bash", "share/bash-completion/completions/alberti"),
     ("zsh", "share/zsh/vendor-completions/_alberti"),
@@ -86,7 +86,7 @@ fn print(program: &Path, arguments: &[&str]) -> Result<Vec<u8>, String> {
     crate::program::capture_output(Command::new(program).args(arguments)).map(String::into_bytes)
 }
 
-/// Returns Debian's license file, in its machine-readable format.
+/// Returns the Debian `copyright` file, in the machine-readable format.
 fn copyright() -> Result<String, String> {
     let license = crate::workspace::read_text(&project_root().join("LICENSE-MIT"))?;
     let holder = license
@@ -101,9 +101,9 @@ fn copyright() -> Result<String, String> {
     Ok(format!(
         "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/\n\
          Upstream-Name: alberti\n\
-         Comment: Licenses of the crates that the program is built with: THIRD-PARTY-LICENSES\n\n\
+         Comment: The licenses of the crates in the program are in THIRD-PARTY-LICENSES.\n\n\
          Files: *\nCopyright: {holder}\nLicense: Expat or Apache-2.0\n\n\
          License: Expat\n{text}\n\
-         License: Apache-2.0\n On Debian systems: /usr/share/common-licenses/Apache-2.0\n"
+         License: Apache-2.0\n Debian systems have it in /usr/share/common-licenses/Apache-2.0.\n"
     ))
 }

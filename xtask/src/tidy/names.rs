@@ -46,7 +46,7 @@ pub fn functions_named_of(sources: &[Source]) -> Vec<Violation> {
     if lines.len() <= MAX_FUNCTIONS_NAMED_OF {
         return Vec::new();
     }
-    let message = format!("more than {MAX_FUNCTIONS_NAMED_OF} functions are called `of`");
+    let message = format!("at most {MAX_FUNCTIONS_NAMED_OF} functions may be called `of`");
     lines.into_iter().map(|line| Violation::new(line, message.clone())).collect()
 }
 

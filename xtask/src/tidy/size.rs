@@ -73,8 +73,7 @@ pub fn argument_count(source: &Source) -> Vec<Violation> {
     (0..source.code.len()).filter(|i| begins_function(&source.code[*i])).filter_map(many).collect()
 }
 
-/// Returns the number of lines from the signature to the closing brace, or 0 for a function without
-/// a body.
+/// Returns the number of lines from the signature to the closing brace, or 0 if there is no body.
 fn function_lines(lines: &[String]) -> usize {
     let mut depth = 0;
     for (number, line) in lines.iter().enumerate() {

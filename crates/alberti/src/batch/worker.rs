@@ -28,7 +28,7 @@ pub(crate) struct WorkerArgs {
 /// Answers requests until the input ends.
 ///
 /// # Errors
-/// Returns an error if a request is malformed, or the answers cannot be written.
+/// Returns an error if a request is malformed, or if writing an answer fails.
 pub(crate) fn run(args: &WorkerArgs) -> Result<(), CliError> {
     end_with_coordinator();
     if let Some(memory) = args.memory {

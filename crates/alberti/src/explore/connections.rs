@@ -65,7 +65,7 @@ struct Connection {
 /// Answers requests until the program ends.
 ///
 /// # Errors
-/// Never: the server runs until the program ends. All commands have the same return type.
+/// Never fails: the server runs until the program ends. All commands have the same return type.
 pub(super) fn serve(listener: &TcpListener, port: u16, site: Site) -> Result<(), CliError> {
     let site = Arc::new(site);
     let all = Arc::new(Mutex::new(Connections::default()));

@@ -104,7 +104,7 @@ pub(super) fn bounds_json<S: homog::Space>(of: Option<Bounds<S>>) -> Value {
     })
 }
 
-/// Returns the totals over some primitives: vertices, triangles, lines and points.
+/// Returns the totals over these primitives: vertices, triangles, lines and points.
 ///
 /// `items` is indexed by an item's vertex count minus one: points, lines, triangles.
 pub(super) fn counts_json<'a>(primitives: impl Iterator<Item = &'a Primitive>) -> Value {

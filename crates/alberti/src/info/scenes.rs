@@ -27,7 +27,7 @@ pub(super) fn nodes_json(model: &Model) -> Vec<Value> {
     model.nodes.iter().map(node_json).collect()
 }
 
-/// Returns a node: its position in the hierarchy, its transforms, and the objects attached to it.
+/// Returns a node: its place in the hierarchy, its transforms, and the objects attached to it.
 ///
 /// `transform` is the local transform, or `null` for a node with a matrix; `to_model` is the matrix
 /// from the node to the model, column by column, in the current pose.

@@ -75,7 +75,7 @@ fn memory_limit(words: &[OsString]) -> Option<(u64, String)> {
     }
     if matches!(args.command, Command::Thumbnailer(_)) {
         let help = "raise --max-memory-bytes";
-        return Some((0, format!("this thumbnail needs more than the limit\n  = help: {help}")));
+        return Some((0, format!("this thumbnail needs too much memory\n  = help: {help}")));
     }
     let bytes = of_system?;
     Some((0, format!("the system allows {}\n  = help: raise the limit (`ulimit`)", size(bytes))))

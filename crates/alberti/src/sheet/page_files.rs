@@ -62,7 +62,7 @@ impl PageNames {
     /// Returns the file name and content for each page.
     ///
     /// # Errors
-    /// The same as for `encode`.
+    /// Returns the same errors as `encode`.
     pub(super) fn files(
         &self,
         pages: &[SheetPage],

@@ -1,7 +1,7 @@
 //! `alberti sheet --parts-list=FILE.json`: the parts list as JSON.
 //!
-//! New members may be added in any release; [`VERSION`] increases when a member is removed or
-//! changes its meaning.
+//! New members may be added in any release; [`VERSION`] increases when a member is removed or its
+//! meaning changes.
 //!
 //! ```json
 //! {
@@ -12,7 +12,7 @@
 //!   ]
 //! }
 //! ```
-//! (Shortened: each of the four bolts has an entry with its position.)
+//! (Shortened: each of the four bolts has an entry with its place in the scene graph.)
 
 use serde_json::{Value, json};
 use sheet::{PartPlace, PartsList, PartsListItem};
@@ -29,7 +29,7 @@ pub(super) fn parts_list_document(list: &PartsList) -> String {
     format!("{value:#}\n")
 }
 
-/// Returns an item; masses have the same decimals as in CSV.
+/// Returns an item; masses are rounded to the same number of decimal places as in the CSV file.
 fn item_json(item: &PartsListItem) -> Value {
     json!({
         "item": item.number,
@@ -41,7 +41,7 @@ fn item_json(item: &PartsListItem) -> Value {
     })
 }
 
-/// Returns the position of a part in its model.
+/// Returns the place of a part in the scene graph of its model.
 fn place_json(place: &PartPlace) -> Value {
     json!({"model": place.model, "node": place.node, "path": place.path})
 }

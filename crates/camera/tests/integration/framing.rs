@@ -30,7 +30,7 @@ fn slopes() -> impl Strategy<Value = Slopes> {
     })
 }
 
-/// Returns the minimum and maximum of some numbers relative to the window: −1 is its lower end, +1
+/// Returns the minimum and maximum of these numbers relative to the window: −1 is its lower end, +1
 /// its upper end.
 fn reach(numbers: impl Iterator<Item = f64>, low: f64, high: f64) -> [f64; 2] {
     let mut ends = [f64::INFINITY, -f64::INFINITY];

@@ -83,7 +83,7 @@ impl Axis {
             let first = libm::ceil(self.from / step - 5e-4) as i64;
             let last = libm::floor(self.to / step + 5e-4) as i64;
             if last - first < MAX_TICKS as i64 {
-                // If the step is a fraction, divides by an integer, as explained above.
+                // If the step is a fraction, divides by an integer to get the exact bits.
                 let value = |n: i64| match power {
                     ..0 => n as f64 * digit / power_of_ten(-power),
                     _ => n as f64 * step,

@@ -2,9 +2,9 @@
 //!
 //! ```text
 //!  ┌ heading ────────────────────────────┐
-//!  │ depth      ╭──── normal    │ table   │   Distances are on a logarithmic axis in both charts,
-//!  │           ╱ ╭─── reversed  │ …       │   or on a linear one; the resolution has a logarithmic
-//!  │ resolution ╱╱              │         │   axis, since it spans many powers of ten.
+//!  │ depth      ╭──── normal    │ table   │   Both charts have the same distance axis, either
+//!  │           ╱ ╭─── reversed  │ …       │   logarithmic or linear; the resolution axis is always
+//!  │ resolution ╱╱              │         │   logarithmic, since it spans many powers of ten.
 //!  └─────────────────────────────────────┘
 //! ```
 

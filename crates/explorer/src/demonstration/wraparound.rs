@@ -73,7 +73,7 @@ struct Board {
 /// pairs of points, and the number of boards left after clipping.
 ///
 /// # Errors
-/// Does not fail in practice, because the camera and projection are constants.
+/// Never fails in practice, because the camera and projection are constants.
 pub fn wraparound_panels() -> Result<Panels, DemonstrationError> {
     let world_to_clip = world_to_clip()?;
     let boards = floor_boards();

@@ -35,7 +35,7 @@ pub(super) fn split_answer(
 ) -> Result<Vec<Vec<String>>, AnswerError> {
     if text.chars().nth(MAX_CHARACTERS).is_some() {
         return Err(AnswerError::new(
-            format!("the answer is longer than {MAX_CHARACTERS} characters"),
+            format!("an answer can have at most {MAX_CHARACTERS} characters"),
             format!("答案超过 {MAX_CHARACTERS} 个字符"),
         ));
     }

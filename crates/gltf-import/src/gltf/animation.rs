@@ -1,5 +1,5 @@
-//! Animations: converts channels and samplers to keyframe curves. Invalid channels are skipped with
-//! a warning.
+//! Converts the channels and samplers of animations to keyframe curves. Invalid channels are
+//! skipped with a warning.
 //!
 //! A sampler has keyframe times (`input`) and values (`output`); a channel selects the property
 //! that a sampler sets. LINEAR means slerp for rotations. Values may be normalized integers, which
@@ -77,7 +77,7 @@ pub(super) fn import_animations(
 
 /// Reads the channels of one animation.
 ///
-/// Samplers are read again for each channel that uses them, because sharing is rare and curves are
+/// A sampler is read again for each channel that uses it, because sharing is rare and curves are
 /// small.
 struct AnimationReader<'a> {
     source: &'a AccessorReader<'a>,

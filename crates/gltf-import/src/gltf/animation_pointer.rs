@@ -1,5 +1,4 @@
-//! Animation pointers (KHR_animation_pointer): resolves JSON pointers to the properties they
-//! animate.
+//! Resolves JSON pointers to the properties that they animate (KHR_animation_pointer).
 //!
 //! Supports node transforms and weights, material, light and camera properties, and texture
 //! transforms.

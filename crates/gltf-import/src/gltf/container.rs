@@ -1,4 +1,4 @@
-//! The GLB container: locates the JSON and the binary chunk of a `.gltf` or `.glb` file.
+//! Reads the GLB container: locates the JSON and the binary chunk of a `.gltf` or `.glb` file.
 //!
 //! The first bytes distinguish the two formats; the file name is ignored. A binary file has the
 //! layout

@@ -12,7 +12,7 @@
 //! ```
 //!
 //! The compression is transparent to attribute readers: [`DracoData::attach_data`] replaces the
-//! bytes of a resolved accessor. Without the `draco` feature, a compressed primitive counts as
+//! bytes of a resolved accessor. Without the `draco` feature, a compressed primitive is reported as
 //! missing data.
 
 use super::accessor::AccessorReader;
@@ -126,7 +126,7 @@ pub(super) fn decode_draco(
     stream.decode_mesh().map(Some)
 }
 
-/// Returns the accessor and stream id of each attribute to read.
+/// Returns the accessor of each attribute to read, and its id in the stream.
 ///
 /// Attributes without an id are not in the stream: they are uncompressed or absent. Custom
 /// attributes other than `custom` and unneeded tangents are skipped to save decoding time.
@@ -184,7 +184,7 @@ mod decoder {
     impl DracoStream<'_> {
         /// Decodes the stream and checks its counts against the accessors.
         ///
-        /// The memory budget is charged first, with 16 bytes per vertex and attribute. The
+        /// The memory budget is charged first, with 16 bytes per vertex per attribute. The
         /// decoder's limits are set from the accessors, so a stream cannot create more vertices
         /// than they declare.
         ///
@@ -223,10 +223,11 @@ mod decoder {
             Ok(DracoData { indices, attributes })
         }
 
-        /// Returns as many vertex indices as the accessor declares.
+        /// Returns the vertex indices of the faces. Fails if the accessor declares a different
+        /// number.
         ///
-        /// A primitive may lack an index accessor and still be compressed with faces, whose indices
-        /// are then used.
+        /// If the primitive has no index accessor but the stream contains faces, their indices are
+        /// used.
         fn decode_indices(&self, mesh: &Mesh) -> Result<Vec<u32>, Diagnostic> {
             let actual = 3 * mesh.num_faces();
             if let Some((accessor, count)) = self.indices

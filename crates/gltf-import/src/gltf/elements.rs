@@ -1,4 +1,4 @@
-//! Accessor elements: converts bytes to arrays of floats, shorts or indices.
+//! Converts the bytes of accessor elements to arrays of floats, shorts or indices.
 //!
 //! Tightly packed floats, by far the most common case, are converted in a loop that the compiler
 //! turns into a copy. Other types and strides are converted element by element, with the type

@@ -1,4 +1,4 @@
-//! Extension support: lists the extensions that are drawn, ignored or rejected.
+//! Lists the extensions that are drawn, ignored or rejected.
 //!
 //! To add a material extension (KHR_materials_…), follow "How to add" in ARCHITECTURE.md. Other
 //! extensions are read in the module of their object (for nodes, `scene_graph`). Then update the

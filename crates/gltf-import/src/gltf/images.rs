@@ -1,4 +1,4 @@
-//! Images: reads the visible images, checks them against the limits, and decodes them.
+//! Reads the visible images, checks them against the limits, and decodes them.
 //!
 //! Only images that a visible surface uses are read. A broken image causes a warning and never
 //! discards the model. The texel limit is applied in file order to the sizes in the headers, before

@@ -1,4 +1,4 @@
-//! Mesh primitives: converts accessors to plain arrays, and removes items that cannot be drawn.
+//! Builds mesh primitives: converts accessors to plain arrays and drops items that cannot be drawn.
 //!
 //! Positions and indices define the shape; if they are invalid, the file is rejected. All other
 //! attributes affect only the appearance; if they are invalid, they are skipped with a warning.

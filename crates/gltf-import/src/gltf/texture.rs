@@ -1,4 +1,4 @@
-//! Textures: reads the image and sampler of each texture.
+//! Reads the image and sampler of each texture.
 //!
 //! glTF identifies filters and wrap modes by OpenGL constants, and combines the magnification,
 //! minification and mipmap filters in two members; here each is an enum. Without a sampler,

@@ -1,4 +1,4 @@
-//! Primitive modes: expands strips, loops and fans into lists of lines or triangles.
+//! Resolves primitive modes: expands strips, loops and fans into lists of lines or triangles.
 //!
 //! ```text
 //!  line strip      line loop       triangle strip      triangle fan

@@ -1,5 +1,5 @@
-//! KTX2 images (KHR_texture_basisu): decodes Basis Universal ETC1S and UASTC blocks to 8-bit RGBA,
-//! and copies 8-bit RGB and RGBA.
+//! Reads KTX2 images (KHR_texture_basisu): decodes Basis Universal ETC1S and UASTC blocks to 8-bit
+//! RGBA, and copies 8-bit RGB and RGBA.
 //!
 //! ```text
 //!  header ─► container ─┬─ BasisLZ ────────────► ETC1S blocks ─┐

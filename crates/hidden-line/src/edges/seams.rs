@@ -1,4 +1,4 @@
-//! Seams: closes false boundaries by near welding and by cutting edges at T-junctions.
+//! Seam repair: closes false boundaries by near welding and by cutting edges at T-junctions.
 //!
 //! ```text
 //!   ●───────●───────●     two faces above, three below: no side of an upper face

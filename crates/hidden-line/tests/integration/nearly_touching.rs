@@ -187,7 +187,7 @@ fn measure(number: u64) -> (LineDrawing, Agreement) {
     (drawing, agreement)
 }
 
-/// Returns the largest disagreement among some scenes, and a report on the worst scene with its
+/// Returns the largest disagreement among these scenes, and a report on the worst scene with its
 /// denied segments.
 fn worst_scene(scenes: impl Iterator<Item = u64>) -> (f64, String) {
     let ratio = |number| (measure(number).1.disagreement_ratio(), number);

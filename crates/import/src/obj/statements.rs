@@ -67,8 +67,7 @@ impl<'a> StatementReader<'a> {
         Some(Token { bytes: &text[start..end], offset: start })
     }
 
-    /// Returns the rest of the line without surrounding white space, for names, which may contain
-    /// spaces.
+    /// Returns the trimmed rest of the line, for names, which may contain spaces.
     pub(super) fn rest_of_line(&mut self) -> Token<'a> {
         let rest = self.text.get(self.at..).unwrap_or_default();
         let length = line_length(rest);

@@ -79,8 +79,7 @@ impl<'a> Body<'a> {
         Some((place, message))
     }
 
-    /// Returns the maximum number of records that the rest of the file can contain, for reserving
-    /// memory.
+    /// Returns how many records the rest of the file can contain at most, for reserving memory.
     pub(super) fn plausible_records(&self, element: &PlyElement) -> usize {
         let left = self.bytes.len() - self.at;
         let possible = left / element.min_record_bytes(self.encoding).max(1) + 1;

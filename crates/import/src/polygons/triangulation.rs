@@ -277,8 +277,7 @@ fn push_fan(corners: impl IntoIterator<Item = u32>, triangles: &mut Vec<[u32; 3]
 fn newell_normal(corners: &[[f32; 3]]) -> [f64; 3] {
     let mut normal = [0.0; 3];
     let Some(origin) = corners.first().map(|at| at.map(f64::from)) else { return normal };
-    // Coordinates are relative to the first corner, so that a small distant polygon loses no
-    // precision.
+    // Coordinates are relative to the first corner, so a small distant polygon loses no precision.
     let from_origin = |at: &[f32; 3]| -> [f64; 3] {
         std::array::from_fn(|axis| f64::from(at[axis]) - origin[axis])
     };

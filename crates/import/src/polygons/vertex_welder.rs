@@ -38,8 +38,8 @@ impl VertexWelder {
         }
     }
 
-    /// Returns the vertices at some positions, adding new vertices for new positions. There must be
-    /// fewer than 2³² − 1 vertices.
+    /// Returns the vertices at these positions, adding new vertices for new positions. There must
+    /// be fewer than 2³² − 1 vertices.
     ///
     /// The slots and vertices of a batch are read before they are needed, because memory latency
     /// takes most of the time, and independent reads overlap.
@@ -64,8 +64,8 @@ impl VertexWelder {
         self.weld_hashed(position, hash_bits(canonical(position).map(f32::to_bits)))
     }
 
-    /// Reads the first slot of each hash, then the vertices in these slots, to load them into the
-    /// cache. The result only keeps the reads from being optimized away.
+    /// Loads the first slot of each hash and then the vertices in these slots into the cache. The
+    /// result only keeps the reads from being optimized away.
     #[inline]
     fn read_ahead(&self, hashes: &[usize]) -> u32 {
         let mask = self.slots.len().wrapping_sub(1);

@@ -1,4 +1,4 @@
-//! Text encodings: removes byte order marks, and converts UTF-16 to UTF-8.
+//! Normalizes encoded text: removes byte order marks, and converts UTF-16 to UTF-8.
 
 use std::borrow::Cow;
 

@@ -58,7 +58,8 @@ impl<'a> Archive<'a> {
             Diagnostic::error(codes::INVALID_DATA, "", message, "save or download the file again")
         })?;
         if count > MAX_ENTRIES {
-            let message = format!("the zip archive has {count} entries, more than {MAX_ENTRIES}");
+            let message =
+                format!("the zip archive has {count} entries; at most {MAX_ENTRIES} are allowed");
             return Err(Diagnostic::error(codes::LIMIT_EXCEEDED, "", message, "use another file"));
         }
         let mut entries = Vec::new();
@@ -191,8 +192,7 @@ fn find_directory(bytes: &[u8]) -> Option<(usize, u64)> {
     Some((usize::try_from(read_u64(record, 48)?).ok()?, read_u64(record, 32)?))
 }
 
-/// Reads the central directory record at an offset, and returns it with the offset of the next
-/// record.
+/// Reads the central directory record at an offset; returns it with the next record's offset.
 fn read_entry(bytes: &[u8], at: usize) -> Option<(Entry, usize)> {
     let record = bytes.get(at..)?;
     if !record.starts_with(b"PK\x01\x02") {

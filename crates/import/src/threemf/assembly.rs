@@ -1,4 +1,4 @@
-//! 3MF assembly: converts items and components to nodes, each of which may show an object's mesh.
+//! Builds a 3MF assembly: converts items and components to nodes, some with an object's mesh.
 //!
 //! Components share objects, so the number of nodes can grow exponentially with the size of the
 //! file. It is computed and compared with the limits before any node is created.

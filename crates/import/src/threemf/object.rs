@@ -1,4 +1,4 @@
-//! 3MF objects: reads meshes and components, and converts meshes to primitives.
+//! Reads the meshes and components of 3MF objects, and converts meshes to primitives.
 
 use super::model_part::{ObjectReference, PartReader};
 use super::properties::{Palette, PartProperties, Property};
@@ -125,8 +125,8 @@ impl PartReader<'_, '_> {
             if !corners.iter().filter_map(position).all(is_finite) {
                 continue;
             }
-            // Most meshes have no properties, so the list is created at the first triangle that has
-            // any.
+            // Most meshes have no properties, so the first triangle with properties creates the
+            // list.
             if properties.group != NONE || properties.indices[0] != NONE {
                 mesh.properties.resize(mesh.triangles.len(), TriangleProperties::NONE);
                 mesh.properties.push(properties);
@@ -139,8 +139,7 @@ impl PartReader<'_, '_> {
         Ok(())
     }
 
-    /// Returns the vertices and properties of a triangle, with [`NONE`] for any that it does not
-    /// specify.
+    /// Returns the vertices and properties of a triangle; unspecified properties are [`NONE`].
     fn parse_triangle(&mut self, element: &Element<'_>) -> ([u32; 3], TriangleProperties) {
         let (mut corners, mut properties) = ([NONE; 3], TriangleProperties::NONE);
         for (_, name, value) in element.attributes() {

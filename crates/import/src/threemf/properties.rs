@@ -56,7 +56,7 @@ pub(super) struct PartProperties {
     group_of: BTreeMap<u32, u32>,
     /// The material that shows each texture, by texture id.
     textures: BTreeMap<u32, u32>,
-    /// Lists of metalness and roughness.
+    /// Lists of (metalness, roughness) pairs.
     metallic: Vec<Vec<[f32; 2]>>,
     /// The index of each list, by id.
     metallic_of: BTreeMap<u32, u32>,
@@ -257,7 +257,8 @@ impl PartProperties {
                 let base =
                     |&index: &u32| group.entries.get(index as usize).map(|p| palette.color_of(p));
                 let bases: Option<Vec<_>> = indices.iter().map(base).collect();
-                OpenGroup::Composite { bases: bases.ok_or("a material does not exist")? }
+                let bases = bases.ok_or("matindices refers to a material that does not exist")?;
+                OpenGroup::Composite { bases }
             }
             "multiproperties" => {
                 let ids = element.attribute("pids").and_then(parse_indices);
@@ -267,7 +268,10 @@ impl PartProperties {
                 let mut methods = std::iter::once("mix").chain(methods.split_ascii_whitespace());
                 let layer = |id| Layer { id, multiplies: methods.next() == Some("multiply") };
                 if ids.len() > MAX_LAYERS {
-                    return Err(format!("there are {} layers, more than {MAX_LAYERS}", ids.len()));
+                    let count = ids.len();
+                    return Err(format!(
+                        "there are {count} layers; at most {MAX_LAYERS} are allowed"
+                    ));
                 }
                 let layers: Vec<_> = ids.into_iter().map(layer).collect();
                 let is_below = |layer: &&Layer| {
@@ -288,7 +292,7 @@ impl PartProperties {
         self.groups.push(PropertyGroup { kind, entries });
     }
 
-    /// Adds a list of metalness and roughness.
+    /// Adds a list of (metalness, roughness) pairs.
     pub(super) fn close_metallic(&mut self, id: u32, entries: Vec<[f32; 2]>) {
         self.metallic_of.entry(id).or_insert(self.metallic.len() as u32);
         self.metallic.push(entries);

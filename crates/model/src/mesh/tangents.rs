@@ -16,7 +16,7 @@ use std::borrow::Cow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 impl Primitive {
-    /// Returns unit tangents for the tangent frame of a normal map, one for each of the
+    /// Returns the unit tangents of a normal map's tangent frame, one for each of the
     /// [`indices`](Self::indices), with the handedness of the bitangent (1 or −1) in w.
     ///
     /// `uv_set` is the texture coordinate set that the normal map uses. Flat normals replace

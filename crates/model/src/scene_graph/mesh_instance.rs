@@ -1,4 +1,4 @@
-//! Mesh instances: traverses the nodes of the active scene with their global transforms.
+//! Finds mesh instances: traverses the nodes of the active scene with their global transforms.
 
 use crate::Model;
 use homog::{Affine, Model as ModelSpace};

@@ -1,4 +1,4 @@
-//! A scene prepared for rendering region by region, for pictures larger than memory, crops and
+//! A scene prepared to be rendered region by region, for pictures larger than memory, crops and
 //! bands.
 //!
 //! The mip chains, shadow maps, the depth buffer of ambient occlusion, the page of a line drawing
@@ -264,7 +264,7 @@ impl<'a> PreparedScene<'a> {
         Ok(())
     }
 
-    /// Returns the monitor for the frame of a region, which reports progress for the whole job.
+    /// Returns the monitor of a region's frame, which reports the progress of the whole job.
     fn frame_monitor(&self, region: TileRegion) -> Option<PartMonitor> {
         let outer = Arc::clone(self.context.monitor?);
         let pixels = region.pixel_count() as u64;

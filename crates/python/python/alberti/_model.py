@@ -31,7 +31,7 @@ class Model:
 
     Create one with :func:`load`, :meth:`from_arrays` or :meth:`from_trimesh`. Models are immutable
     and can be rendered any number of times. They can be pickled: a model from a file is loaded
-    again from the same path, and others take their arrays with them.
+    again from the same path, and any other takes its arrays along.
     """
 
     __slots__ = ("_arrays", "_native", "_objects", "_origin")

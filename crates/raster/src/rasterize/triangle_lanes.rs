@@ -74,7 +74,7 @@ pub(crate) struct TriangleLanes<S: Simd> {
     pub(super) functions: TriangleFunctions,
     /// The integers 0 to 7.
     pub(super) lane_indices: i32x8<S>,
-    /// The change of each edge function from the first of eight pixels to each of them.
+    /// The changes of the edge functions from the first pixel to each of eight pixels.
     pub(super) edge_steps: [i32x8<S>; 3],
     /// The numbers 0.0 to 7.0.
     pub(super) lane_offsets: f32x8<S>,

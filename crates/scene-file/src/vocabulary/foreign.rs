@@ -1,5 +1,5 @@
-//! Words from three.js, Blender, glTF, f3d and others, each with the field or variant that it means
-//! here.
+//! Words from other programs (such as three.js, Blender, glTF and f3d), each with the field or
+//! variant that it means here.
 
 /// Foreign words and their meanings. Each row has:
 /// - the words in lowercase, without hyphens or underscores, separated by spaces;

@@ -61,7 +61,7 @@ pub(super) struct HorizonSearch<'a, const N: usize> {
     pub(super) y: usize,
 }
 
-/// The surfaces visible at some pixels.
+/// The surfaces visible at `N` pixels.
 struct Surfaces<const N: usize> {
     /// The pixel columns and rows.
     pixels: [Lanes<N>; 2],
@@ -77,7 +77,7 @@ struct Surfaces<const N: usize> {
     radii: Lanes<N>,
 }
 
-/// The plane of a slice at each of some pixels.
+/// The plane of a slice at each of `N` pixels.
 struct Slice<const N: usize> {
     /// The screen direction: x and y.
     direction: [Lanes<N>; 2],

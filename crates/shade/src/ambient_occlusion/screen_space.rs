@@ -144,7 +144,7 @@ impl ScreenSpace {
         pixels
     }
 
-    /// Computes the radius in pixels at some positions, limited to the diagonal of the picture.
+    /// Computes the radius in pixels at `N` positions, limited to the diagonal of the picture.
     #[inline(always)]
     pub(super) fn radius_in_pixels<const N: usize>(
         &self,
@@ -179,7 +179,7 @@ pub(super) struct PixelGrid {
     values: Vec<f32>,
 }
 
-/// The width of the margin in pixels on each side, more than filters and lookups reach beyond the
+/// The width of the margin in pixels on each side. Filters and lookups reach less far beyond the
 /// border.
 const MARGIN: usize = LANES;
 

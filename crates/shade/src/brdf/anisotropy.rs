@@ -6,7 +6,7 @@
 //!  V = ½ / (n·l Λ(v) + n·v Λ(l)),  Λ(w)² = (αt t·w)² + (αb b·w)² + (n·w)²  Heitz 2014
 //! ```
 //!
-//! The α along the bitangent, αb, is the α of the roughness. The α along the tangent is
+//! The α along the bitangent is αb = α, the same as for isotropic GGX. The α along the tangent is
 //! αt = α + (1 − α) · strength², as defined by KHR_materials_anisotropy. With strength 0, both
 //! formulas reduce to isotropic GGX.
 
@@ -16,7 +16,7 @@ use crate::material_inputs::MaterialInputs;
 use crate::surface_geometry::{SurfaceGeometry, TangentLanes};
 use std::f32::consts::FRAC_1_PI;
 
-/// The anisotropy frame at some fragments, and the α along its tangent.
+/// The anisotropy frames of `N` fragments, and the α along their tangents.
 ///
 /// The tangent, bitangent and normal are orthonormal if the mesh has tangents.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ pub(super) struct Anisotropy<const N: usize> {
     tangents: Vec3Lanes<N>,
     /// Unit vectors perpendicular to the tangent and the normal.
     bitangents: Vec3Lanes<N>,
-    /// The GGX α along the tangents, not less than the α of the roughness.
+    /// The GGX α along the tangents, not less than the α along the bitangents.
     tangent_alpha: Lanes<N>,
     /// The strength of the anisotropy, from 0 to 1, or 0 if the surface has no tangent.
     strength: Lanes<N>,
@@ -64,7 +64,7 @@ impl<const N: usize> Anisotropy<N> {
         }
     }
 
-    /// Computes the bent normals for environment reflections, for a perceptual roughness.
+    /// Computes the bent normals for environment reflections at a perceptual roughness.
     ///
     /// A stretched lobe reflects a fan of directions, but the prefiltered environment has only
     /// round lobes. So the normal is bent toward the plane of the bitangent and the view, in which
@@ -132,7 +132,7 @@ mod tests {
         }
     }
 
-    /// Returns the bent normal for the normal z, seen from the side, for a perceptual roughness.
+    /// Bends the normal +z for an oblique view, at this strength and perceptual roughness.
     fn bent_normal(strength: f32, roughness: f32) -> [f32; 3] {
         let normal = Vec3Lanes::splat([0.0, 0.0, 1.0]);
         let view = Vec3Lanes::splat([0.6, 0.48, 0.64]);
@@ -141,7 +141,8 @@ mod tests {
 
     #[test]
     fn environment_reflections_use_bent_normals() {
-        // Fully bent, this is the normalized view without its component along the bitangent.
+        // When fully bent, the normal is the view without its component along the bitangent,
+        // normalized.
         let [x, y, z] = bent_normal(1.0, 0.0);
         let length = (0.6_f32 * 0.6 + 0.64 * 0.64).sqrt();
         assert!((x - 0.6 / length).abs() < 1e-6 && y.abs() < 1e-6, "{x} {y} {z}");

@@ -28,7 +28,7 @@ use crate::transmission::TransmittedShare;
 use model::{Material, MaterialExtensions};
 use std::f32::consts::FRAC_1_PI;
 
-/// The parameters of the base BRDF at some fragments, resolved from the material.
+/// The parameters of the base BRDF at `N` fragments, resolved from the material.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BaseBrdf<const N: usize> {
     /// The diffuse albedo before subtracting the Fresnel reflection.

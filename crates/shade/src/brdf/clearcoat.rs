@@ -19,7 +19,7 @@ use crate::surface_geometry::SurfaceGeometry;
 /// ((1.5 − 1) / (1.5 + 1))² = 0.04, fixed by the extension.
 const CLEARCOAT_F0: f32 = 0.04;
 
-/// The clear layer at some fragments, and the light that it has reflected so far.
+/// The clear layer at `N` fragments, and the light that it has reflected so far.
 ///
 /// Its lobe is always isotropic GGX, with a separate normal map.
 #[derive(Clone, Copy, Debug)]

@@ -27,7 +27,7 @@ use crate::approximations::floor_to_int;
 use crate::lanes::Lanes;
 use table::TABLE;
 
-/// `A` and `B` of the split sum at some fragments.
+/// `A` and `B` of the split sum at `N` fragments.
 ///
 /// `A + B` is the albedo of a white metal with this roughness.
 #[derive(Clone, Copy, Debug)]

@@ -27,7 +27,7 @@ use crate::transmission::{TransmissionFramebuffer, TransmittedShare};
 use crate::{Draw, Tangents};
 use std::f32::consts::FRAC_1_PI;
 
-/// The BRDF of the surfaces at some fragments, and the radiance reflected so far.
+/// The BRDF of the surfaces at `N` fragments, and the radiance reflected so far.
 ///
 /// It is created once per fragment. Then lights are added one by one, with the environment last,
 /// and [`finish`](Self::finish) composites the clearcoat over the sum.

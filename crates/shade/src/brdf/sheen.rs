@@ -26,7 +26,7 @@ use table::TABLE;
 /// The minimum perceptual roughness, below which the lobe is too narrow for `f32` and the table.
 const MIN_SHEEN_ROUGHNESS: f32 = 0.07;
 
-/// The sheen layer at some fragments.
+/// The sheen layer at `N` fragments.
 ///
 /// It keeps the sum of base and sheen within the incoming energy.
 #[derive(Clone, Copy, Debug)]

@@ -11,7 +11,7 @@
 
 use crate::lanes::{Lanes, Vec3Lanes};
 
-/// The interpolated tangents of some fragments.
+/// The interpolated tangents of `N` fragments.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TangentLanes<const N: usize> {
     /// The direction of increasing u on the surface, of any length; zero if unknown.

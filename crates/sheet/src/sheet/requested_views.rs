@@ -1,4 +1,4 @@
-//! Requested views: turns the requests for a sheet into planned views.
+//! Turns the requests for a sheet into planned views.
 //!
 //! | request | result |
 //! | --- | --- |
@@ -139,7 +139,7 @@ impl RequestPlanner<'_> {
 
     /// Returns a letter not used by another view.
     fn next_letter(&mut self) -> Result<char, Fault> {
-        self.letters.next().ok_or_else(|| fault("the views need more than 26 letters"))
+        self.letters.next().ok_or_else(|| fault("the views can have at most 26 letters"))
     }
 
     /// Checks that a view is requested only once.

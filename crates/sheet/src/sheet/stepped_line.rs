@@ -77,7 +77,7 @@ pub(super) fn check_steps(
         )));
     }
     if corners.len() > MAX_CORNERS {
-        return Err(fault(format!("its line has more than {MAX_CORNERS} corners")));
+        return Err(fault(format!("its line can have at most {MAX_CORNERS} corners")));
     }
     let sides: Vec<Vector<World>> = corners.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let along = unit_vector(sides[0]).ok_or_else(|| fault("its first two corners are the same"))?;

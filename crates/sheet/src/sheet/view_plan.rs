@@ -264,8 +264,7 @@ impl<'a> PlanSubject<'a> {
     }
 }
 
-/// Dimensions the width, height and depth of the models once each, in the first view that shows
-/// them.
+/// Dimensions the width, height and depth of the models, each in the first view that shows it.
 fn add_dimensions(views: &mut [PlannedView], angle: SheetAngle) {
     let across = if angle == SheetAngle::First { OverallSide::Above } else { OverallSide::Below };
     let rank = |one: &PlannedView| match one.view.name {

@@ -42,7 +42,7 @@ pub enum AssemblyWarning {
         /// The maximum number of parts.
         most: usize,
     },
-    /// There are too many parts to draw a sheet for each of them.
+    /// There are too many parts to draw a sheet for each part.
     PartSheetsLeftOut {
         /// The number of parts without a sheet.
         count: usize,

@@ -1,6 +1,6 @@
 //! The median and the spread of a few figures.
 
-/// The minimum, median and maximum of some figures.
+/// The minimum, median and maximum of a list of figures.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Spread {
     /// The minimum.
@@ -12,7 +12,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Returns the spread of some figures, or `None` if there are none.
+    /// Returns the spread of these figures, or `None` if there are none.
     pub fn from_figures(mut figures: Vec<f64>) -> Option<Self> {
         figures.sort_by(f64::total_cmp);
         let (min, max) = (*figures.first()?, *figures.last()?);

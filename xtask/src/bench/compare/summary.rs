@@ -1,4 +1,4 @@
-//! The summary: the ratios measured for each variant, for one model or pooled over all models.
+//! The summary: the ratios of each variant, measured on one model or pooled over all models.
 
 use super::measurement::{
     ALL_MODELS, Measurement, ProgramRuns, Series, figures_named, pairwise_ratios,
@@ -7,7 +7,7 @@ use super::run::PEAK_MEMORY;
 use super::spread::Spread;
 use super::variants::Group;
 
-/// The measurements of a variant, for one model or for all models.
+/// The measurements of a variant, on one model or on all models.
 #[derive(Clone, Debug)]
 pub struct VariantSummary<'a> {
     pub group: Group,

@@ -252,8 +252,8 @@ fn read_encoding(format: u32, descriptor: &[u8]) -> Result<(TexelEncoding, Vec<u
 }
 
 /// Returns whether rows run from right to left, and whether the bottom row is first. This is
-/// `KTXorientation` in the key/value data, which is usually `rd` or missing. An invalid value
-/// counts as missing.
+/// `KTXorientation` in the key/value data, which is usually `rd` or missing. An invalid value is
+/// treated as missing.
 fn read_orientation(mut entries: &[u8]) -> [bool; 2] {
     const KEY: &[u8] = b"KTXorientation\0";
     while let Some((length, rest)) = entries.split_first_chunk() {
