@@ -106,8 +106,8 @@ pub(super) fn split_elements(
     if cutter.fans > 0 {
         let polygons = counted(
             cutter.fans,
-            "polygon intersects itself or has too many corners",
-            "polygons intersect themselves or have too many corners",
+            "polygon intersects itself or is too complex",
+            "polygons intersect themselves or are too complex",
         );
         let message = format!("{polygons}, so triangles may overlap");
         warnings.push_warning("", message);

@@ -135,7 +135,11 @@ fn triangulate_faces(
         warnings.push_warning("element face", message);
     }
     if fans > 0 {
-        let polygons = counted(fans, "polygon intersects itself", "polygons intersect themselves");
+        let polygons = counted(
+            fans,
+            "polygon intersects itself or is too complex",
+            "polygons intersect themselves or are too complex",
+        );
         let message = format!("{polygons}, so triangles may overlap");
         warnings.push_warning("element face", message);
     }
