@@ -97,7 +97,7 @@ fn check_in_memory(uri: &str, document: &Document, expected: &Expected) -> Resul
     if is_data || uri.is_empty() {
         return check_load_result(&loaded, expected);
     }
-    let problem = format!("the model is in memory and cannot read the file {uri:?}");
+    let problem = format!("a model in memory cannot refer to the file {uri:?}");
     check_load_result(
         &loaded,
         &fault_at(

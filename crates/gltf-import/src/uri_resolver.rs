@@ -189,7 +189,7 @@ impl<'a> UriResolver<'a> {
     ) -> Result<Option<Vec<u8>>, Diagnostic> {
         match &self.source {
             AssetSource::Nowhere => {
-                let message = format!("the model is in memory and cannot read the file {uri:?}");
+                let message = format!("a model in memory cannot refer to the file {uri:?}");
                 let help = "load the model from its own file, or export it as a .glb, which \
                             contains everything";
                 Err(Diagnostic::error(codes::FORBIDDEN_PATH, pointer, message, help))

@@ -78,7 +78,7 @@ impl ImportWarnings {
     /// Returns the stored warnings and, if others were omitted, a warning with their number.
     pub fn into_list(mut self) -> Vec<Diagnostic> {
         if self.omitted > 0 {
-            let message = format!("{} more warnings are not listed", self.omitted);
+            let message = format!("number of warnings not listed: {}", self.omitted);
             self.list.push(warning(codes::LEFT_OUT, "", message));
         }
         self.list

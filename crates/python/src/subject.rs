@@ -142,7 +142,11 @@ impl Subject {
                 "nodes" => model.nodes.iter().map(|part| part.name.clone()).collect(),
                 "meshes" => model.meshes.iter().map(|part| part.name.clone()).collect(),
                 "materials" => model.materials.iter().map(|part| part.name.clone()).collect(),
-                _ => return Err(Failure::argument("what", "expected nodes, meshes or …").into()),
+                _ => {
+                    return Err(
+                        Failure::argument("what", "expected nodes, meshes or materials").into()
+                    );
+                }
             })
         };
         // Each model instance has separate nodes, but instances share meshes and materials.

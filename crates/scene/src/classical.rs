@@ -166,7 +166,7 @@ pub(super) fn check_classical_projection(
 /// Creates the error for a perspective from vanishing points that has a camera position too.
 fn own_eye_error(origin: &Origin) -> SceneError {
     let help = "use Frame(from: …), or remove the view".to_owned();
-    let message = "a perspective from vanishing points determines its own eye position";
+    let message = "a projection with vanishing points determines its own eye position";
     origin.error_at(&VIEW_PATH, message, Some(help))
 }
 

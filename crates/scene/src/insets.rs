@@ -207,7 +207,7 @@ fn resolve_stereo(
     };
     if !file.viewports.is_empty() {
         let help = "remove one of them";
-        return Err(fault("a scene can have viewports or be in stereo, but not both", help).into());
+        return Err(fault("a scene cannot have both viewports and stereo", help).into());
     }
     let (width, height) = file.view_size();
     let (beside, apart, convergence) = match stereo {
@@ -230,7 +230,7 @@ fn resolve_stereo(
     let middle = faults.finish(origin, middle)?;
     // In a parallel projection the viewer is at infinity: w = 0.
     if middle.view_projection.viewer().raw().w == 0.0 {
-        let help = "choose a perspective, such as Perspective(), or remove `stereo`";
+        let help = "choose a projection such as Perspective(), or remove `stereo`";
         return Err(fault("both eyes see the same picture in a parallel projection", help).into());
     }
     let plane = convergence.map_or_else(

@@ -41,7 +41,8 @@ fn resolve_section(
     let unit = Normal::<World>::new(-x / largest, -y / largest, -z / largest).normalized();
     let fault = || {
         let path = [Field("sections"), Index(at), Field("normal")];
-        let help = "point the normal to the half to remove, such as normal: (0, 0, 1)".to_owned();
+        let help =
+            "point the normal toward the half to remove, such as normal: (0, 0, 1)".to_owned();
         origin.error_at(&path, "the normal of a section must not be (0, 0, 0)", Some(help))
     };
     let unit = unit.filter(|_| largest > 0.0).ok_or_else(fault)?;

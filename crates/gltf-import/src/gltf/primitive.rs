@@ -389,8 +389,12 @@ impl<'a> PrimitiveReader<'a, '_> {
         }
         if replaced > 0 {
             let message = match replaced {
-                1 => "replaced 1 normal without a direction by a face normal".to_owned(),
-                _ => format!("replaced {replaced} normals without a direction by face normals"),
+                1 => "1 normal had no direction and was replaced with a face normal".to_owned(),
+                _ => {
+                    format!(
+                        "{replaced} normals had no direction and were replaced with face normals"
+                    )
+                }
             };
             self.warnings.push_warning(&pointer, message);
         }

@@ -5,6 +5,7 @@ use super::elements::{Corner, ElementState, NONE};
 use super::parser::ObjFile;
 use crate::polygons::{PolygonKind, Triangulator};
 use crate::text::LineCounter;
+use files::counted;
 use gltf_import::ImportWarnings;
 use model::{Diagnostic, Topology, codes};
 use std::collections::BTreeMap;
@@ -103,11 +104,12 @@ pub(super) fn split_elements(
         warnings.push_warning("", message);
     }
     if cutter.fans > 0 {
-        let message = format!(
-            "{} polygons intersect themselves or have too many corners; they are filled as fans, which \
-             may overlap",
-            cutter.fans
+        let polygons = counted(
+            cutter.fans,
+            "polygon intersects itself or is too complex",
+            "polygons intersect themselves or are too complex",
         );
+        let message = format!("{polygons}, so triangles may overlap");
         warnings.push_warning("", message);
     }
     Ok(cutter.parts)

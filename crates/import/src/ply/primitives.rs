@@ -135,9 +135,12 @@ fn triangulate_faces(
         warnings.push_warning("element face", message);
     }
     if fans > 0 {
-        let message = format!(
-            "{fans} polygons intersect themselves; they are filled as fans, which may overlap"
+        let polygons = counted(
+            fans,
+            "polygon intersects itself or is too complex",
+            "polygons intersect themselves or are too complex",
         );
+        let message = format!("{polygons}, so triangles may overlap");
         warnings.push_warning("element face", message);
     }
     triangles

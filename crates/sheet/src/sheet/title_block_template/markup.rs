@@ -240,7 +240,7 @@ impl<'a> MarkupReader<'a> {
             let quote = rest.chars().next().filter(|c| matches!(c, '"' | '\''));
             let quote = quote.ok_or_else(|| self.fault("missing value in quotes"))?;
             let length = rest[1..].find(quote);
-            let length = length.ok_or_else(|| self.fault("the quote is not closed"))?;
+            let length = length.ok_or_else(|| self.fault("the quoted value is not closed"))?;
             attributes.push((own, &rest[1..=length], self.at + 1));
             self.at += length + 2;
         }
