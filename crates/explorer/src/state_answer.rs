@@ -176,7 +176,7 @@ fn clipping_sentences(facts: &Facts) -> Vec<Sentence> {
     sentences
 }
 
-/// Returns the total numbers of clipped and outside triangles if some count for several planes.
+/// Returns the total numbers of clipped and outside triangles if planes share some of them.
 fn overlap_sentence(facts: &Facts) -> Option<Sentence> {
     let survey = facts.survey;
     let totals = [(survey.clipped, survey.clipped_by), (survey.outside, survey.outside_of)];
@@ -185,7 +185,7 @@ fn overlap_sentence(facts: &Facts) -> Option<Sentence> {
     overlaps.then(|| {
         sentence(
             format!(
-                "Some triangles count for several planes: in total, {clipped} are clipped and {outside} are entirely outside."
+                "Some triangles are counted under several planes: in total, {clipped} are clipped and {outside} are entirely outside."
             ),
             format!("有些三角形对几个平面都计数：总共有 {clipped} 个被裁剪，{outside} 个完全在外。"),
         )
