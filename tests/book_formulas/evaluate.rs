@@ -71,7 +71,7 @@ pub fn evaluate(expression: &Expression, scope: &dyn Scope) -> Result<Value, Str
     if value.is_finite() { Ok(value) } else { Err("a value is not finite".to_owned()) }
 }
 
-/// The scope of the body of a sum, in which an index in a subscript is replaced by its value.
+/// The scope of the body of a sum: replaces an index in a subscript with its value.
 struct IndexedScope<'a> {
     outer: &'a dyn Scope,
     index: &'a str,

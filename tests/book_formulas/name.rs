@@ -56,7 +56,7 @@ impl Name {
         Self { subscript: self.subscript.iter().map(replace).collect(), ..self.clone() }
     }
 
-    /// Returns the key for looking up values, in which subscripts are joined.
+    /// Returns the key for looking up values, with the subscripts joined.
     pub fn key(&self) -> Self {
         let joined = self.subscript.concat();
         let subscript = Some(joined).filter(|text| !text.is_empty()).into_iter().collect();

@@ -82,7 +82,7 @@ impl Case {
         if is_whole && is_short && is_sorted {
             return Ok(());
         }
-        Err(format!("{} problems of {all} are listed", report.diagnostics.len()))
+        Err(format!("{} of {all} problems are listed", report.diagnostics.len()))
     }
 
     /// Loads the file leniently, which must succeed if it `loads` strictly. The resulting model

@@ -1,4 +1,4 @@
-//! Takes a document that uses everything, and replaces each member by every kind of value or
+//! Takes a document that uses everything, and replaces each member with every kind of value or
 //! removes it.
 
 use crate::hostile::case::{Case, Expected};

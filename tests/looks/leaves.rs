@@ -15,7 +15,7 @@ use std::path::Path;
 const MODES: [&str; 3] = ["OPAQUE", "MASK", "BLEND"];
 const BACKGROUND: [u8; 4] = [0, 255, 0, 255];
 
-/// Returns the defects of the leaves in each style. The model is written to `folder`.
+/// Returns the defects in the leaves for each style. The model is written to `folder`.
 pub fn judge_leaves(folder: &Path) -> Result<Vec<String>, String> {
     let written = create_dir_all(folder).and_then(|()| write(folder.join("leaves.glb"), leaves()));
     written.map_err(|error| format!("{}: {error}", folder.display()))?;

@@ -97,7 +97,7 @@ fn broken_models_are_recorded_and_finished_pictures_are_not_rendered_again() {
     let run = sandbox.run(&SMALL);
     assert_eq!(
         run.stdout, "2 rendered, 1 up to date, 1 failed\n",
-        "one model changed, one picture is missing"
+        "one model has changed and one picture is missing"
     );
     assert!(!run.stderr.contains("broken.glb"), "{}", run.stderr);
     assert!(run.stderr.contains("1 in an earlier run; use --retry-failed"), "{}", run.stderr);
@@ -107,10 +107,7 @@ fn broken_models_are_recorded_and_finished_pictures_are_not_rendered_again() {
     let run = sandbox.run(&[&SMALL[..], &["--background", "#123"]].concat());
     assert_eq!(run.stdout, "3 rendered, 0 up to date, 1 failed\n", "settings changed");
     let run = sandbox.run(&[&SMALL[..], &["--background", "#123", "--force"]].concat());
-    assert_eq!(
-        run.stdout, "3 rendered, 0 up to date, 1 failed\n",
-        "rendering everything was requested"
-    );
+    assert_eq!(run.stdout, "3 rendered, 0 up to date, 1 failed\n", "`--force` renders everything");
 }
 
 #[test]
@@ -152,7 +149,7 @@ fn a_killed_run_resumes_where_it_stopped() {
     let begin = Instant::now();
     let done = || read_records(&sandbox, "").len();
     while done() < 3 {
-        assert!(begin.elapsed() < Duration::from_secs(60), "the run makes no progress");
+        assert!(begin.elapsed() < Duration::from_secs(60), "the run is making no progress");
         std::thread::sleep(Duration::from_millis(5));
     }
     process.kill().expect("the process can be killed");

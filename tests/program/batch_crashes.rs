@@ -201,7 +201,7 @@ fn workers_exit_when_their_batch_is_killed() {
     let mut batch = start_batch(&sandbox, &BATCH);
     let begin = Instant::now();
     while recorded(&sandbox.path_of("out")).is_empty() {
-        assert!(begin.elapsed() < Duration::from_secs(120), "the batch makes no progress");
+        assert!(begin.elapsed() < Duration::from_secs(120), "the batch is making no progress");
         std::thread::sleep(Duration::from_millis(5));
     }
     batch.kill().expect("the process can be killed");

@@ -17,8 +17,8 @@ fn curve_csv(sandbox: &Sandbox, flags: &[&str]) -> Vec<[f64; 5]> {
     text.lines().skip(1).map(row).collect()
 }
 
-/// The lesson's table for near 2 and far 40 (C68); some values are compared with the four printed
-/// digits.
+/// The lesson's table for near 2 and far 40 (C68); some values are compared as printed, to four
+/// decimal places.
 #[test]
 fn the_lesson_table_is_reproduced() {
     let sandbox = Sandbox::new("curve_lesson");
@@ -44,7 +44,7 @@ fn the_lesson_table_is_reproduced() {
     assert!(markdown.contains("| 3 | -0.2982 | 0.2982 |"), "{markdown}");
 }
 
-/// In fixed point, a step is D²(F − N)/(F N) divided by the number of parts of the range. In
+/// In fixed point, a step is D²(F − N)/(F N) divided by the number of intervals in the range. In
 /// floating point, it is the gap to the nearest f32, divided by the slope.
 #[test]
 fn steps_match_the_depth_formats() {
@@ -88,7 +88,7 @@ fn the_curves_are_drawn_in_every_format() {
             let [low, high] = layer_bounds(&layers, |layer| layer == id);
             assert!(low[0] > 0.0 && high[0] < page[0] && high[1] < page[1], "{id}");
         }
-        // Both depth curves span the whole range and cross at half of it, at twice the near
+        // Both depth curves span the whole range and cross at its midpoint, at twice the near
         // distance.
         let [low, high] = layer_bounds(&layers, |layer| layer == "depth-axes");
         let mark = layers["depth-marks"][0][0][0];
@@ -97,7 +97,7 @@ fn the_curves_are_drawn_in_every_format() {
     }
 }
 
-/// On a linear axis, the mark for half the range is at its distance, 2FN/(F + N).
+/// On a linear axis, the mark for half the depth range is at its distance, 2FN/(F + N).
 #[test]
 fn the_distance_axis_can_be_linear() {
     let sandbox = Sandbox::new("curve_linear");
@@ -116,7 +116,7 @@ fn the_distance_axis_can_be_linear() {
     }
 }
 
-/// C36: segments that pass the eye are torn apart if they are divided without clipping.
+/// C36: segments that extend behind the eye are torn in two if they are divided without clipping.
 #[test]
 fn the_wrap_around_is_shown_with_and_without_clipping() {
     let sandbox = Sandbox::new("wrap_around");

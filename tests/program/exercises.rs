@@ -1,5 +1,5 @@
-//! The page of exercises: each of its commands is run, and its JSON output is compared with the
-//! worked answer on the page (exercises 1 to 11, C104).
+//! The page of exercises: runs each of its commands, and compares its JSON output with the worked
+//! answer on the page (exercises 1 to 11, C104).
 
 use crate::sandbox::Sandbox;
 use serde_json::Value;

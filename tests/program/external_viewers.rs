@@ -50,8 +50,8 @@ impl InkMap {
         rows.flat_map(row).fold(0.0, f64::max)
     }
 
-    /// Counts the pixels with much ink here and hardly any ink in or next to the same pixel in
-    /// `other`.
+    /// Counts the pixels that have a lot of ink in this picture but hardly any in or next to the
+    /// same pixel of `other`.
     fn missing_ink(&self, other: &Self) -> usize {
         let [width, height] = self.size;
         let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
@@ -126,7 +126,8 @@ fn chromium_matches_the_png() {
     }
 }
 
-/// Returns the upper left part of a picture that may be one pixel larger.
+/// Crops a picture, which may be up to two pixels too large, to its upper-left `columns` × `rows`
+/// pixels.
 fn cropped(
     (width, height, pixels): (u32, u32, Vec<[u8; 4]>),
     [columns, rows]: [usize; 2],

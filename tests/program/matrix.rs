@@ -87,7 +87,7 @@ fn matrices_from_the_sources_are_not_misprints() {
         ("1 0 0 0 0 1 0 0 0 0 1 0 .1 .2 .3 1", "depth preserved: (p, q, r) = (0.1, 0.2, 0.3)"),
         (
             "320 0 0 319.5 0 -240 0 239.5 0 0 1 0 0 0 0 1",
-            "It is the viewport of 640 × 480 pixels, y down, pixel centers at integers.",
+            "It is the viewport of 640 × 480 pixels, with y down and centers at integers.",
         ),
     ] {
         let run = sandbox.run(&words(numbers));

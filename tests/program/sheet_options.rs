@@ -71,7 +71,7 @@ fn pdf_text_is_found_by_another_reader() {
          owner: \"Alberti\", language: Chinese",
     );
     let run = sandbox.run(&["sheet", "scene.ron", "-o", "out.pdf"]);
-    // The characters are invisible, but the text is found.
+    // The drawing font lacks these characters, but the invisible text layer of the PDF has them.
     assert!(run.code == 0 && run.stderr.contains("the drawing font lacks 轴承"), "{}", run.stderr);
     let read = |flags: &[&str]| {
         let path = sandbox.path_of("out.pdf").display().to_string();
@@ -89,7 +89,8 @@ fn pdf_text_is_found_by_another_reader() {
     {
         assert!(text.contains(word), "{word}: {text}");
     }
-    // A word is at the position of its letters: the title begins 1.5 mm from the block's border.
+    // Searchable words lie over their drawn letters: the title begins 1.5 mm from the block's
+    // border.
     let boxes = read(&["-bbox"]).expect("a reader");
     let line = boxes.lines().find(|line| line.contains(">Größe<")).expect("the title");
     let attribute = |name: &str| {
@@ -102,7 +103,7 @@ fn pdf_text_is_found_by_another_reader() {
 }
 
 #[test]
-fn a_custom_title_block_is_read_or_its_mistake_is_shown() {
+fn a_custom_title_block_is_read_or_its_error_is_reported() {
     let sandbox = Sandbox::new("sheet_block");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     write_scene(&sandbox, "scene.ron", "title: \"Box\", title_block: \"block.svg\"");
@@ -156,7 +157,7 @@ fn invalid_numbers_are_reported() {
 }
 
 #[test]
-fn checking_a_scene_warns_about_problems_of_the_sheet() {
+fn checking_a_scene_warns_about_problems_with_the_sheet() {
     let sandbox = Sandbox::new("sheet_check");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let section = |normal: &str| format!("Section(normal: {normal}, point: (0.05, 0.02, 0.02))");
@@ -177,7 +178,8 @@ fn checking_a_scene_warns_about_problems_of_the_sheet() {
         sandbox.write_file("scene.ron", text);
         let checked = sandbox.run(&["scene", "check", "scene.ron"]);
         let drawn = sandbox.run(&["sheet", "scene.ron", "-o", "out.pdf"]);
-        // The model itself has errors, but they do not prevent it from being drawn.
+        // The check finds errors in the model, too, but none in the scene. The sheet is still
+        // drawn.
         assert!(checked.stdout.contains("scene.ron: no mistakes, "), "{}", checked.stdout);
         assert_eq!(drawn.code, 0, "{}", drawn.stderr);
         let head = format!("warning[{code}]: ");
@@ -187,7 +189,7 @@ fn checking_a_scene_warns_about_problems_of_the_sheet() {
 }
 
 #[test]
-fn the_title_block_of_an_included_file_is_relative_to_that_file() {
+fn the_title_block_path_in_an_included_file_is_relative_to_that_file() {
     let sandbox = Sandbox::new("sheet_included_block");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     std::fs::create_dir(sandbox.path_of("lib")).expect("a folder");

@@ -1,4 +1,4 @@
-//! The commands in the pages: each runs once, with a time limit, and its output is cached.
+//! The commands in the pages: runs each once, with a time limit, and caches its output.
 
 use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;

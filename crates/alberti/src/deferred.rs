@@ -1,4 +1,4 @@
-//! Deferred arguments: a command's flags are declared only when that command is used.
+//! Deferred arguments: declares a command's flags only when that command is used.
 //!
 //! Building the flags of all commands at every start would take most of the time of a short
 //! command.

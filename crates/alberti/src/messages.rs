@@ -144,7 +144,7 @@ pub(crate) fn print_note(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
-/// Prints the warnings of a drawing, then the warnings of each model.
+/// Prints the warnings about a drawing, then the warnings about each model.
 ///
 /// Several instances of a model have the same warnings, which are printed once.
 ///
@@ -183,7 +183,7 @@ fn concerns_picture(scene: &Scene, is_vector: bool, warning: &Diagnostic) -> boo
     true
 }
 
-/// Prints the first warnings of a model, and the number of remaining warnings.
+/// Prints the first warnings about a model, and the number of remaining warnings.
 ///
 /// ```text
 /// warning: fox.glb: /meshes/0: …

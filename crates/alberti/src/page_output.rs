@@ -13,7 +13,7 @@ use files::visible_path;
 use pipeline::Scene;
 use std::path::Path;
 
-/// Writes the panels of a scene, then prints the warnings of its models and panels.
+/// Writes the panels of a scene, then prints the warnings about its models and panels.
 ///
 /// The progress line is removed before the first warning.
 ///

@@ -201,7 +201,7 @@ fn sheet_error(origin: &Origin, error: sheet::SheetError) -> CliError {
     }
 }
 
-/// Returns the warnings of all pages, without duplicates.
+/// Returns the warnings about all pages, without duplicates.
 fn warnings_of_pages(pages: &[SheetPage]) -> Vec<SheetWarning> {
     let all = pages.iter().flat_map(|page| &page.warnings);
     let mut warnings: Vec<SheetWarning> = all.cloned().collect();

@@ -1,4 +1,4 @@
-//! Termination signals: unfinished files are removed before the program ends.
+//! Termination signals: removes unfinished files before the program ends.
 
 /// Makes SIGINT, SIGTERM and SIGHUP remove temporary files before they end the program.
 ///

@@ -1,4 +1,4 @@
-//! Advice on wrong command lines: flags and values from other programs are translated into their
+//! Advice on wrong command lines: translates flags and values from other programs into their
 //! counterparts here.
 //!
 //! clap compares words letter by letter, which finds misspellings but misleads otherwise:

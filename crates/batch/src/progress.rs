@@ -28,7 +28,7 @@ const METRICS_INTERVAL: Duration = Duration::from_secs(1);
 pub struct ProgressDisplay {
     /// The stream, such as the standard error stream.
     pub stream: Box<dyn Write + Send>,
-    /// Whether the stream is a terminal, on which one line is rewritten; a log gets one line per
+    /// Whether the stream is a terminal, where one line is rewritten; a log gets one line per
     /// minute.
     pub is_terminal: bool,
 }

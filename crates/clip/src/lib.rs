@@ -9,9 +9,9 @@
 //! ```text
 //!                 w
 //!    q/w     ╲    │p   ╱           p is visible, q is behind the eye. The visible part of
-//!   ──●───────╲───┼─·─╱─── w = 1   the segment runs from p to its cut c with the wedge. In
-//!              ╲  │  c             the picture, it runs from just right of the middle to
-//!               ╲ │ ╱ ·            the right border.
+//!   ──●───────╲───┼─·─╱─── w = 1   the segment runs from p to c, where the segment leaves
+//!              ╲  │  c             the wedge. In the picture, it runs from just right of
+//!               ╲ │ ╱ ·            the middle to the right border.
 //!                ╲│╱   ·
 //!       ──────────┼─────·─── x     Divided first, q ends up at q/w, on the left. A line from
 //!                ╱│╲     ·         p to that point runs the wrong way: it shows exactly the

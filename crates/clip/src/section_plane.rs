@@ -1,4 +1,4 @@
-//! The plane of a section, with the distance within which a vertex counts as on it.
+//! The plane of a section, with the distance within which a vertex counts as lying on it.
 //!
 //! ```text
 //!     exact:  ●────●────●   one vertex is 2e-15 above the plane, so the plane cuts a needle off

@@ -1,4 +1,4 @@
-//! Hand-drawn lines: each line is drawn twice, as strokes that waver around its true position.
+//! Hand-drawn lines: draws each line twice, as strokes that waver around its true position.
 //!
 //! ```text
 //!   true     ●───────────────────●

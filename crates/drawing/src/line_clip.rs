@@ -18,7 +18,7 @@ use hidden_line::{EdgeSegment, Region, RegionEdge};
 /// by 0.02% of the radius.
 const DISC_CORNERS: u32 = 180;
 
-/// An area of the picture in pixels, y down.
+/// An area of the picture in pixels, with y down.
 #[derive(Clone, PartialEq, Debug)]
 pub enum ClipArea {
     /// A disc.

@@ -1,4 +1,4 @@
-//! Overlap removal: where collinear segments overlap, only the most important one is drawn.
+//! Overlap removal: keeps only the most important segment where collinear segments overlap.
 //!
 //! ```text
 //!   visible  ├────────┤                     ├────────┤

@@ -115,7 +115,7 @@ impl Panels {
         Self { introduction, ..self }
     }
 
-    /// Returns the warnings of all drawings, without duplicates.
+    /// Returns the warnings about all drawings, without duplicates.
     #[must_use]
     pub fn warnings(&self) -> Vec<Warning> {
         let all = self.panels.iter().flat_map(|panel| panel.page.warnings.iter().cloned());

@@ -177,7 +177,7 @@ impl TransformChain {
         [self.viewport.area().width(), self.viewport.area().height()]
     }
 
-    /// Converts screen coordinates to pixels from the upper left corner of the picture, y down.
+    /// Converts screen coordinates to pixels from the upper left corner of the image, with y down.
     pub(super) fn image_coordinates(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let border = self.viewport.convention().centers.image_border();
         let (x, y) = (x - border, y - border);

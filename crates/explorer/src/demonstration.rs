@@ -30,7 +30,7 @@ use scene::ResolveError;
 
 /// The reason why a demonstration cannot be computed.
 ///
-/// Each variant contains the error of the stage that failed, or the parameter and the reason, so
+/// Each variant contains the error from the stage that failed, or the parameter and the reason, so
 /// that the message can suggest a remedy.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]

@@ -4,8 +4,7 @@ use crate::words::{Language, Sentence};
 use pipeline::{RenderError, ResolveError};
 use scene_file::file::InvalidNumber;
 
-/// The error of a request that cannot be answered. The explorer is unchanged and can answer further
-/// requests.
+/// The error for a request that cannot be answered. The explorer is unchanged and stays usable.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("{message}; {help}")]
 pub struct ExplorerError {

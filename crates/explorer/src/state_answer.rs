@@ -180,7 +180,7 @@ fn clipping_sentences(facts: &Facts) -> Vec<Sentence> {
     sentences
 }
 
-/// Returns the total numbers of clipped and outside triangles if some count for several planes.
+/// Returns the total numbers of clipped and outside triangles if planes share some of them.
 fn overlap_sentence(facts: &Facts) -> Option<Sentence> {
     let survey = facts.survey;
     let totals = [(survey.clipped, survey.clipped_by), (survey.outside, survey.outside_of)];
@@ -189,9 +189,7 @@ fn overlap_sentence(facts: &Facts) -> Option<Sentence> {
     overlaps.then(|| {
         sentence(
             format!(
-                "Some triangles count for several planes: in total, {clipped} {} clipped and {outside} {} entirely outside.",
-                is_or_are(clipped),
-                is_or_are(outside)
+                "Some triangles are counted under several planes: in total, {clipped} are clipped and {outside} are entirely outside."
             ),
             format!("有些三角形对几个平面都计数：总共有 {clipped} 个被裁剪，{outside} 个完全在外。"),
         )

@@ -206,7 +206,7 @@ pub(crate) struct Survey {
     pub(crate) clipped: usize,
     pub(crate) outside: usize,
     /// The number of triangles that each plane clips: left, right, bottom, top, near and far. A
-    /// triangle may count for several planes.
+    /// triangle may be counted under several planes.
     pub(crate) clipped_by: [usize; 6],
     /// The number of triangles entirely outside each plane, in the same order.
     pub(crate) outside_of: [usize; 6],

@@ -1,4 +1,4 @@
-//! Writes output files atomically: a temporary file next to the target is written, then renamed.
+//! Writes output files atomically: writes a temporary file next to the target, then renames it.
 //!
 //! A failed run leaves the old file unchanged, and no reader ever sees an incomplete file.
 

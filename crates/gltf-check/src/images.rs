@@ -23,7 +23,7 @@ use std::borrow::Cow;
 /// The media type of an image, detected from its bytes or declared, determines which textures may
 /// refer to it.
 ///
-/// `is_binary` is set for a GLB, in which data URIs are discouraged.
+/// `is_binary` is set for a GLB, where data URIs are discouraged.
 pub(super) fn check_images(
     document: &CheckedDocument<'_>,
     store: &BufferStore<'_>,
@@ -80,7 +80,7 @@ struct ImageChecker<'a> {
     store: &'a BufferStore<'a>,
     usage: &'a UsageMap<'a>,
     resolver: &'a UriResolver<'a>,
-    /// Whether the file is a GLB, in which data URIs are discouraged.
+    /// Whether the file is a GLB, where data URIs are discouraged.
     is_binary: bool,
     /// The JSON pointer of the image.
     pointer: String,

@@ -68,7 +68,7 @@ impl ImportWarnings {
         Ok(())
     }
 
-    /// Moves the warnings of another list to the end of this list.
+    /// Moves the warnings in another list to the end of this list.
     pub fn append_warnings(&mut self, other: Self) {
         let Self { list, omitted: left_out, .. } = other;
         list.into_iter().for_each(|warning| self.push(warning));

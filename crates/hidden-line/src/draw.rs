@@ -104,8 +104,8 @@ pub fn draw_hatched<'a>(
 
 /// Draws a welded surface as seen by one camera, on an image of `size` pixels.
 ///
-/// Use this function to draw the same surface from several directions, as on a sheet. Otherwise, it
-/// is like [`draw_hatched`].
+/// This is like [`draw_hatched`], but one surface can be drawn from several directions, as on a
+/// sheet.
 ///
 /// # Errors
 /// See [`draw`].

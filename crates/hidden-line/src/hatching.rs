@@ -66,7 +66,7 @@ impl fmt::Debug for FaceHatching<'_> {
 /// A family of parallel lines on the screen.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct HatchPattern {
-    /// The unit normal of the lines on the screen, y down.
+    /// The unit normal of the lines on the screen, with y down.
     normal: DVec2,
     /// The distance between lines in pixels.
     spacing: f64,

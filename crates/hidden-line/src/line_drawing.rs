@@ -69,7 +69,7 @@ impl EdgeClass {
 /// A segment of an edge that is either visible or hidden from end to end.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct EdgeSegment {
-    /// The ends on the screen, in pixels, y down.
+    /// The ends on the screen, in pixels, with y down.
     pub ends: [DVec2; 2],
     /// The depths of the ends, 0 at the far plane and 1 at the near plane.
     pub depths: [f64; 2],

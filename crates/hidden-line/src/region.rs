@@ -20,7 +20,7 @@ use glam::{DVec2, DVec3};
 /// right, as if y pointed up.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct RegionEdge {
-    /// The ends on the screen, in pixels, y down.
+    /// The ends on the screen, in pixels, with y down.
     pub ends: [DVec2; 2],
     /// The multiplicity; never 0.
     pub winding: i32,
@@ -40,7 +40,7 @@ pub struct Region {
 /// Equally spaced parallel lines, one of which passes through the upper left corner of the screen.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct RegionHatching {
-    /// The unit vector along the lines, y down.
+    /// The unit vector along the lines, with y down.
     pub direction: DVec2,
     /// The distance between lines in pixels.
     pub spacing: f64,

@@ -160,7 +160,7 @@ struct ZBufferImage {
     touching: f64,
 }
 
-/// The plane of a face: the normal toward the viewer, and the distance from the origin along it.
+/// The plane of a face: the normal facing the viewer, and the distance from the origin along it.
 #[derive(Clone, Copy, Debug)]
 struct FacePlane {
     normal: DVec3,

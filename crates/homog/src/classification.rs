@@ -137,7 +137,7 @@ impl fmt::Display for KindReason {
     }
 }
 
-/// Replaces coordinates that are only rounding errors of the largest one by 0.
+/// Replaces coordinates that are only rounding errors of the largest one with 0.
 fn without_noise(point: [f64; 3]) -> [f64; 3] {
     let largest = point.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
     point.map(|c| if c.abs() <= NOISE * largest { 0.0 } else { c })

@@ -271,7 +271,7 @@ fn skin_vertices<'a>(
     }
 }
 
-/// Converts a vector to double precision, in which all sums are computed.
+/// Converts a vector to double precision, which all sums use.
 fn to_f64(v: [f32; 3]) -> DVec3 {
     Vec3::from_array(v).as_dvec3()
 }

@@ -1,7 +1,7 @@
 //! Page model: strokes and fills on paper, for output as SVG, PDF, DXF and PNG.
 //!
-//! Coordinates are whole micrometers from the upper left corner, y down. Integers are the same in
-//! every format, and sums of relative steps are exact.
+//! Coordinates are whole micrometers from the upper left corner, with y down. Integers are the same
+//! in every format, and sums of relative steps are exact.
 //!
 //! ```text
 //!   Page ─┬─ PlacedImage …
@@ -120,7 +120,7 @@ pub struct HatchArea {
     pub loops: Vec<Polyline>,
     /// A point in micrometers on one of the lines or its extension.
     pub origin: PagePoint,
-    /// The unit vector along the lines, y down.
+    /// The unit vector along the lines, with y down.
     pub direction: DVec2,
     /// The distance between lines in millimeters.
     pub spacing: f64,

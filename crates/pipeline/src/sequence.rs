@@ -67,7 +67,7 @@ pub struct Sequence {
 
 /// The reason why a sequence could not be completed.
 ///
-/// `E` is the error of the function that receives the frames, such as an I/O error of an encoder.
+/// `E` is the error from the function that receives the frames, such as an encoder's I/O error.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SequenceError<E> {

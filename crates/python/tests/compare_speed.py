@@ -166,7 +166,7 @@ def main():
         known[sys.argv[2]]()
         return
     for name in sys.argv[1:] or known:
-        # Otherwise several Mesa threads would be compared with a single thread of Alberti.
+        # Without this, several Mesa threads would be compared with a single thread of Alberti.
         environment = {**os.environ, "LP_NUM_THREADS": "0"}
         command = [sys.executable, __file__, "only", name]
         done = subprocess.run(command, capture_output=True, text=True, env=environment)

@@ -1,5 +1,5 @@
-//! Deferred shading of a filled tile: each visible triangle is shaded once per pixel, eight
-//! fragments at a time.
+//! Deferred shading of a filled tile: shades each visible triangle once per pixel, eight fragments
+//! at a time.
 //!
 //! | pixels of a row | shaded | by |
 //! | --- | --- | --- |
@@ -149,7 +149,7 @@ impl<S: Surface> TileResolve<'_, S> {
                 self.gather_contributions(&run, &mut layered.contributions);
                 continue;
             }
-            // With one triangle per pixel, shade and write immediately. Otherwise an edge crosses
+            // If each pixel has one triangle, shade and write immediately. If not, an edge crosses
             // the run.
             match self.single_triangles(&run) {
                 Some(triangles) => self.write_uniform(&run, triangles, targets, empty, encode),

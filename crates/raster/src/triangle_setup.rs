@@ -52,7 +52,7 @@ pub(crate) struct TriangleFunctions {
 
 /// A triangle prepared for one tile.
 ///
-/// It contains the exact functions, from which the start values of each sample plane are computed.
+/// The start values of each sample plane are computed from the exact functions in it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TriangleSetup {
     /// The functions in 32 bits and `f32`, in the coordinates of the tile.

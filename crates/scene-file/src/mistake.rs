@@ -4,8 +4,8 @@ use super::SceneError;
 use super::source_text::SourceText;
 use core::ops::Range;
 
-/// The maximum number of mistakes reported for a text. More would help nobody, and each one costs a
-/// search for the intended word.
+/// The maximum number of mistakes reported for a text. A longer list would help nobody, and each
+/// mistake costs a search for the intended word.
 pub(super) const MAX_MISTAKES: usize = 1000;
 
 /// A mistake at a position in a text, found by the parser or by the declaration checker.

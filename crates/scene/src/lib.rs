@@ -1,4 +1,4 @@
-//! Resolution of scene files: models are loaded, angles become radians, and defaults are filled in.
+//! Resolution of scene files: loads models, converts angles to radians, and fills in defaults.
 //!
 //! ```text
 //!  text ─► SceneFile ─► Scene ─► renderer, line drawings

@@ -7,8 +7,8 @@ use scene_file::PathStep::{Field, Index};
 use scene_file::SceneError;
 use scene_file::file::SectionFile;
 
-/// The maximum number of sections. More are probably a mistake, and each costs another pass over
-/// the models.
+/// The maximum number of sections. A longer list is probably a mistake, and each section costs
+/// another pass over the models.
 const MAX_SECTIONS: usize = 16;
 
 /// Returns the planes of the sections. Their normals have length 1 and point to the half that is

@@ -8,8 +8,8 @@ use raster::{Frame, Surface};
 pub trait FrameChannel: Channel {
     /// Draws a frame over `background` (linear, premultiplied by alpha) into pixels.
     ///
-    /// This is like [`Frame::draw`], but compiled here once for each bit depth. Otherwise, each
-    /// caller that is generic over channels and surfaces would contain a copy.
+    /// This is like [`Frame::draw`], but compiled here once for each bit depth, so that callers
+    /// that are generic over channels and surfaces do not each contain a copy.
     fn draw_frame(
         frame: &Frame,
         surface: &dyn Surface,

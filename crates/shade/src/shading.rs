@@ -141,8 +141,8 @@ impl<'d> DrawList<'d> {
 
     /// Selects the draw of one lane, and all lanes that belong to the same draw.
     ///
-    /// The material, textures and flags are then uniform over the lanes, so they do not need to be
-    /// selected per lane.
+    /// The material, textures and flags are then uniform across the lanes, so they do not need to
+    /// be selected per lane.
     #[inline(always)]
     pub(super) fn select_draw_lanes(
         &self,

@@ -16,7 +16,7 @@ use super::vector::{cross, dot, normalize};
 
 /// A softbox: a luminous rectangle with soft edges, one unit away.
 struct Softbox {
-    /// The direction of the center, y up, of any length.
+    /// The direction of the center, of any length, with y up.
     direction: [f32; 3],
     /// Half the width and half the height.
     half_size: [f32; 2],

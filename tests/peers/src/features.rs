@@ -13,7 +13,7 @@ use scene_file::parse_scene;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The name of the base, with which the others are compared.
+/// The name of the base that the others are compared with.
 pub const BASE: &str = "default picture";
 
 /// Each feature with its changes to the base: scene fields such as lights, image fields, and

@@ -1,5 +1,5 @@
-//! Side-by-side measurement: every contestant runs once per round, and only times from the same
-//! round are compared.
+//! Side-by-side measurement: runs every contestant once per round, and compares only times from the
+//! same round.
 //!
 //! If the machine is slow for a second, it is slow for all, so ratios vary less than times. The
 //! order rotates from round to round, so that no contestant always follows the same neighbor.

@@ -54,7 +54,7 @@ fn sections(text: &str) -> Vec<(String, String)> {
     parts.map(|(name, body)| (name.to_owned(), body.to_owned())).collect()
 }
 
-/// Returns the document with all types of scene files, in which field types are links.
+/// Returns the document with all types of scene files, with links for field types.
 fn scene_document(types: &[&(String, String)]) -> Result<Document, String> {
     let mut text = String::from(
         "# Scene files\n\nAll types of scene files and their fields, as printed by `alberti scene doc`.\n",

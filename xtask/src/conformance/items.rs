@@ -31,7 +31,7 @@ pub static ITEMS: LazyLock<Vec<Item>> = LazyLock::new(|| parse_rows(ITEM_ROWS));
 /// The misprints in the sources. A test of a misprint shows that the printed form is wrong.
 pub static MISPRINTS: LazyLock<Vec<Item>> = LazyLock::new(|| parse_rows(MISPRINT_ROWS));
 
-/// The exercises. Each covers an item, and a test of the exercise also counts for the item.
+/// The exercises. Each covers an item, and a test of the exercise also counts toward the item.
 pub static EXERCISES: LazyLock<Vec<Item>> = LazyLock::new(|| {
     let asked = |id: &str| ITEMS.iter().find(|item| item.id == id);
     let exercise = |(i, id): (usize, &&str)| {

@@ -18,8 +18,8 @@ pub struct Test {
 }
 
 impl Test {
-    /// Returns the crate whose topics a test covers. Tests of `recognition` count for `projection`;
-    /// tests of `explain` and cross-crate tests count for `pipeline`.
+    /// Returns the crate whose topics a test covers. Tests in `recognition` count toward
+    /// `projection`; tests in `explain` and cross-crate tests count toward `pipeline`.
     pub fn owner(&self) -> &str {
         let folder = self.path.strip_prefix("crates/").and_then(|rest| rest.split('/').next());
         match folder {

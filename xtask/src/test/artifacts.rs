@@ -30,7 +30,7 @@ pub struct TestPrograms {
 impl TestPrograms {
     /// Builds everything that is not up to date.
     ///
-    /// It always builds the whole workspace, because Cargo unifies features over the selected
+    /// It always builds the whole workspace, because Cargo unifies features across the selected
     /// packages and would compile most crates again for any other selection.
     pub fn build() -> Result<Self, String> {
         let call = ["build", "--workspace", "--lib", "--bins", "--tests", "--examples"];
@@ -73,12 +73,12 @@ impl TestPrograms {
         if faults.is_empty() { Ok(()) } else { Err(faults.join("\n")) }
     }
 
-    /// Runs a suite of `tests/suites.rs`.
+    /// Runs a suite in `tests/suites.rs`.
     pub fn run_suite(&self, name: &str, variables: &[(&str, &str)]) -> Outcome {
         self.run(self.find("suites")?, &[name], variables)
     }
 
-    /// Runs the tests of `tests/program` whose names contain `part` and not `without`.
+    /// Runs the tests in `tests/program` whose names contain `part` and not `without`.
     pub fn run_program_tests(
         &self,
         part: &str,
@@ -104,7 +104,7 @@ impl TestPrograms {
         let mut command = Command::new(&program.path);
         command.args(words).current_dir(&program.folder).env("ALBERTI", &self.alberti);
         if program.package == "xtask" {
-            // The tests of xtask cause skips on purpose.
+            // xtask's own tests skip on purpose; those skips stay out of the log.
             command.env_remove("SKIP_LOG");
         }
         // Nobody needs the output of a thousand passing tests.
@@ -115,8 +115,8 @@ impl TestPrograms {
     }
 }
 
-/// Returns the test data folders from environment variables, as absolute paths, because tests run
-/// in a different current folder.
+/// Returns the test data folders from environment variables, as absolute paths, because the tests
+/// run in a different folder.
 fn named_folders() -> Vec<(&'static str, PathBuf)> {
     let here = std::env::current_dir().unwrap_or_default();
     let named = |name| Some((name, here.join(std::env::var_os(name)?)));

@@ -48,7 +48,7 @@ pub enum Action {
     Cargo(Vec<Vec<String>>),
     /// A suite of `tests/suites.rs`.
     Suite(&'static str),
-    /// The tests of `tests/program` whose names contain the first string but not the second.
+    /// The tests in `tests/program` whose names contain the first string but not the second.
     Program(&'static str, Option<&'static str>),
     /// The unit and integration tests of the crates.
     CrateTests,

@@ -228,9 +228,9 @@ impl Write for SharedFile {
 
 /// Returns the display time of a GIF frame in hundredths of a second; the total is exact.
 ///
-/// It is the difference of two rounded times, not a rounded difference. At 30 frames per second,
-/// the delays are 3, 4, 3, 3, 4, 3 …, and 30 of them last exactly one second. Many viewers raise
-/// delays below 2, that is, rates above 50, to 10.
+/// It is the difference between two rounded times, not a rounded difference. At 30 frames per
+/// second, the delays are 3, 4, 3, 3, 4, 3 …, and 30 of them last exactly one second. Many viewers
+/// raise delays below 2, that is, rates above 50, to 10.
 fn frame_delay(frame: usize, fps: f64) -> u16 {
     let until = |frame: usize| libm::round(100.0 * frame as f64 / fps);
     (until(frame + 1) - until(frame)).min(65_535.0) as u16

@@ -129,7 +129,7 @@ impl Worker {
         }
     }
 
-    /// Renders one picture; returns it with the warnings of its models and of the drawing.
+    /// Renders one picture; returns it with the warnings about its models and the drawing.
     ///
     /// Rendering is single-threaded, because the workers themselves run in parallel.
     fn render_picture(

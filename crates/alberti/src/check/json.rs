@@ -61,7 +61,7 @@ fn result_json(findings: &CheckResult) -> Value {
     })
 }
 
-/// Returns an error of a scene, with line and column counted from 1.
+/// Returns an error in a scene, with line and column counted from 1.
 ///
 /// `file` may be an include. Columns count characters. `remedy` is `null` without a suggestion.
 fn scene_error_json(mistake: &SceneError) -> Value {

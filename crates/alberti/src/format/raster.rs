@@ -58,7 +58,7 @@ impl OutputFormat {
     /// Refuses a size that exceeds the limit of the format.
     ///
     /// # Errors
-    /// Returns the size error of [`encode_picture`](Self::encode_picture).
+    /// Returns the same size error as [`encode_picture`](Self::encode_picture).
     pub(crate) fn check_size(self, [width, height]: [u32; 2]) -> Result<(), CliError> {
         let (name, most) = match self {
             Self::Jpeg => ("JPEG", MAX_JPEG_SIDE),

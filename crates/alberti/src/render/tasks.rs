@@ -94,7 +94,7 @@ fn refuse_output_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
 }
 
 /// Rejects a nonexistent input, such as `+antialias` or a flag after `--`, if there are several
-/// inputs. Otherwise, the error could be that two pictures have the same name.
+/// inputs. Without this check, the error could be that two pictures have the same name.
 fn refuse_words_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
     let is_word = |path: &&PathBuf| path.as_os_str() != "-" && !path.exists();
     let Some(word) = inputs.iter().find(is_word).filter(|_| inputs.len() > 1) else {

@@ -1,4 +1,4 @@
-//! The time limit for a thumbnail: rendering is canceled, then the process ends.
+//! The time limit for a thumbnail: cancels rendering, then ends the process.
 
 use crate::CliError;
 use crate::messages::print_message;

@@ -1,5 +1,5 @@
-//! Sorts lines by output with little memory: chunks are sorted one by one, written to a temporary
-//! file, and merged as they are read.
+//! Sorts lines by output with little memory: sorts chunks, writes them to a temporary file, and
+//! merges them while reading.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

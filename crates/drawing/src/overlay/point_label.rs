@@ -39,8 +39,8 @@ pub struct PointLabel {
     pub at: Point<World>,
     /// The text, which may have several lines.
     pub text: String,
-    /// The offset in pixels, y down, from the image of the point to the nearest corner of the text,
-    /// or to the middle of the nearest side if a component is 0.
+    /// The offset in pixels, with y down, from the image of the point to the nearest corner of the
+    /// text, or to the middle of the nearest side if a component is 0.
     pub offset: DVec2,
     /// The color.
     pub ink: Ink,

@@ -217,7 +217,7 @@ fn image_words(size: [f64; 2], origin: &str, y_down: bool, integer_centers: bool
     let [width, height] = size.map(format_number);
     let rows = if y_down { "y down" } else { "y up" };
     let centers = if integer_centers { "at integers" } else { "at half-integers" };
-    format!("the viewport of {width} × {height} pixels{origin}, {rows}, pixel centers {centers}")
+    format!("the viewport of {width} × {height} pixels{origin}, with {rows} and centers {centers}")
 }
 
 /// Describes affine maps, viewports, intrinsics, and the textbook's P.

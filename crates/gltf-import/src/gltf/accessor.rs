@@ -3,9 +3,9 @@
 //! An accessor declares a byte offset, a number of elements, their type and, through its buffer
 //! view, the stride between them (glTF 2.0 §3.6.2). [`AccessorReader::resolve_accessor`] checks the
 //! declaration against the available bytes in 64-bit arithmetic. [`AccessorReader::read_floats`]
-//! and its siblings create arrays and charge the memory budget. Otherwise, thousands of accessors
-//! that share the same bytes could exhaust memory, and so could accessors without bytes, which the
-//! specification defines as zeros.
+//! and its siblings create arrays and charge the memory budget. Without the budget, thousands of
+//! accessors that share the same bytes could exhaust memory, and so could accessors without bytes,
+//! which the specification defines as zeros.
 
 use super::buffers::{Buffers, checked_slice};
 use super::elements::{ResolvedAccessor, SparseElements, StridedBytes};

@@ -183,10 +183,10 @@ impl AttributeReader<'_, '_> {
         }
     }
 
-    /// Reads a set of texture coordinates. Non-finite coordinates become 0.
+    /// Reads a set of texture coordinates.
     ///
-    /// Otherwise, a single NaN would spread over the triangle and disturb its mip level selection.
-    /// Coordinates outside [0, 1] are valid, because the sampler wraps them.
+    /// Non-finite coordinates become 0, because a NaN would disturb a triangle's mip level
+    /// selection. Coordinates outside [0, 1] are valid, because the sampler wraps them.
     ///
     /// # Errors
     /// Fails if a limit is exceeded or a file cannot be read.

@@ -170,7 +170,7 @@ fn remove_member(document: &mut Value, pointer: &str) -> Option<&'static str> {
     }
 }
 
-/// Replaces an item of a top-level collection by an empty item.
+/// Replaces an item in a top-level collection with an empty item.
 ///
 /// Empty items have only the members needed for deserialization; references to them are reported as
 /// errors. Returns `None` if the item is already empty, which ends the repair.

@@ -10,9 +10,9 @@
 //!  positions of that range ─► drop items with vertices that are not finite ─► other attributes
 //! ```
 //!
-//! Only the vertices from the lowest to the highest index are read. Otherwise, files in which all
-//! primitives share one vertex array would take memory proportional to the square of the number of
-//! primitives.
+//! Only the vertices from the lowest to the highest index are read. If all were read, files in
+//! which all primitives share one vertex array would take memory proportional to the square of the
+//! number of primitives.
 
 use super::accessor::AccessorReader;
 use super::attribute::{
@@ -389,12 +389,8 @@ impl<'a> PrimitiveReader<'a, '_> {
         }
         if replaced > 0 {
             let message = match replaced {
-                1 => "1 normal had no direction and was replaced with a face normal".to_owned(),
-                _ => {
-                    format!(
-                        "{replaced} normals had no direction and were replaced with face normals"
-                    )
-                }
+                1 => "1 normal without a direction is replaced by a face normal".to_owned(),
+                _ => format!("{replaced} normals without a direction are replaced by face normals"),
             };
             self.warnings.push_warning(&pointer, message);
         }

@@ -1,4 +1,4 @@
-//! WebP decoding; frames larger than the image are rejected before the decoder allocates for them.
+//! WebP decoding; rejects frames larger than the image before the decoder allocates them.
 //!
 //! ```text
 //!  RIFF length WEBP │ VP8X canvas │ VP8 frame       chunks: id, length, bytes, padded to even

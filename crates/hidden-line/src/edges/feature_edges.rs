@@ -1,7 +1,7 @@
 //! Feature edges that do not depend on the viewer: the creases and boundaries of each object,
 //! joined into smooth chains.
 //!
-//! The rims of holes and shafts are such chains, in which circles are recognized.
+//! The rims of holes and shafts are such chains. The `circles` module finds circles among them.
 
 use super::half_edges::HalfEdge;
 use super::welded_surface::WeldedSurface;

@@ -6,9 +6,9 @@
 //!  ╱──────╲     └────┘ hatched
 //! ```
 //!
-//! Vertices within a tolerance of the plane are on it ([`SectionPlane`]), and the cut passes through
-//! them. Otherwise a plane through vertices that rounding has moved would cut needles off flat
-//! walls, whose normals are noise and which would be drawn as edges.
+//! Vertices within a tolerance of the plane are on it ([`SectionPlane`]), and the cut passes
+//! through them. Without the tolerance, a plane through vertices that rounding has moved would cut
+//! needles off flat walls. Their normals are noise, and they would be drawn as edges.
 //!
 //! Each triangle is cut separately. The cut edges are joined into loops without a tolerance,
 //! because neighboring triangles are cut at identical points. Loops are capped, and a cap hides

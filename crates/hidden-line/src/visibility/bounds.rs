@@ -34,7 +34,7 @@ impl Bounds {
         self.extend(&Self { min: point, max: point });
     }
 
-    /// Returns the midpoint, by which items are sorted into bins.
+    /// Returns the midpoint, which determines the bin of an item.
     pub(super) fn box_center(&self) -> [f32; 3] {
         [0, 1, 2].map(|k| (self.min[k] + self.max[k]) * 0.5)
     }

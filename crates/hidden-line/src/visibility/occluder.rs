@@ -7,10 +7,10 @@
 //!           ╱──────╲
 //! ```
 //!
-//! Distances from sides are measured in pixels, heights over planes in world units. In these units,
-//! the meaning of a tolerance does not depend on the projection or on the slope of the face. An
-//! edge a tiny fraction of a pixel inside a side counts as running along it, and an edge a tiny
-//! fraction of the model behind a plane counts as being in it.
+//! Distances from sides are measured in pixels, heights above planes in world units. In these
+//! units, the meaning of a tolerance does not depend on the projection or on the slope of the face.
+//! An edge a tiny fraction of a pixel inside a side counts as running along it, and an edge a tiny
+//! fraction of the model behind a plane counts as lying in it.
 //!
 //! [`Occluder::overlap`] finds where the edge and the face overlap on the screen, and
 //! [`OccluderInWorld::interval_behind`] finds the part of the overlap where the edge is behind the
@@ -30,7 +30,7 @@ pub(super) struct Occluder {
 /// The plane of a face in the world, with the equation `normal · p = offset`.
 #[derive(Clone, Copy, Debug)]
 struct OrientedPlane {
-    /// The unit normal toward the viewer.
+    /// The unit normal that faces the viewer.
     normal: DVec3,
     /// The distance from the origin along the normal.
     offset: f64,
@@ -38,8 +38,8 @@ struct OrientedPlane {
 
 /// The interval of s where a face hides an edge, and the kind of occlusion.
 ///
-/// An edge exactly behind a side is hidden only if another face continues on the other side; a
-/// single face only touches it.
+/// An edge exactly behind a side is hidden only if another face adjoins that side; a single face
+/// only touches the edge.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Occlusion {
     /// The edge passes behind the interior of the face: the interval is hidden unconditionally.
@@ -100,8 +100,8 @@ impl Occluder {
     /// Returns the parts of an edge that pass over this face or beside it, or `None` if none do.
     ///
     /// The cheapest rejection comes first: the whole edge is outside one side. A side that the edge
-    /// runs along does not bound the interior interval, because only rounding decides on which side
-    /// of it the edge is.
+    /// runs along does not bound the interior interval, because only rounding determines which side
+    /// of it the edge is on.
     pub(super) fn overlap(
         &self,
         edge: &ProjectedEdge,
@@ -187,8 +187,8 @@ impl OccluderInWorld<'_> {
     /// side.
     ///
     /// The plane of the triangle is not meaningful for points outside the triangle, especially if
-    /// it is tilted. Of all planes through the side, the one that faces the viewer most is used
-    /// instead.
+    /// it is tilted. Of all planes through the side, the one that faces the viewer most directly is
+    /// used instead.
     pub(super) fn interval_behind_side(
         &self,
         side: usize,
@@ -223,14 +223,14 @@ struct TriangleSides {
 }
 
 impl TriangleSides {
-    /// Whether the vertex opposite a side is farther from it than a distance in pixels.
+    /// Whether the vertex opposite a side is more than `pixels` pixels away from that side.
     fn is_wider_than(&self, pixels: f64, side: usize) -> bool {
         let doubled_area = self.vectors[2].perp_dot(self.vectors[0]);
         doubled_area > pixels * self.vectors[side].length()
     }
 
     /// Whether the edge is nearly parallel to each side, at an angle whose sine is less than a
-    /// quarter. Otherwise, too little of the edge is near the side.
+    /// quarter. At a steeper angle, too little of the edge is near the side to run along it.
     fn parallel_sides(&self, edge: &ProjectedEdge) -> [bool; 3] {
         let length = (edge.screen[1] - edge.screen[0]).length_squared();
         [0, 1, 2].map(|k| {
@@ -240,8 +240,8 @@ impl TriangleSides {
         })
     }
 
-    /// Returns the first side that the edge runs along, that is, from which it stays within
-    /// `distance` pixels while inside the other two.
+    /// Returns the first side that the edge runs along: the edge stays within `distance` pixels of
+    /// it while inside the other two.
     ///
     /// The interval inside the other two must be longer than eight times the distance. Shorter
     /// intervals occur wherever an edge crosses a vertex, in any direction.
@@ -313,7 +313,7 @@ impl TriangleSides {
 /// Returns the part of an interval of s where the edge is behind the plane of the face.
 ///
 /// ```text
-///    height over the plane
+///    height above the plane
 ///       +│╲
 ///        ├──╲────────── 0
 ///       −│    ╲████████        hidden
@@ -321,8 +321,8 @@ impl TriangleSides {
 /// ```
 ///
 /// The height is linear in u, not in s, so its zero is found in the world and mapped to the screen
-/// by IN-1. An edge that is nowhere farther behind the plane than `tolerance.world` counts as in
-/// the plane and is not hidden.
+/// by IN-1. An edge that is nowhere farther behind the plane than `tolerance.world` counts as lying
+/// in the plane and is not hidden.
 fn interval_behind_plane(
     plane: OrientedPlane,
     edge: &ProjectedEdge,

@@ -20,7 +20,7 @@ use glam::{DVec2, DVec3};
 /// Both ends have a positive w: clipping removes points at or behind the eye before the divide.
 #[derive(Clone, Debug)]
 pub(crate) struct ProjectedEdge {
-    /// The ends on the screen, in pixels, y down.
+    /// The ends on the screen, in pixels, with y down.
     pub(crate) screen: [DVec2; 2],
     /// The depths of the ends, 0 at the far plane and 1 at the near plane; linear in s.
     pub(crate) depths: [f64; 2],

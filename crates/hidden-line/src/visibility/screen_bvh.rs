@@ -370,7 +370,7 @@ impl<'a> ScreenEdge<'a> {
         Self { edge, low: a.min(b), high: a.max(b), slope, respects_depth }
     }
 
-    /// Whether a triangle is outside the box around the edge, by more than a margin in pixels.
+    /// Whether a triangle is outside the box around the edge by more than `margin` pixels.
     pub(super) fn is_beside(&self, [a, b, c]: [DVec2; 3], margin: f64) -> bool {
         let (low, high) = (self.low - margin, self.high + margin);
         (a.x < low.x && b.x < low.x && c.x < low.x)

@@ -50,12 +50,8 @@ pub(super) fn build_primitives(
     }
     if replaced > 0 {
         let message = match replaced {
-            1 => "1 normal had no direction and was replaced with a computed normal".to_owned(),
-            _ => {
-                format!(
-                    "{replaced} normals had no direction and were replaced with computed normals"
-                )
-            }
+            1 => "1 normal without a direction is replaced by a computed normal".to_owned(),
+            _ => format!("{replaced} normals without a direction are replaced by computed normals"),
         };
         warnings.push_warning("", message);
     }

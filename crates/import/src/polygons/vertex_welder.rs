@@ -137,7 +137,7 @@ impl VertexWelder {
     }
 }
 
-/// Replaces −0 by 0 in a position; the addition leaves all other values unchanged.
+/// Replaces −0 with 0 in a position; the addition leaves all other values unchanged.
 #[inline]
 fn canonical(position: [f32; 3]) -> [f32; 3] {
     position.map(|x| x + 0.0)

@@ -91,7 +91,7 @@ impl<'a> Package<'a> {
     /// only part with a model file name.
     ///
     /// # Errors
-    /// Fails if there is no model part, which means that the archive is not 3MF.
+    /// Fails if there is no model part, which means that the archive is not a 3MF file.
     pub(super) fn model_part(&self, warnings: &mut ImportWarnings) -> Result<String, Diagnostic> {
         const RELATIONSHIPS: &str = "_rels/.rels";
         if self.part_name(RELATIONSHIPS).is_some() {
@@ -107,7 +107,7 @@ impl<'a> Package<'a> {
             name == "3d/3dmodel.model" || name.ends_with(".model") && !name.contains("/objects/")
         });
         let Some(model) = models.next() else {
-            let message = "this zip archive is not 3MF: no relationship leads to a 3D model";
+            let message = "this zip archive is not a 3MF file: no relationship leads to a 3D model";
             let help = "use a .gltf, .glb, .stl, .obj, .ply or .3mf file";
             return Err(Diagnostic::error(codes::UNKNOWN_FORMAT, RELATIONSHIPS, message, help));
         };

@@ -257,7 +257,7 @@ fn extensions_are_reported_by_name() {
 }
 
 #[test]
-fn an_empty_build_section_shows_all_top_objects() {
+fn an_empty_build_section_shows_all_top_level_objects() {
     let components =
         r#"<object id="2"><components><component objectid="1"/></components></object>"#;
     let model = load(&package("", &(object(1, 1, "", "") + components), "")).unwrap();
@@ -393,7 +393,7 @@ fn broken_archives_are_errors() {
         assert!(load(&file[..length]).is_err());
     }
     let other = zip(&[("word/document.xml", b"<a/>")], 0);
-    assert!(fault(&other).contains("this zip archive is not 3MF"));
+    assert!(fault(&other).contains("this zip archive is not a 3MF file"));
 }
 
 #[test]

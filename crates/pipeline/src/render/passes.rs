@@ -35,7 +35,7 @@ use scene::{Scene, Style};
 use shade::FrameChannel;
 
 /// Renders passes of a region of a scene's picture, in the order of `wanted`, with up to `threads`
-/// threads. The number of threads does not change the passes.
+/// threads. The number of threads does not affect the result.
 ///
 /// Passes show the surfaces of the models even if the scene's style draws lines. They exclude
 /// overlays, the environment, the backdrop and the ground.
@@ -109,7 +109,7 @@ impl Renderer {
 struct TilePasses<'a, 'r> {
     /// The original scene; each frame draws a variant of it.
     context: RenderContext<'a>,
-    /// The part of the tile that the region needs.
+    /// The part of the tile inside the requested region.
     tile_region: TileRegion,
     /// The buffers for frames.
     memory: &'r mut RenderBuffers,

@@ -1,4 +1,4 @@
-//! Pictures with a closed form: each pixel is compared with the formula for the scene.
+//! Pictures with a closed form: compares each pixel with the formula for the scene.
 
 mod glass;
 mod refraction;

@@ -391,8 +391,8 @@ fn occlusion_darkens_corners_but_not_open_surfaces() {
 
 #[test]
 fn occlusion_has_no_stripes_next_to_sharp_edges() {
-    // A box at 1080 lines, with an occlusion radius that covers much of the screen. The test looks
-    // at the ground to the left of the box.
+    // A box at 1080 lines, with an occlusion radius that covers a large part of the screen. The
+    // test looks at the ground to the left of the box.
     let parts = vec![
         (floor_quad(6.0), matte_material(0.05, 0.05, 0.05)),
         (box_sides([-0.5, 0.0, -0.5], [0.5, 1.0, 0.5], true), matte_material(0.05, 0.05, 0.05)),

@@ -97,7 +97,7 @@ class Drawing:
 
     @property
     def lines(self) -> NDArray[np.float64]:
-        """Endpoints (N, 2, 2) of all segments: column and row in pixels, y down.
+        """Endpoints (N, 2, 2) of all segments: column and row in pixels, with y down.
 
         Includes hidden segments if the style shows them; see :attr:`visible`.
         """

@@ -11,7 +11,7 @@ mod planar;
 mod random_matrices;
 mod right_matrices;
 mod rigid;
-#[allow(dead_code, reason = "the law tests of `projection` use the rest")]
+#[allow(dead_code, reason = "the law tests in `projection` use the rest")]
 #[path = "../../../projection/tests/integration/laws/samples.rs"]
 mod samples;
 mod table;

@@ -50,7 +50,7 @@ impl NearestDepths {
         self.dilate([0, 1]);
     }
 
-    /// Replaces each depth by the maximum of itself and its two neighbors along one axis.
+    /// Replaces each depth with the maximum of itself and its two neighbors along one axis.
     fn dilate(&mut self, step: [usize; 2]) {
         let [columns, rows] = self.size;
         std::mem::swap(&mut self.depths, &mut self.earlier);

@@ -66,7 +66,7 @@ impl PartPlace {
             own.map_or_else(|| format!("node {node}"), str::to_owned)
         };
         let above = |node: &usize| nodes[*node].parent.filter(|parent| *parent < nodes.len());
-        // The importer rejects cycles, but the count limits the loop in any case.
+        // The importer rejects cycles, but the node count bounds the loop in any case.
         let chain = core::iter::successors(Some(part.instance.node), above).take(nodes.len());
         let mut path: Vec<String> = chain.map(name).collect();
         path.reverse();

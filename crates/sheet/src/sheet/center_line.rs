@@ -33,8 +33,7 @@ const LEAST_SWEEP: f64 = PI - 1e-6;
 /// Axes and centers closer than this fraction of the view size are considered the same.
 const SAME: f64 = 1e-4;
 
-/// The maximum number of crosses and the maximum number of axes in a view. More would only clutter
-/// the view.
+/// The maximum number of crosses, and of axes, in a view. More lines would only clutter the view.
 const MAX_LINES: usize = 300;
 
 /// The center lines of a view, in object millimeters from its center, with y down.

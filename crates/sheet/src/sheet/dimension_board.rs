@@ -1,4 +1,4 @@
-//! Dimension board: the free space around a view, in which dimensions are placed one by one.
+//! Dimension board: places dimensions one by one in the free space around a view.
 //!
 //! ```text
 //!        │◄── 80 ──►│          a number touches neither the part (its convex hull) nor a line nor

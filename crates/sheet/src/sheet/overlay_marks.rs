@@ -26,7 +26,7 @@ use glam::DVec2;
 use homog::{Bounds, Point, World};
 use model::{ModelInstance, world_points};
 
-/// The maximum number of labels in a view. More would hide the object and be slow to place.
+/// The maximum number of labels in a view. More labels would hide the object and be slow to place.
 const MAX_LABELS: usize = 100;
 
 /// The number of rings around the object on which label positions are tried.

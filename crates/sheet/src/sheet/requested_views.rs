@@ -23,8 +23,8 @@ use glam::{DVec2, DVec3};
 use homog::{Bounds, Normal, Plane, Point, Vector, World};
 use projection::SheetAngle;
 
-/// The maximum number of requests per sheet. More are likely a mistake, and each takes space and
-/// time.
+/// The maximum number of requests per sheet. A longer list is probably a mistake, and each request
+/// takes space and time.
 const MAX_REQUESTS: usize = 24;
 
 /// The state of planning: the views and warnings so far, and the unused letters.
@@ -340,8 +340,8 @@ impl RequestPlanner<'_> {
                 && one.composition == Composition::Whole
                 && one.view.faces_section(first)
         };
-        // A requested position or caption needs a separate view. Otherwise a view that faces the
-        // planes is cut.
+        // A requested position or caption needs a separate view. If neither is requested, a view
+        // that faces the planes is cut.
         let has_place = *place != ViewPlace::default();
         if let Some(facing) = self.views.iter_mut().filter(|_| !has_place).find(faces) {
             facing.composition = composition;

@@ -1,4 +1,4 @@
-//! The line of a stepped section: its corners are checked, and views along the step edges mark it.
+//! The line of a stepped section: checks its corners, and marks it in views along the step edges.
 //!
 //! ```text
 //!   1 ────── 2                pieces perpendicular to the normal: from corner 1 to 2, 3 to 4 …
@@ -14,7 +14,8 @@ use super::view_plan::PlannedView;
 use glam::DVec2;
 use homog::{Point, Vector, World};
 
-/// The maximum number of corners. More are likely a mistake, and each pair needs another drawing.
+/// The maximum number of corners. A longer line is probably a mistake, and each pair of corners
+/// requires another drawing.
 const MAX_CORNERS: usize = 32;
 
 /// The line of a stepped section in space.
@@ -73,7 +74,7 @@ pub(super) fn check_steps(
     if corners.len() < 4 || !corners.len().is_multiple_of(2) {
         let count = corners.len();
         return Err(fault(format!(
-            "its line has {count} corners; it needs two for each plane, and at least two planes"
+            "its line has {count} corners; it must have two for each of at least two planes"
         )));
     }
     if corners.len() > MAX_CORNERS {
@@ -93,7 +94,7 @@ pub(super) fn check_steps(
             return Err(fault(format!(
                 "its line from corner {from} to corner {to} must run {}",
                 if index % 2 == 0 {
-                    "in the direction of the first two corners, perpendicular to `removed`"
+                    "in the direction from corner 1 to corner 2, perpendicular to `removed`"
                 } else {
                     "parallel to `removed`, as a step"
                 }

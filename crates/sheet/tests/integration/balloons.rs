@@ -42,7 +42,7 @@ pub fn texts(page: &SheetPage, id: &str) -> Vec<String> {
     groups.filter_map(|group| text(&group.content)).collect()
 }
 
-/// Describes the faults of balloons on a page.
+/// Describes the faults in the balloons on a page.
 pub fn balloon_faults(page: &SheetPage) -> Vec<String> {
     let Some(balloons) = layer(page, "balloons") else { return Vec::new() };
     let mut faults = Vec::new();

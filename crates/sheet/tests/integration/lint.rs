@@ -83,7 +83,7 @@ fn text_outline(group: &Group, margin: f64) -> Option<Vec<DVec2>> {
     Some(vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)])
 }
 
-/// Describes the faults of a sheet. Returns an empty list if there are none.
+/// Describes the faults in a sheet. Returns an empty list if there are none.
 pub fn faults(page: &SheetPage) -> Vec<String> {
     let mut faults = Vec::new();
     let mut texts: Vec<(&str, Vec<DVec2>)> = Vec::new();

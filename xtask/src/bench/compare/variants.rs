@@ -13,7 +13,7 @@ const FRAME_SIZE: &str = "640x360";
 /// The size of batch pictures.
 const THUMBNAIL_SIZE: &str = "256x256";
 
-/// All styles except `shaded`, with which they are compared.
+/// All styles except `shaded`, the style that they are compared with.
 const STYLES: [&str; 16] = [
     "flat",
     "gouraud",

@@ -1,4 +1,4 @@
-//! Checks the stages of the pipeline one by one, and the rays of pixels against a picture.
+//! Checks the pipeline stages one by one, and pixel rays against a rendered picture.
 
 use super::{pixel_position, render_scene, resolve_text};
 use explain::{
@@ -32,8 +32,8 @@ pub(super) fn close(a: &[f64], b: &[f64]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12 * size)
 }
 
-/// Whether the ray hits the crate, enlarged by `margin` on all sides: whether its intervals between
-/// opposite sides overlap.
+/// Whether the ray hits the crate, enlarged by `margin` on all sides. It does if its intervals
+/// between opposite sides overlap.
 fn meets_crate(origin: [f64; 3], direction: [f64; 3], margin: f64) -> bool {
     let [low, high] = [[-0.5, 0.0, -0.5], [0.5, 1.0, 0.5]];
     let (mut enters, mut leaves) = (0.0_f64, f64::INFINITY);
@@ -90,7 +90,7 @@ fn c1_pixel_rays_hit_what_the_forward_map_draws() {
 }
 
 #[test]
-fn c54_clipping_comes_between_the_two_steps_of_projecting() {
+fn c54_clipping_comes_between_the_two_steps_of_projection() {
     let scene = resolve_text(
         "Scene(models: [(path: \"crate.glb\", translation: (0, 0, -4))],
          camera: (view: LookTo(eye: (0, 0, 0), gaze: (0, 0, -1)),
@@ -140,7 +140,7 @@ fn c103_each_stage_starts_from_the_result_of_the_previous_stage() {
     // Scaled by 2, rotated by 90° about y (x to −z, z to x), and translated by (1, 2, 3).
     let world = [2.0 * z + 1.0, 2.0 * y + 2.0, -2.0 * x + 3.0];
     assert!(close(&numbers(&explained, "world"), &world));
-    // The eye at (1, 3, 11) looks along −z, x to the right.
+    // The eye at (1, 3, 11) looks along −z, with x to the right.
     let view = [world[0] - 1.0, world[1] - 3.0, world[2] - 11.0];
     assert!(close(&numbers(&explained, "view"), &view));
     // For fovy = 90°, aspect 3 : 2, N = 1 and F = 21, w = D and z = (F+N)/(F−N) D − 2FN/(F−N).

@@ -94,7 +94,7 @@ fn missing_attributes_are_computed_or_absent() {
     assert!(warnings(&model).contains("a reference to a missing normal is replaced"));
     let zero = read(format!("{SQUARE}vn 0 0 0\nvn x\nf 1//1 2//1 3//2")).unwrap();
     assert_eq!(primitives(&zero)[0].normals.as_ref().unwrap(), &[[0.0, 0.0, 1.0]; 3]);
-    assert!(warnings(&zero).contains("3 normals had no direction and were replaced"));
+    assert!(warnings(&zero).contains("3 normals without a direction are replaced"));
 }
 
 #[test]

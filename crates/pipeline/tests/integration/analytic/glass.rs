@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Returns glass without mirror reflection, with additional members in its volume extension.
+/// Returns glass without specular reflection, with additional members in its volume extension.
 fn glass_material(color: [f64; 3], volume: &str) -> String {
     let [r, g, b] = color;
     format!(
@@ -65,7 +65,7 @@ fn partly_covering_glass_tints_only_the_covered_part() {
     let rest = r##"lights: [], image: (size: (40, 40), background: Color("#fff"))"##;
     let found = render_parts(&[square_part(0.0, &material)], rest).pixel(20, 20).unwrap();
     assert_near(found, [0.9, 0.3, 0.2].map(|c| 0.4 + 0.6 * c), "coverage 0.6");
-    // Over a transparent background, the tint becomes an alpha, from a gray of equal brightness.
+    // Over a transparent background, the tint becomes black with an alpha of 1 − its luminance.
     let rest = "lights: [], image: (size: (40, 40))";
     let found = render_parts(&[square_part(0.0, &glass_material([0.9, 0.3, 0.2], ""))], rest)
         .pixel(20, 20)

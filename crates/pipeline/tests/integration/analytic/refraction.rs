@@ -3,7 +3,7 @@
 use super::*;
 use homog::PixelRect;
 
-/// Returns glass of this roughness without mirror reflection, with additional extensions.
+/// Returns glass of this roughness without specular reflection, with additional extensions.
 fn bending_glass(roughness: f64, color: [f64; 3], extensions: &str) -> String {
     let [r, g, b] = color;
     format!(
