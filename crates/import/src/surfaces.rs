@@ -119,6 +119,14 @@ fn compute_normals(
     (welded, computed.normals)
 }
 
+/// Returns the warning about normals that were replaced.
+pub(crate) fn replaced_normals(count: usize) -> String {
+    match count {
+        1 => "1 normal without a direction is replaced by a computed normal".to_owned(),
+        _ => format!("{count} normals without a direction are replaced by computed normals"),
+    }
+}
+
 /// Returns each material that has triangles, with the list of its triangles; both ascend.
 fn triangles_by_material(surface: &Surface<'_>) -> Vec<(usize, Vec<u32>)> {
     let count = surface.triangles.len() as u32;

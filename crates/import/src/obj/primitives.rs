@@ -6,6 +6,7 @@ use super::parser::ObjFile;
 use super::parts::{Part, split_elements};
 use super::vertex_sharing::VertexSharing;
 use crate::polygons::{CreaseNormals, Smoothing, VertexWelder};
+use crate::surfaces;
 use gltf_import::ImportWarnings;
 use gltf_import::linear_from_srgb;
 use gltf_import::normalize_normals;
@@ -49,11 +50,7 @@ pub(super) fn build_primitives(
         primitives.push(GroupPrimitive { group: part.key.group, primitive });
     }
     if replaced > 0 {
-        let message = match replaced {
-            1 => "1 normal without a direction is replaced by a computed normal".to_owned(),
-            _ => format!("{replaced} normals without a direction are replaced by computed normals"),
-        };
-        warnings.push_warning("", message);
+        warnings.push_warning("", surfaces::replaced_normals(replaced));
     }
     Ok(primitives)
 }

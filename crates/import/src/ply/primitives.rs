@@ -201,9 +201,7 @@ fn build_surface(
     let crease_angle = options.crease_degrees();
     let (primitives, replaced) = surfaces::build_primitives(surface, crease_angle, &attributes_at);
     if replaced > 0 && vertices.normals.is_some() {
-        let normals = counted(replaced, "normal", "normals");
-        let message = format!("replaced {normals} without a direction");
-        warnings.push_warning("element vertex", message);
+        warnings.push_warning("element vertex", surfaces::replaced_normals(replaced));
     }
     primitives
 }
