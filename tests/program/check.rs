@@ -24,7 +24,7 @@ fn diagnostics_show_severity_code_pointer_and_help_worst_first() {
     assert_eq!((run.code, run.stderr.as_str()), (1, ""), "{}", run.stdout);
     for line in [
         "error[UNRESOLVED_REFERENCE] /meshes/0/primitives/0/material: /materials/7 does not exist: ",
-        "error[ACCESSOR_MIN_MISMATCH] /accessors/0/min/0: declared min is -9, actual min is -1; ",
+        "error[ACCESSOR_MIN_MISMATCH] /accessors/0/min/0: the declared min is -9, but the actual min is -1; ",
         "warning[UNEXPECTED_PROPERTY] /nodes/0/colour: ",
         "faulty.gltf: 2 errors, 1 warning, ",
     ] {

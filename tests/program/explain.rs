@@ -100,7 +100,7 @@ fn invisible_nodes_are_explained() {
         explanation_json(&sandbox, &["--node", "0"])["verdict"].as_str().expect("words").to_owned()
     };
     let seen = verdict("explain_seen", &|_| {});
-    assert!(seen.starts_with("2 of 2 (100%)"), "{seen}");
+    assert!(seen.contains("in the view volume: 2 of 2 (100%)"), "{seen}");
     let away = verdict("explain_away", &|document| {
         document.json["nodes"][0]["translation"] = json!([100, 0, 0]);
     });
@@ -112,7 +112,7 @@ fn invisible_nodes_are_explained() {
     let mirrored = verdict("explain_mirrored", &|document| {
         document.json["nodes"][0]["scale"] = json!([-1, 1, 1]);
     });
-    assert!(mirrored.starts_with("2 of 2"), "{mirrored}");
+    assert!(mirrored.contains("in the view volume: 2 of 2"), "{mirrored}");
     let other = verdict("explain_other", &|document| {
         document.push_item("/nodes", json!({"name": "empty"}));
         document.json["scenes"][0]["nodes"] = json!([1]);

@@ -30,7 +30,7 @@ fn the_likeliest_reading_matches_the_source_program() {
         ),
         (
             "0.8575 0 -0.5145 0 0.291 0.8246 -0.4851 0 0.4243 0.5657 0.7071 -7.0711 0 0 0 1",
-            "with the sign of row 2, column 1 flipped, it is a camera transform: eye (3, 4, 5)",
+            "With the sign of row 2, column 1 flipped, it is a camera transform: eye (3, 4, 5)",
         ),
     ] {
         let found = report(&sandbox, "matrix", numbers);
@@ -83,7 +83,7 @@ fn errors_suggest_a_fix() {
         ),
         ("matrix --ortho -1,1,-1,1,0,1 1", "takes one list of numbers joined by commas"),
         ("explain --segment 0,0,0,1,1,1", "--planes N,F (the textbook's P) or --matrix NUMBERS"),
-        ("explain --point 1,2,3 --matrix 1 0 0 0", "with commas or quoted"),
+        ("explain --point 1,2,3 --matrix 1 0 0 0", "join numbers with commas, or quote them"),
     ] {
         let run = sandbox.run(&command.split(' ').collect::<Vec<_>>());
         assert!(run.code != 0 && run.stdout.is_empty(), "{command}");

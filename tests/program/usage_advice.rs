@@ -268,7 +268,7 @@ const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
     (&["--scalar-coloring"], "the flag here is `--scalars`, as in `--scalars temperature`"),
     (&["out.tiff"], "TIFF output is not supported"),
     (&["--json", "out.json"], "redirect its report, as in `--json > out.json`"),
-    (&["--background"], "`#` begins a comment in a shell"),
+    (&["--background"], "`#`, which starts a comment in a shell"),
     (&["--format", "OPEN_EXR"], "`--passes depth --pass-format exr"),
     (&["-o", "//out/render_", "--format=png"], "write -o out/render_"),
     (&["teapot.glb", "-o", "out/a.png"], "use a template, as in -o 'out/{stem}_{index}.png'"),

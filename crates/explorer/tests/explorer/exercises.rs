@@ -98,7 +98,7 @@ fn rounded_answers_are_flagged_and_invalid_answers_rejected() {
             "enter only the matrix, without `u=(0,0,1)`",
         ),
         (6, "Q=[f,0,0,0;0,f,0,0;0,0,0,nf;0,0,-1,n+f], c=nf", "without `c=nf`"),
-        (6, "1/n [f 0 0 0; 0 f 0 0; 0 0 0 f n; 0 0 -1 n+f]", "write `n*f`, or put commas"),
+        (6, "1/n [f 0 0 0; 0 f 0 0; 0 0 0 f n; 0 0 -1 n+f]", "write `n*f` or put commas"),
         (7, "n", "1 entry instead of 4"),
         (14, "1+2cos30°, 2", "write `cos(30°)`"),
         (12, "x, y, z", "only numbers"),
