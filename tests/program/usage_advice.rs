@@ -105,7 +105,12 @@ fn habits_from_other_programs_do_not_write_wrong_files() {
         (&["animate", "teapot.glb", "-s", "1"], "`--frames 10` is the number of frames"),
         (&["animate", "teapot.glb", "-frames:v", "4"], "use `--frames 4`"),
         (&["--background", "a.blend", "-a"], "export the .blend file as .glb"),
-        (&["convert", "teapot.glb", "a.png"], "run `alberti render model.glb -o picture.png`"),
+        (&["convert", "teapot.glb", "a.png"], "run `alberti render teapot.glb -o a.png`"),
+        (&["thumbnail", "teapot.glb", "-o", "t.png"], "--size 256x256 -o t.png`"),
+        (&["-b", "teapot.glb", "-o", "b.png"], "run `alberti render teapot.glb -o b.png`"),
+        (&["--size", "8x8", "render", "teapot.glb"], "flags come after the command"),
+        (&["-o", "a.png", "render", "teapot.glb"], "as in `alberti render teapot.glb -o …`"),
+        (&["render", "teapot.glb", "--render-output", "r.png"], "`-o r.png` names the output"),
     ] {
         let run = sandbox.run(words);
         assert_ne!(run.code, 0, "{words:?}: {}", run.stderr);

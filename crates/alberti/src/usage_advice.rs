@@ -11,6 +11,7 @@ mod unknown_flag;
 mod wrong_value;
 
 use super::args::Args;
+use super::format::OutputFormat;
 use super::help_groups;
 use super::negative_numbers::called_command;
 use clap::builder::StyledStr;
@@ -77,16 +78,18 @@ fn advise(mut error: Error, words: &[OsString], program: &Command) -> Error {
     }
 }
 
-/// Returns the message with the name of the user's model instead of the example's.
+/// Returns the message with the user's model and picture instead of the example's.
 fn with_given_model(message: &str, words: &[OsString]) -> String {
-    let is_model = |word: &&str| FileFormat::from_extension(Path::new(word)).is_some();
-    let words: Vec<&str> = words.iter().filter_map(|word| word.to_str()).collect();
-    match words.iter().filter(|word| is_model(word)).collect::<Vec<_>>()[..] {
-        [name] if !name.starts_with('-') && visible_text(name) == **name => {
-            message.replace("model.glb", &quoted(name))
-        }
-        _ => message.to_owned(),
-    }
+    let is_plain = |word: &&str| !word.starts_with('-') && visible_text(word) == **word;
+    let words = words.iter().filter_map(|word| word.to_str()).filter(is_plain);
+    let mut models =
+        words.clone().filter(|word| FileFormat::from_extension(Path::new(word)).is_some());
+    let model = models.next().filter(|_| models.next().is_none());
+    let picture = words.filter(|word| OutputFormat::is_known(Path::new(word))).last();
+    let names = [("model.glb", model), ("picture.png", picture)];
+    names.into_iter().fold(message.to_owned(), |message, (example, name)| {
+        name.map_or(message.clone(), |name| message.replace(example, &quoted(name)))
+    })
 }
 
 /// Returns advice on words that clap reads as `-h`, such as `-hide_banner`.
@@ -176,10 +179,8 @@ fn takes_value(command: &Command, name: &str) -> bool {
 /// Returns advice on a file, a folder or another program's command in place of a command.
 fn advise_on_command(error: &Error, words: &[OsString], program: &Command) -> Option<String> {
     let word = context(error, ContextKind::InvalidSubcommand)?;
-    let command = match called_command(program, words) {
-        help if help.get_name() == "help" => program,
-        command => command,
-    };
+    let called = called_command(program, words);
+    let command = if called.get_name() == "help" { program } else { called };
     let mut commands = foreign_words("command");
     let meant = commands.find(|row| row.owner == command.get_name() && row.has(word));
     if let Some(advice) = meant.map(|row| row.advice) {
@@ -202,8 +203,7 @@ fn advise_on_command(error: &Error, words: &[OsString], program: &Command) -> Op
             program.get_name()
         ));
     }
-    let typed = words.iter().skip(1).map(|word| quoted(&word.to_string_lossy()));
-    let typed: Vec<String> = typed.collect();
+    let typed: Vec<_> = words.iter().skip(1).map(|word| quoted(&word.to_string_lossy())).collect();
     Some(format!(
         "`{word}` is a file, not a command; to render it, run `{} render {}`",
         program.get_name(),

@@ -25,18 +25,19 @@ pub(super) fn advise_on_flag(
     let (word, words) = with_value_apart(word, words);
     let name = word.split('=').next().unwrap_or(&word).to_owned();
     let stem = name.trim_start_matches('-');
-    let before_command = command.get_name() == program.get_name();
-    if let Some(advice) = before_command.then(|| advise_on_no_window(&name, &words)).flatten() {
-        return Some(advice);
-    }
-    if let Some(advice) = advise_on_negative_number(&name, &words, command) {
-        return Some(advice);
+    let position = |word: &str| words.iter().position(|it| it == word);
+    let before_command = command.get_name() == program.get_name()
+        || position(&name).is_some_and(|at| position(command.get_name()) > Some(at));
+    let no_window = before_command.then(|| advise_on_no_window(&name, &words)).flatten();
+    let advice = no_window.or_else(|| advise_on_negative_number(&name, &words, command));
+    if advice.is_some() {
+        return advice;
     }
     if let Some(help) = what_to_write(&name, &word, &words, command) {
         let command = full_name(command);
         return Some(format!("`{name}` is not a flag of `{command}`; {help}"));
     }
-    if let Some(advice) = before_command.then(|| advise_before_command(&name, program)).flatten() {
+    if before_command && let Some(advice) = advise_before_command(&name, program) {
         return Some(advice);
     }
     if !name.starts_with('-') && Path::new(&name).extension().is_some() {
@@ -221,19 +222,18 @@ fn lens_advice(stem: &str, words: &[String], command: &Command) -> Option<String
 
 /// Returns advice on Blender's `-b` or `--background` before a file: Alberti never opens a window.
 fn advise_on_no_window(name: &str, words: &[String]) -> Option<String> {
-    let file = value_of(name, words).filter(|value| Path::new(value).extension().is_some())?;
-    if !matches!(name, "-b" | "--background") {
-        return None;
-    }
+    let is_file = |file: &String| Path::new(file).extension().is_some();
+    let file = ["-b", "--background"].contains(&name).then(|| value_of(name, words))?;
+    let file = file.filter(is_file)?;
     let help = if file.to_ascii_lowercase().ends_with(".blend") {
         "export the .blend file as .glb and run `alberti render model.glb`".to_owned()
     } else {
-        format!("run `alberti render {}`", quoted(&file))
+        let output = value_of("-o", words).map(|name| format!(" -o {}", quoted(&name)));
+        format!("run `alberti render {}{}`", quoted(&file), output.unwrap_or_default())
     };
-    let color = match name {
-        "-b" => "",
-        _ => "; here, `--background` sets the color behind the model",
-    };
+    let is_short = name == "-b";
+    let color =
+        if is_short { "" } else { "; here, `--background` sets the color behind the model" };
     Some(format!("this program never opens a window, so omit `{name}`: {help}{color}"))
 }
 
