@@ -99,7 +99,7 @@ fn habits_from_other_programs_do_not_write_wrong_files() {
         (&["render", "teapot.glb", "-o", "//frame_####"], "use -o 'frame_{index:04}.png'"),
         (&["render", "teapot.glb", "-o", "png:out.png"], "write `--format png -o out.png`"),
         (&["--background", "teapot.glb", "-f", "1"], "run `alberti render teapot.glb`"),
-        (&["-b", "teapot.glb", "-o", "//a", "-f", "1"], "run `alberti render teapot.glb`"),
+        (&["-b", "teapot.glb", "-o", "//a", "-f", "1"], "run `alberti render teapot.glb -o //a`"),
         (&["render", "teapot.glb", "--background"], "sets the color behind the model"),
         (&["render", "teapot.glb", "-F", "JPEG"], "use `--format jpeg`"),
         (&["animate", "teapot.glb", "-s", "1"], "`--frames 10` is the number of frames"),
