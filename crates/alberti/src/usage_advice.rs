@@ -85,7 +85,7 @@ fn with_given_model(message: &str, words: &[OsString]) -> String {
     let mut models =
         words.clone().filter(|word| FileFormat::from_extension(Path::new(word)).is_some());
     let model = models.next().filter(|_| models.next().is_none());
-    let picture = words.filter(|word| OutputFormat::is_known(Path::new(word))).last();
+    let picture = words.filter(|word| OutputFormat::is_known(Path::new(word))).next_back();
     let names = [("model.glb", model), ("picture.png", picture)];
     names.into_iter().fold(message.to_owned(), |message, (example, name)| {
         name.map_or(message.clone(), |name| message.replace(example, &quoted(name)))

@@ -162,7 +162,7 @@ fn parse_elevation(text: &str) -> Result<Finite, String> {
     let angle = text.parse().ok().filter(|angle| (-90.0..=90.0).contains(angle));
     angle
         .and_then(Finite::new)
-        .ok_or_else(|| "expected an angle from -90 (below) to 90 (above)".to_owned())
+        .ok_or_else(|| "expected an angle in degrees from -90 (below) to 90 (above)".to_owned())
 }
 
 /// Parses an angle between 0 and 180 degrees.

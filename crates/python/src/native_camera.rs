@@ -83,7 +83,7 @@ impl NativeCamera {
             return Ok((placed, size));
         }
         if matches!(self.file.view, ViewFile::Frame { .. }) && models.is_empty() {
-            let help = "use the camera of a rendered picture, frame.camera, or pass eye and target";
+            let help = "use a rendered frame's camera (frame.camera), or pass eye and target";
             let message = "the camera frames a model and has no position before rendering";
             return Err(Failure::argument("camera", message).with_help(help));
         }
