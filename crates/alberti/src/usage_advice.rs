@@ -81,11 +81,11 @@ fn advise(mut error: Error, words: &[OsString], program: &Command) -> Error {
 /// Returns the message with the user's model and picture instead of the example's.
 fn with_given_model(message: &str, words: &[OsString]) -> String {
     let is_plain = |word: &&str| !word.starts_with('-') && visible_text(word) == **word;
-    let words = words.iter().filter_map(|word| word.to_str()).filter(is_plain);
+    let mut words = words.iter().filter_map(|word| word.to_str()).filter(is_plain);
     let mut models =
         words.clone().filter(|word| FileFormat::from_extension(Path::new(word)).is_some());
     let model = models.next().filter(|_| models.next().is_none());
-    let picture = words.filter(|word| OutputFormat::is_known(Path::new(word))).next_back();
+    let picture = words.rfind(|word| OutputFormat::from_path(Path::new(word)).is_ok());
     let names = [("model.glb", model), ("picture.png", picture)];
     names.into_iter().fold(message.to_owned(), |message, (example, name)| {
         name.map_or(message.clone(), |name| message.replace(example, &quoted(name)))
