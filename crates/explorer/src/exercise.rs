@@ -55,7 +55,7 @@ pub struct Exercise {
     multiples: Multiples,
     /// Sample values of the symbols; an answer is compared for each sample.
     samples: &'static [&'static [f64]],
-    /// Computes the correct answer for values of the symbols; `None` if there is none.
+    /// Computes the correct answer for values of the symbols; `None` if no answer exists.
     answer: fn(&[f64]) -> Option<Entries>,
 }
 

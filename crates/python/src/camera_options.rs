@@ -129,11 +129,13 @@ fn read_pose(options: &Keywords<'_, '_>, pose: &Bound<'_, PyAny>) -> PyResult<Vi
 /// Returns the error for a matrix that is not a rotation, with a way to find the nearest one.
 fn wrong_rotation(argument: &str, error: &CameraError) -> Failure {
     let failure = Failure::argument(argument, error.to_string());
-    if matches!(error, CameraError::NotRotation { .. }) {
-        return failure
-            .with_help("use the nearest rotation: U, _, Vt = np.linalg.svd(R); R = U @ Vt");
+    if !matches!(error, CameraError::NotRotation { .. }) {
+        return failure;
     }
-    failure
+    let part = if argument == "pose" { "pose[:3, :3]" } else { argument };
+    failure.with_help(format!(
+        "use the nearest rotation: U, _, Vt = np.linalg.svd({part}); {part} = U @ Vt"
+    ))
 }
 
 /// Converts a rotation to the form used in scene files.

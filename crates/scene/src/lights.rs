@@ -24,7 +24,7 @@ const KEY_LUX: f32 = 2.5;
 const AMBIENT_LUX: f32 = 0.7;
 /// The illuminance of the default key light in an environment, in lux. Matte white that faces it
 /// has the linear value 1.45 / π = 0.46, and at most 0.95 together with the studio of bare models.
-const KEY_LUX_IN_ENVIRONMENT: f32 = 1.45;
+const KEY_LIGHT_IN_ENVIRONMENT: NonNegative = NonNegative::KEY_LIGHT;
 /// The elevation of the default key light above the horizon, in degrees.
 const KEY_ELEVATION: f64 = 50.0;
 /// The angle from the view to the default key light, seen from above, in degrees to the left.
@@ -87,10 +87,10 @@ pub(super) fn resolve_lights(
         None => vec![key_light(KEY_LUX), Light::Ambient { lux: [AMBIENT_LUX; 3] }],
         // A bare model has the same light with and without shadows.
         Some(EnvironmentFile::Studio { .. }) if origin.text.is_empty() => {
-            vec![key_light(KEY_LUX_IN_ENVIRONMENT)]
+            vec![key_light(KEY_LIGHT_IN_ENVIRONMENT.value() as f32)]
         }
         // Shadows are requested, so something must cast them.
-        Some(_) if shadow.is_some() => vec![key_light(KEY_LUX_IN_ENVIRONMENT)],
+        Some(_) if shadow.is_some() => vec![key_light(KEY_LIGHT_IN_ENVIRONMENT.value() as f32)],
         Some(_) => Vec::new(),
     })
 }
@@ -220,7 +220,7 @@ pub fn fixed_key_light() -> LightFile {
     let front = (front - Vector::Y * front.dot(Vector::Y)).normalized().unwrap_or(Vector::Z);
     LightFile::Directional {
         direction: Triple((-direction_to_key_light(front)).raw().to_array()),
-        intensity: NonNegative::KEY_LIGHT,
+        intensity: KEY_LIGHT_IN_ENVIRONMENT,
         color: LightColor::WHITE,
         shadows: None,
     }

@@ -115,7 +115,7 @@ pub(super) fn split_rows(text: &str, shape: AnswerShape) -> Result<Vec<Vec<Strin
         AnswerShape::Parts(_) => text,
     };
     let count = shape.row_lengths().into_iter().max().unwrap_or(0);
-    // Applies a factor of the whole matrix. If there is none, `text` has no outer parentheses.
+    // Applies a factor of the whole matrix. Without one, `text` has no outer parentheses.
     if let Some(matrix) = FactoredList::find(text, 0)
         && (matrix.list.contains(';') || matrix.list.contains('('))
         && !(matrix.before.is_empty() && matrix.behind.is_empty())

@@ -82,7 +82,6 @@ impl<'a> SceneGeometry<'a> {
         let mut draws = Vec::new();
         let mut first_id = 0;
         let mut object = 0;
-        // 0 means that there is none.
         let narrow = |id: usize| u32::try_from(id).map_err(|_| RenderError::TooManyPrimitives);
         let first_ids = FirstIds::of_models(&scene.models);
         for ((model_id, model_instance), first) in (1..).zip(&scene.models).zip(first_ids) {
