@@ -13,7 +13,6 @@
 
 use super::CliError;
 use super::args::RenderArgs;
-use super::compare::PictureComparison;
 use super::format::{DEFAULT_QUALITY, OutputFormat, image_warning};
 use super::messages::{print_note, print_stdout};
 use super::passes::create_pass_files;
@@ -21,6 +20,7 @@ use super::progress::Progress;
 use super::render::tasks::RenderTask;
 use drawing::Warning;
 use homog::PixelRect;
+use picture::PictureComparison;
 use pipeline::render::{BitDepth, render_passes, rows_per_band};
 use pipeline::{
     AtomicFile, OutputError, Picture, RenderContext, Renderer, Scene, Textures, Timings, Workers,

@@ -12,18 +12,26 @@
 //! | --- | --- |
 //! | `picture` | the picture, access to its pixels, and PNG output in memory or to a file |
 //! | `channel` | bit depths, and compositing of drawings over pixels |
+//! | `comparison` | the difference of two pictures, as numbers and as a picture |
 //! | `hdr` | environment panoramas in Radiance format |
 //! | `png_rows` | PNG as a stream, for pictures that do not fit in memory |
+//! | `read_png` | PNG files of a known size |
+//! | `terminal` | pictures as text: half blocks, ASCII art, and kitty's graphics protocol |
 
 mod channel;
+mod comparison;
 mod hdr;
 mod picture;
 mod png_rows;
+mod read_png;
+pub mod terminal;
 
 pub use channel::Channel;
+pub use comparison::{PictureComparison, side_by_side};
 pub use hdr::Panorama;
 pub use picture::Picture;
 pub use png_rows::{PngRows, encode_png};
+pub use read_png::{ReadPngError, read_png};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
