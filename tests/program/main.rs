@@ -21,6 +21,7 @@ mod captions;
 mod check;
 mod colormaps;
 mod compare_projections;
+mod corrected_commands;
 mod curve;
 mod drawings;
 mod dxf;

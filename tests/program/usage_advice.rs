@@ -109,10 +109,10 @@ fn habits_from_other_programs_do_not_write_wrong_files() {
         (&["render", "teapot.glb", "--format", "OPEN_EXR", "-o", "a.exr"], "-o picture.png`"),
         (&["thumbnailer", "teapot.glb", "-thumbnail", "9x9", "t.png"], "--size 128`"),
         (&["convert", "teapot.glb", "a.png"], "run `alberti render teapot.glb -o a.png`"),
-        (&["thumbnail", "teapot.glb", "-o", "t.png"], "--size 256x256 -o t.png`"),
+        (&["thumbnail", "teapot.glb", "-o", "t.png"], "render teapot.glb -o t.png --size 256x256`"),
         (&["-b", "teapot.glb", "-o", "b.png"], "run `alberti render teapot.glb -o b.png`"),
         (&["--size", "8x8", "render", "teapot.glb"], "flags come after the command"),
-        (&["-o", "a.png", "render", "teapot.glb"], "as in `alberti render teapot.glb -o …`"),
+        (&["-o", "a.png", "render", "teapot.glb"], "run `alberti render teapot.glb -o a.png`"),
         (&["render", "teapot.glb", "--render-output", "r.png"], "`-o r.png` names the output"),
     ] {
         let run = sandbox.run(words);
@@ -325,7 +325,7 @@ const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
 /// Command lines, and the advice for them.
 const COMMAND_LINES: &[(&[&str], &str)] = &[
     (&["montage", "teapot.glb"], "which writes `index.html` next to the pictures"),
-    (&["scene", "validate", "a.ron"], "run `alberti scene check scene.ron`"),
+    (&["scene", "validate", "a.ron"], "run `alberti scene check a.ron`"),
     (&["sheet", "teapot.glb", "--scale", "50%"], "tip: write `--scale 1:2`"),
     (&["teapot.glb", "-o", "a.png"], "run `alberti render teapot.glb -o a.png`"),
     (&["rendr", "teapot.glb"], "`rendr` is not a command of `alberti`; did you mean `render`?"),

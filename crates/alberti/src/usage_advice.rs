@@ -5,6 +5,7 @@
 //! `--resolution` does not resemble `--size`. Words from other programs are in the tables of
 //! `foreign_words`, which are searched first.
 
+mod correction;
 mod foreign_words;
 mod given_value;
 mod unknown_flag;
@@ -17,6 +18,7 @@ use super::negative_numbers::called_command;
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Command, CommandFactory as _, Error, FromArgMatches as _};
+use correction::{Correction, corrected};
 use foreign_words::foreign_words;
 
 use files::visible_text;
@@ -28,6 +30,9 @@ use std::path::Path;
 use unknown_flag::advise_on_flag;
 use wrong_value::advise_on_value;
 
+/// The folder in an example of `alberti batch`.
+const BATCH_EXAMPLE: &str = "batch models ";
+
 /// Parses the command line.
 ///
 /// # Errors
@@ -38,11 +43,44 @@ pub(crate) fn parse_args(words: &[OsString]) -> Result<Args, Error> {
         let args = Args::from_arg_matches(&matches);
         args.map_err(|error| error.format(&mut Args::command()))
     });
-    parsed.map_err(|usage| {
+    let built = || {
         let mut program = Args::command();
         program.build();
-        advise(usage, words, &program)
-    })
+        program
+    };
+    match parsed {
+        Ok(args) if has_bare_output(words) => {
+            advise_on_output(words, &built()).map_or(Ok(args), Err)
+        }
+        Ok(args) => Ok(args),
+        Err(usage) => Err(advise(usage, words, &built())),
+    }
+}
+
+/// Whether an output may have been given without `-o`. Building the program to make sure takes
+/// most of a short command's time.
+fn has_bare_output(words: &[OsString]) -> bool {
+    words.iter().skip(1).any(|word| OutputFormat::is_known(Path::new(word)))
+}
+
+/// Returns the error for an output without `-o`, as in `alberti render model.glb picture.png`.
+fn advise_on_output(words: &[OsString], program: &Command) -> Option<Error> {
+    let typed: Vec<String> = words.iter().map(|it| it.to_string_lossy().into_owned()).collect();
+    let at = correction::forgotten_output(&typed, called_command(program, words))?;
+    let unsupported = OutputFormat::from_path(Path::new(&typed[at])).err();
+    let is_still = called_command(program, words).get_name() == "render";
+    let message = match unsupported.filter(|_| is_still) {
+        Some(error) => error.to_string(),
+        None => {
+            let output = visible_text(&typed[at]);
+            let help = match corrected(words, program) {
+                Some(Correction { line, .. }) => format!("run `{line}`"),
+                None => format!("use `-o {output}`"),
+            };
+            format!("`{output}` is not a model; to write to it, {help}")
+        }
+    };
+    Some(Error::raw(ErrorKind::UnknownArgument, message + "\n").with_cmd(program))
 }
 
 /// Adds a helpful tip to a clap error, or replaces the error.
@@ -68,28 +106,67 @@ fn advise(mut error: Error, words: &[OsString], program: &Command) -> Error {
         }
         _ => None,
     };
+    // An earlier mistake is reported first.
+    let is_first =
+        context(&error, ContextKind::InvalidArg).is_some_and(|word| !word.starts_with('-'));
+    if is_first && let Some(output) = advise_on_output(words, program) {
+        return output;
+    }
     let message = message.or_else(|| advise_on_help(&error, words, program));
+    let correction = error.use_stderr().then(|| corrected(words, program)).flatten();
     match message {
         Some(message) => {
             let message = with_given_model(&message, words);
+            let message = with_correction(message, correction);
             Error::raw(ErrorKind::UnknownArgument, message + "\n").with_cmd(program)
         }
-        None => error,
+        None => {
+            add_correction(&mut error, correction);
+            error
+        }
     }
+}
+
+/// Returns the message with the corrected command line: in place of an example's, or, if there are
+/// several mistakes, as a tip.
+fn with_correction(message: String, correction: Option<Correction>) -> String {
+    let Some(Correction { line, count }) = correction else { return message };
+    let command = line.split(' ').take(2).collect::<Vec<_>>().join(" ");
+    let example = message.split_once(&format!("run `{command} "));
+    if let Some((before, (_, after))) =
+        example.and_then(|(before, rest)| Some((before, rest.split_once('`')?)))
+    {
+        return format!("{before}run `{line}`{after}");
+    }
+    if count < 2 { message } else { format!("{message}\n\n  tip: the whole command is `{line}`") }
+}
+
+/// Adds the corrected command line to an error with several mistakes, as a tip.
+fn add_correction(error: &mut Error, correction: Option<Correction>) {
+    let Some(Correction { line, count: 2.. }) = correction else { return };
+    let mut tips = match error.remove(ContextKind::Suggested) {
+        Some(ContextValue::StyledStrs(tips)) => tips,
+        _ => Vec::new(),
+    };
+    tips.push(StyledStr::from(format!("the whole command is `{line}`")));
+    error.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
 }
 
 /// Returns the message with the user's model and picture instead of the example's.
 fn with_given_model(message: &str, words: &[OsString]) -> String {
     let is_plain = |word: &&str| !word.starts_with('-') && visible_text(word) == **word;
     let mut words = words.iter().filter_map(|word| word.to_str()).filter(is_plain);
-    let mut models =
-        words.clone().filter(|word| FileFormat::from_extension(Path::new(word)).is_some());
+    let all = words.clone().filter(|word| FileFormat::from_extension(Path::new(word)).is_some());
+    let mut models = all.clone();
     let model = models.next().filter(|_| models.next().is_none());
     let picture = words.rfind(|word| OutputFormat::from_path(Path::new(word)).is_ok());
     let names = [("model.glb", model), ("picture.png", picture)];
-    names.into_iter().fold(message.to_owned(), |message, (example, name)| {
+    let message = names.into_iter().fold(message.to_owned(), |message, (example, name)| {
         name.map_or(message.clone(), |name| message.replace(example, &quoted(name)))
-    })
+    });
+    let all = all.map(quoted).collect::<Vec<_>>().join(" ");
+    let is_list = message.contains(BATCH_EXAMPLE) && all.contains(' ');
+    if is_list { message.replace(BATCH_EXAMPLE, &format!("batch {all} ")) } else { message }
 }
 
 /// Returns advice on words that clap reads as `-h`, such as `-hide_banner`.
@@ -211,16 +288,18 @@ fn advise_on_command(error: &Error, words: &[OsString], program: &Command) -> Op
     ))
 }
 
-/// Adds advice on possible inputs if the input is missing.
+/// Adds advice on a missing input or output.
 fn advise_on_input(error: &mut Error) {
-    let is_input = match error.get(ContextKind::InvalidArg) {
-        Some(ContextValue::Strings(missing)) => {
-            missing.iter().any(|it| it.starts_with("<INPUT>..."))
-        }
-        _ => false,
+    let Some(ContextValue::Strings(missing)) = error.get(ContextKind::InvalidArg) else { return };
+    let lacks = |name: &str| missing.iter().any(|it| it.starts_with(name));
+    let tip = if lacks("<INPUT>...") {
+        Some("name a scene or a model, or `-` to read one from the standard input")
+    } else if lacks("--output") && !lacks("<INPUT>") {
+        Some("name the film, as in `-o film.gif`, or its frames, as in `-o 'frame_{frame:04}.png'`")
+    } else {
+        None
     };
-    if is_input {
-        let tip = "name a scene or a model, or `-` to read one from the standard input";
+    if let Some(tip) = tip {
         let tip = ContextValue::StyledStrs(vec![StyledStr::from(tip)]);
         error.insert(ContextKind::Suggested, tip);
     }

@@ -44,7 +44,6 @@ pub(crate) struct RenderTask {
 /// # Errors
 /// Returns an error if an input is missing, or if an output name is invalid or not unique.
 pub(super) fn plan_tasks(args: &RenderArgs) -> Result<Vec<RenderTask>, CliError> {
-    refuse_output_as_input(&args.inputs)?;
     refuse_words_as_input(&args.inputs)?;
     let looks = overrides_per_view(args);
     let count = args.inputs.len() * looks.len();
@@ -76,21 +75,6 @@ pub(super) fn plan_tasks(args: &RenderArgs) -> Result<Vec<RenderTask>, CliError>
     }
     check_distinct_outputs(&jobs)?;
     Ok(jobs)
-}
-
-/// Rejects `render model.glb picture.png` before rendering: probably `-o` was forgotten.
-fn refuse_output_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
-    let is_flag = |path: &Path| path.to_string_lossy().starts_with('+');
-    let is_output =
-        |path: &&PathBuf| !path.exists() && !is_flag(path) && OutputFormat::is_known(path);
-    let (Some(output), [first, ..]) = (inputs.iter().skip(1).find(is_output), inputs) else {
-        return Ok(());
-    };
-    OutputFormat::from_path(output)?;
-    let [output, first] = [output, first].map(visible_path);
-    Err(CliError::Usage(format!(
-        "{output} is not a model\n  = help: to write the picture to it, run `alberti render {first} -o {output}`"
-    )))
 }
 
 /// Rejects a nonexistent input, such as `+antialias` or a flag after `--`, if there are several

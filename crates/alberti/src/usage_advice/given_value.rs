@@ -93,15 +93,17 @@ pub(super) fn following_numbers(
     })
 }
 
+/// Other programs' flags for a width and for a height.
+pub(super) const SIDES: [[&str; 4]; 2] =
+    [["--width", "-w", "-W", "--resolution-x"], ["--height", "-h", "-H", "--resolution-y"]];
+
 /// Returns the size from two flags, such as `--width 64 --height 48`.
 fn both_sides(words: &[String]) -> Option<String> {
-    let side = |names: [&str; 4]| {
+    let [width, height] = SIDES.map(|names| {
         let value = names.iter().find_map(|name| value_of(name, words))?;
         value.parse::<u32>().ok()
-    };
-    let width = side(["--width", "-w", "-W", "--resolution-x"])?;
-    let height = side(["--height", "-h", "-H", "--resolution-y"])?;
-    Some(format!("{width}x{height}"))
+    });
+    Some(format!("{}x{}", width?, height?))
 }
 
 /// Quotes a value for a shell.
@@ -125,6 +127,8 @@ pub(super) fn accepted_value(flag: &str, given: &str, command: &Command) -> Opti
         percent(given)
             .filter(|_| ["zoom", "scale", "light-intensity"].contains(&flag))
             .map(|factor| factor.to_string()),
+        // The thumbnailer's pictures are square: `128x128` is `128`.
+        given.split_once('x').filter(|(width, height)| width == height).map(|it| it.0.to_owned()),
     ];
     meant.into_iter().flatten().find(|value| is_accepted(flag, value, command))
 }
@@ -140,15 +144,7 @@ pub(super) fn foreign_value(flag: &str, given: &str) -> Option<String> {
 /// `100x80+10+20` as `10,20,100,80`.
 fn rewritten(flag: &str, given: &str) -> Option<String> {
     match flag {
-        "size" => {
-            let given = given.trim_matches(['!', '^', '>', '<', '(', ')', '[', ']']);
-            let sides = given.trim_end_matches("px").split([',', ' ', ':', '*', 'X', '×', 'x']);
-            let sides: Vec<&str> = sides.filter(|side| !side.is_empty()).collect();
-            match sides[..] {
-                [side] => Some(format!("{side}x{side}")),
-                _ => Some(sides.join("x")),
-            }
-        }
+        "size" => Some(rewritten_size(given)),
         "zoom" => Some(given.trim_end_matches(['x', 'X']).to_owned()),
         "fov" if given.ends_with("mm") => lens_angle(given.trim_end_matches("mm")),
         "frames" => {
@@ -196,6 +192,17 @@ fn rewritten(flag: &str, given: &str) -> Option<String> {
             Some(numbers.filter(|number| !number.is_empty()).collect::<Vec<_>>().join(","))
         }
         _ => None,
+    }
+}
+
+/// Returns a size in this program's notation: `200,150!` as `200x150`.
+fn rewritten_size(given: &str) -> String {
+    let given = given.trim_matches(['!', '^', '>', '<', '(', ')', '[', ']']);
+    let sides = given.trim_end_matches("px").split([',', ' ', ':', '*', 'X', '×', 'x']);
+    let sides: Vec<&str> = sides.filter(|side| !side.is_empty()).collect();
+    match sides[..] {
+        [side] => format!("{side}x{side}"),
+        _ => sides.join("x"),
     }
 }
 

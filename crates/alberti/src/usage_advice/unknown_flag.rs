@@ -8,7 +8,6 @@ use super::{context, full_name, has_flag, is_misspelling, takes_value, with_hyph
 use crate::negative_numbers::called_command;
 use clap::error::ContextKind;
 use clap::{Command, Error};
-use import::FileFormat;
 use scene_file::closest_name;
 use std::ffi::OsString;
 use std::path::Path;
@@ -41,9 +40,6 @@ pub(super) fn advise_on_flag(
         return Some(advice);
     }
     if !name.starts_with('-') && Path::new(&name).extension().is_some() {
-        if let Some(advice) = advise_on_output(&name, &words, command) {
-            return Some(advice);
-        }
         let command = full_name(command);
         return Some(format!(
             "`{command}` reads one file, and `{name}` is a second file; for several files, use a loop: `for f in *.glb; do {command} \"$f\"; done`"
@@ -58,6 +54,21 @@ pub(super) fn advise_on_flag(
         let help = flag.map_or(String::new(), |flag| format!(": use `--{flag} {name}`"));
         return Some(format!("unexpected argument `{name}` for `{}`{help}", full_name(command)));
     }
+    Some(format!(
+        "`{name}` is not a flag of `{}`; {}",
+        full_name(command),
+        similar_flag(stem, command)
+    ))
+}
+
+/// Returns advice on a flag that the command does not have, without the flag itself.
+pub(super) fn flag_advice(name: &str, word: &str, words: &[String], command: &Command) -> String {
+    let help = what_to_write(name, word, words, command);
+    help.unwrap_or_else(|| similar_flag(name.trim_start_matches('-'), command))
+}
+
+/// Returns the flag that was probably misspelled or shortened; otherwise, where to find all flags.
+fn similar_flag(stem: &str, command: &Command) -> String {
     let names: Vec<&str> = command.get_arguments().filter_map(|flag| flag.get_long()).collect();
     let begun = || {
         let mut longer =
@@ -66,12 +77,10 @@ pub(super) fn advise_on_flag(
     };
     let similar = closest_name(stem, &names).filter(|similar| is_misspelling(stem, similar));
     let similar = similar.or_else(begun);
-    let command = full_name(command);
-    let help = match similar {
+    match similar {
         Some(similar) => format!("did you mean `--{similar}`?"),
-        None => format!("`{command} --help` lists its flags"),
-    };
-    Some(format!("`{name}` is not a flag of `{command}`; {help}"))
+        None => format!("`{} --help` lists its flags", full_name(command)),
+    }
 }
 
 /// Returns text to replace a flag: the flag with two hyphens, or this program's equivalent.
@@ -101,7 +110,7 @@ pub(super) fn what_to_write(
         Some(help.to_owned())
     } else {
         foreign_flag(stem, command).map(|advice| {
-            let advice = without_given_flags(advice, words);
+            let advice = without_given_flags(advice, words, command);
             let advice = advice.as_str();
             match with_given_value(advice, word, words, command) {
                 _ if advice.starts_with("alberti ") => format!("run `{advice}`"),
@@ -115,23 +124,6 @@ pub(super) fn what_to_write(
             }
         })
     }
-}
-
-/// Returns advice on an output name without its flag, as in `alberti animate a.glb film.gif`.
-fn advise_on_output(name: &str, words: &[String], command: &Command) -> Option<String> {
-    let is_output = FileFormat::from_extension(Path::new(name)).is_none();
-    let input = words
-        .iter()
-        .take_while(|word| *word != name)
-        .skip(2)
-        .find(|word| Path::new(word).extension().is_some() && !word.starts_with('-'));
-    let input = input.map_or(String::new(), |input| format!(" {}", quoted(input)));
-    (is_output && has_flag(command, "output")).then(|| {
-        let command = full_name(command);
-        format!(
-            "`{name}` is not a flag of `{command}`; to write to it, run `{command}{input} -o {name}`"
-        )
-    })
 }
 
 /// Returns the format that `-f svg`, `-Tsvg` or `--export-type=svg` selects in other programs,
@@ -154,7 +146,7 @@ fn chosen_format(name: &str, words: &[String], command: &Command) -> Option<Stri
 }
 
 /// Splits a short flag from its value, as in `-j4`.
-fn with_value_apart(word: String, words: Vec<String>) -> (String, Vec<String>) {
+pub(super) fn with_value_apart(word: String, words: Vec<String>) -> (String, Vec<String>) {
     let is_joined = word.len() > 2
         && word.chars().nth(1).is_some_and(char::is_alphabetic)
         && word[2..].chars().all(|c| c.is_ascii_digit());
@@ -180,11 +172,16 @@ fn advise_on_negative_number(name: &str, words: &[String], command: &Command) ->
 }
 
 /// Removes flags that are already present from a piece of advice, such as `--target 0,0,0 --eye
-/// 4,3,6` next to an `--eye`.
-fn without_given_flags(advice: &str, words: &[String]) -> String {
+/// 4,3,6` next to an `--eye` or another program's `--camera-position`.
+fn without_given_flags(advice: &str, words: &[String], command: &Command) -> String {
+    let first_word = |advice: &str| advice.split(' ').next().unwrap_or(advice).to_owned();
     let is_given = |part: &str| {
-        let flag = format!("--{}", part.split(' ').next().unwrap_or(part));
-        words.iter().any(|word| *word == flag || word.starts_with(&format!("{flag}=")))
+        let flag = format!("--{}", first_word(part));
+        let names = words.iter().filter_map(|word| word.split('=').next()?.strip_prefix('-'));
+        names.map(|name| name.trim_start_matches('-')).any(|name| {
+            let meant = foreign_flag(name, command).map(first_word);
+            format!("--{name}") == flag || meant.as_ref() == Some(&flag)
+        })
     };
     if advice.starts_with("alberti ") {
         return advice.to_owned();
@@ -242,13 +239,13 @@ fn advise_before_command(name: &str, program: &Command) -> Option<String> {
     let stem = if name == "-o" { "output" } else { name.strip_prefix("--")? };
     has_flag(program.find_subcommand("render")?, stem).then(|| {
         format!(
-            "`{name}` is not a flag of `alberti` itself; flags come after the command, as in `alberti render model.glb {name} …`"
+            "`{name}` is not a flag of `alberti` itself; flags come after the command: run `alberti render model.glb {name} …`"
         )
     })
 }
 
 /// Returns the whole word that was typed; for `-resize`, the parser reports only `-r`.
-fn whole_word(told: &str, words: &[OsString]) -> String {
+pub(super) fn whole_word(told: &str, words: &[OsString]) -> String {
     let is_long = |word: &&str| {
         !word.starts_with("--")
             && word.starts_with(told)

@@ -39,10 +39,7 @@ pub(super) fn advise_on_value(
         ));
     }
     let texts: Vec<String> = words.iter().map(|it| it.to_string_lossy().into_owned()).collect();
-    let apart = following_numbers(&format!("--{flag}"), &flag, &texts, command);
-    let accepted =
-        || foreign_value(&flag, &given).or_else(|| accepted_value(&flag, &given, command));
-    let meant = apart.or_else(accepted);
+    let meant = meant_value(&flag, &given, &texts, command);
     if let Some(expected) = expected_number(error, &given) {
         let tip = meant.map_or(String::new(), |meant| format!("; write `--{flag} {meant}`"));
         return Some(format!("invalid value '{given}' for '--{flag}': {expected}{tip}"));
@@ -72,6 +69,18 @@ pub(super) fn advise_on_value(
         error.remove(ContextKind::SuggestedValue);
     }
     None
+}
+
+/// Returns the value that was probably meant.
+pub(super) fn meant_value(
+    flag: &str,
+    given: &str,
+    words: &[String],
+    command: &Command,
+) -> Option<String> {
+    let apart = following_numbers(&format!("--{flag}"), flag, words, command);
+    let accepted = || foreign_value(flag, given).or_else(|| accepted_value(flag, given, command));
+    apart.or_else(accepted)
 }
 
 /// Returns advice on a kind of value that a flag with this name accepts in other programs.
