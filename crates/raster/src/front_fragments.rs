@@ -1,7 +1,7 @@
 //! Front fragments, for picking, and overdraw counts. Both take translucent layers and alpha-tested
 //! holes into account.
 
-use crate::sample_plane::pixel_index;
+use crate::sample_plane::{NO_TRIANGLE, pixel_index};
 use crate::tile_grid::TILE;
 use crate::tile_loop::FilledTile;
 use crate::tile_visibility::{TileVisibility, TranslucentLayer};
@@ -15,6 +15,16 @@ struct PixelLayers<'a> {
     tile_position: [u32; 2],
     /// The column and row in the picture.
     image_position: [u32; 2],
+}
+
+impl PixelLayers<'_> {
+    /// Returns the index of the nearest triangle that covers the first sample, or [`NO_TRIANGLE`].
+    fn front_triangle(&self) -> u32 {
+        let layer = self.layers.iter().rev().find(|layer| layer.mask & 1 != 0);
+        let [column, row] = self.tile_position.map(|c| c as usize);
+        let opaque = || self.tile.triangle(0, pixel_index(column, row));
+        layer.map_or_else(opaque, |layer| layer.triangle)
+    }
 }
 
 impl Frame {
@@ -35,12 +45,41 @@ impl Frame {
     ) {
         self.for_each_pixel(surface, threads, target, |pixel, target| {
             let [x, y] = pixel.image_position;
-            let layer = pixel.layers.iter().rev().find(|layer| layer.mask & 1 != 0);
-            let [column, row] = pixel.tile_position.map(|c| c as usize);
-            let opaque = || pixel.tile.triangle(0, pixel_index(column, row));
-            let triangle = self.triangles.get(layer.map_or_else(opaque, |layer| layer.triangle));
-            if let Some(triangle) = triangle {
+            if let Some(triangle) = self.triangles.get(pixel.front_triangle()) {
                 *target = map(&Fragment::new(triangle, &self.source_weights, x, y));
+            }
+        });
+    }
+
+    /// Writes the primitive id of each pixel's front fragment to `target`, like
+    /// [`map_front_fragments`](Self::map_front_fragments) with [`Fragment::id`], but faster: no
+    /// weights are computed. Other pixels are left unchanged.
+    pub fn write_front_ids<S: Surface>(&self, surface: &S, threads: usize, target: &mut [u32]) {
+        let nothing = |_: &mut [u32]| {};
+        self.for_each_tile(surface, threads, target, nothing, |filled| {
+            // Neighbors usually show the same triangle.
+            let (mut last, mut last_id) = (NO_TRIANGLE, None);
+            let mut write = |front: u32, target: &mut u32| {
+                if front != last {
+                    (last, last_id) = (front, self.triangles.get(front).map(|found| found.id));
+                }
+                if let Some(id) = last_id {
+                    *target = id;
+                }
+            };
+            if !filled.tile.layers.is_empty() {
+                return self.visit_pixels(filled, |pixel, target| {
+                    write(pixel.front_triangle(), target);
+                });
+            }
+            let FilledTile { tile, rect, band, .. } = filled;
+            let column = (rect.x + rect.left - self.region.x) as usize;
+            let columns = rect.left as usize..rect.right as usize;
+            let rows = band.chunks_mut(self.region.width as usize);
+            for (y, row) in (rect.top as usize..rect.bottom as usize).zip(rows) {
+                for (x, target) in columns.clone().zip(&mut row[column..]) {
+                    write(tile.triangle(0, pixel_index(x, y)), target);
+                }
             }
         });
     }
@@ -72,28 +111,38 @@ impl Frame {
     ) {
         let nothing = |_: &mut [P]| {};
         self.for_each_tile(surface, threads, target, nothing, |filled| {
-            let FilledTile { tile, rect, band, .. } = filled;
-            for y in rect.top..rect.bottom {
-                let column = rect.x + rect.left - self.region.x;
-                let first = ((y - rect.top) * self.region.width + column) as usize;
-                for x in rect.left..rect.right {
-                    // Layers are sorted by pixel.
-                    let pixel = (y * TILE + x) as u16;
-                    let start = tile.layers.partition_point(|layer| layer.pixel < pixel);
-                    let layers = &tile.layers[start..];
-                    let count = layers.iter().take_while(|layer| layer.pixel == pixel).count();
-                    let pixel = PixelLayers {
-                        tile,
-                        layers: &layers[..count],
-                        tile_position: [x, y],
-                        image_position: [rect.x + x, rect.y + y],
-                    };
-                    let index = first + (x - rect.left) as usize;
-                    if let Some(target) = band.get_mut(index) {
-                        each(&pixel, target);
-                    }
+            self.visit_pixels(filled, &each);
+        });
+    }
+
+    /// Calls `each` with every pixel of a filled tile, row by row.
+    #[inline(always)]
+    fn visit_pixels<P>(
+        &self,
+        filled: FilledTile<'_, P>,
+        mut each: impl FnMut(&PixelLayers<'_>, &mut P),
+    ) {
+        let FilledTile { tile, rect, band, .. } = filled;
+        for y in rect.top..rect.bottom {
+            let column = rect.x + rect.left - self.region.x;
+            let first = ((y - rect.top) * self.region.width + column) as usize;
+            for x in rect.left..rect.right {
+                // Layers are sorted by pixel.
+                let pixel = (y * TILE + x) as u16;
+                let start = tile.layers.partition_point(|layer| layer.pixel < pixel);
+                let layers = &tile.layers[start..];
+                let count = layers.iter().take_while(|layer| layer.pixel == pixel).count();
+                let pixel = PixelLayers {
+                    tile,
+                    layers: &layers[..count],
+                    tile_position: [x, y],
+                    image_position: [rect.x + x, rect.y + y],
+                };
+                let index = first + (x - rect.left) as usize;
+                if let Some(target) = band.get_mut(index) {
+                    each(&pixel, target);
                 }
             }
-        });
+        }
     }
 }

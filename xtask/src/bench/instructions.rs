@@ -24,9 +24,14 @@ use std::process::Command;
 /// recorded.
 const TOLERANCE: f64 = 0.03;
 
-/// Scenes that the program draws at a small size with one thread. They cover smooth shading,
-/// clipping and textures, and translucency.
-const SCENES: [&str; 3] = ["teapot", "floor", "panes"];
+/// Scenes that the program draws at a small size with one thread, and further flags. They cover
+/// smooth shading, clipping and textures, translucency, and passes.
+const SCENES: [(&str, &str, &[&str]); 4] = [
+    ("teapot", "teapot", &[]),
+    ("floor", "floor", &[]),
+    ("panes", "panes", &[]),
+    ("passes", "teapot", &["--passes", "depth,normal,uv,id,node", "--pass-format", "npy"]),
+];
 
 /// Workloads that use only the crate `raster`, with one and with four samples per pixel: the
 /// arguments of `crates/raster/examples/workload.rs`.
@@ -151,7 +156,7 @@ impl Request {
 
 /// Returns the name of every count.
 fn known_names() -> Vec<&'static str> {
-    SCENES.into_iter().chain(SAMPLES.map(|(name, _)| name)).collect()
+    SCENES.map(|(name, _, _)| name).into_iter().chain(SAMPLES.map(|(name, _)| name)).collect()
 }
 
 fn is_known_name(name: &str) -> bool {
@@ -171,10 +176,10 @@ fn count_all() -> Result<Vec<Count>, String> {
     let workload = target_folder().join("release/examples/workload");
     create_folder(&target_folder().join("bench"))?;
     let picture = target_folder().join("bench/instructions.png");
-    let scene = |name: &str| {
+    let scene = |(name, scene, flags): (&str, &str, &[&str])| {
         let mut command = Command::new(program.path());
-        command.arg("render").arg(format!("scenes/{name}.ron")).arg("-o").arg(&picture);
-        command.args(["--size", "320x240", "--threads", "1"]);
+        command.arg("render").arg(format!("scenes/{scene}.ron")).arg("-o").arg(&picture);
+        command.args(["--size", "320x240", "--threads", "1"]).args(flags);
         count_instructions(name, &command)
     };
     let alone = |(name, samples): (&str, &str)| {

@@ -27,7 +27,7 @@ use super::mip_chains::Textures;
 use super::primitive_assembly::assemble_with_opacity;
 use super::renderer::{RenderBuffers, Renderer};
 use super::shadow_maps::ShadowMapRenderer;
-use geometry::{Hit, SceneGeometry};
+use geometry::{SceneGeometry, Visibility};
 use homog::PixelRect;
 use model::Timings;
 use raster::{Fragment, Opacity, Samples, Surface};
@@ -116,13 +116,11 @@ struct TilePasses<'a, 'r> {
 }
 
 impl TilePasses<'_, '_> {
-    /// Renders passes. All except overdraw and coverage share one buffer of triangle ids and
-    /// weights.
+    /// Renders passes. All except overdraw and coverage share one buffer of triangle ids.
     fn render_all(&mut self, wanted: &[Pass]) -> Result<Vec<PassBuffer>, RenderError> {
         let threads = self.context.threads;
-        let needs_hits = wanted.iter().any(|pass| !matches!(pass, Pass::Overdraw | Pass::Coverage));
-        let hits = if needs_hits { self.nearest_hits()? } else { Vec::new() };
         let geometry = SceneGeometry::new(self.context.scene, self.tile_region.tile)?;
+        let mut visibility = None;
         let mut buffers = Vec::with_capacity(wanted.len());
         for &pass in wanted {
             let mut buffer = PassBuffer::new_empty(pass, self.tile_region.rect);
@@ -131,23 +129,36 @@ impl TilePasses<'_, '_> {
                 (Pass::Coverage, PassValues::Floats(coverage)) => {
                     self.measure_coverage(coverage)?;
                 }
-                _ => buffer.fill_pixels(&geometry, &hits, self.tile_region, threads),
+                _ => {
+                    let visible = match &mut visibility {
+                        Some(visible) => visible,
+                        none => none.insert(self.find_visible(geometry.needs_weights())?),
+                    };
+                    if !buffer.fill_pixels(&geometry, visible, self.tile_region, threads) {
+                        *visible = self.find_visible(true)?;
+                        buffer.fill_pixels(&geometry, visible, self.tile_region, threads);
+                    }
+                }
             }
             buffers.push(buffer);
         }
         Ok(buffers)
     }
 
-    /// Finds the nearest primitive at each pixel's center and returns a visibility buffer of ids
-    /// and weights.
-    fn nearest_hits(&mut self) -> Result<Vec<Hit>, RenderError> {
-        let mut hits = vec![Hit::MISS; self.tile_region.pixel_count()];
+    /// Finds the nearest primitive at each pixel's center, and optionally its weights there.
+    fn find_visible(&mut self, needs_weights: bool) -> Result<Visibility, RenderError> {
+        let count = self.tile_region.pixel_count();
+        let mut ids = vec![Visibility::NOTHING; count];
+        let mut weights = vec![[0.0; 3]; if needs_weights { count } else { 0 }];
         let threads = self.context.threads;
         self.with_frame(Samples::One, None, |frame, surface| {
-            let hit = |fragment: &Fragment<'_>| Hit { id: fragment.id, weights: fragment.weights };
-            frame.map_front_fragments(surface, threads, &mut hits, hit);
+            frame.write_front_ids(surface, threads, &mut ids);
+            if needs_weights {
+                let of_fragment = |fragment: &Fragment<'_>| fragment.weights;
+                frame.map_front_fragments(surface, threads, &mut weights, of_fragment);
+            }
         })?;
-        Ok(hits)
+        Ok(Visibility { ids, weights })
     }
 
     /// Counts the fragments at each pixel's center, including hidden fragments (overdraw). All

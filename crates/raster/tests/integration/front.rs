@@ -71,6 +71,10 @@ fn front_fragments_are_the_nearest_for_any_number_of_threads() {
             assert!((sum - 1.0).abs() < 1e-5, "{:?}", fragment.weights);
             Some(fragment.id)
         });
+        let mut ids = vec![u32::MAX; found.len()];
+        frame.write_front_ids(&Holed, threads, &mut ids);
+        let missing = |id: &u32| (*id != u32::MAX).then_some(*id);
+        assert!(ids.iter().map(missing).eq(found.iter().copied()), "{threads} threads");
         for (at, (pixel, found)) in covering().iter().zip(&found).enumerate() {
             let nearest = pixel.iter().max_by(|(_, a), (_, b)| a.total_cmp(b));
             assert_eq!(nearest.map(|(id, _)| *id), *found, "pixel {at}: {pixel:?}");

@@ -4,10 +4,11 @@
 //! losslessly as NumPy arrays or OpenEXR images, or as 16-bit PNG files quantized to the range of
 //! the values.
 
-use super::geometry::{Hit, SceneGeometry};
+use super::geometry::{SceneGeometry, Visibility, VisibleRow};
 use crate::render::image_tiles::TileRegion;
 use homog::PixelRect;
 use scene_file::{Pass, PassEncoding};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The values of a pass: rows from the top, channels interleaved.
 #[derive(Clone, PartialEq, Debug)]
@@ -80,38 +81,40 @@ impl PassBuffer {
 
     /// Computes the values of each pixel from the nearest primitive there. Rows are processed in
     /// parallel.
+    ///
+    /// Returns whether all pixels have a value. If not, weights of the rasterizer are missing.
     pub(super) fn fill_pixels(
         &mut self,
         geometry: &SceneGeometry<'_>,
-        hits: &[Hit],
+        visible: &Visibility,
         part: TileRegion,
         threads: usize,
-    ) {
+    ) -> bool {
         let (pass, width) = (self.pass, self.width as usize);
         let [left, top] = part.offset_in_tile();
-        let pixel = |row: usize, column: usize| [left + column as u32, top + row as u32];
+        let is_incomplete = AtomicBool::new(false);
         match &mut self.values {
             PassValues::Floats(values) => {
-                let count = pass.channels();
-                let rows = values.chunks_mut(width * count).zip(hits.chunks(width)).enumerate();
-                raster::for_each_parallel(threads, rows, |(row, (values, hits))| {
-                    let pixels = values.chunks_exact_mut(count).zip(hits).enumerate();
-                    // Rows are processed in parallel, so each row starts without a cached item.
-                    let mut last = None;
-                    for (column, (values, hit)) in pixels {
-                        geometry.write_value(pass, hit, pixel(row, column), &mut last, values);
+                let rows = values.chunks_mut(width * pass.channels()).enumerate();
+                raster::for_each_parallel(threads, rows, |(row, values)| {
+                    let row = VisibleRow {
+                        ids: &visible.ids[row * width..(row + 1) * width],
+                        weights: visible.row_weights(row, width),
+                        first_pixel: [left, top + row as u32],
+                    };
+                    if !geometry.write_row(pass, &row, values) {
+                        is_incomplete.store(true, Ordering::Relaxed);
                     }
                 });
             }
             PassValues::Integers(values) => {
-                let rows = values.chunks_mut(width).zip(hits.chunks(width));
-                raster::for_each_parallel(threads, rows, |(values, hits)| {
-                    for (value, hit) in values.iter_mut().zip(hits) {
-                        *value = geometry.id_value(pass, hit);
-                    }
+                let rows = values.chunks_mut(width).zip(visible.ids.chunks(width));
+                raster::for_each_parallel(threads, rows, |(values, ids)| {
+                    geometry.write_ids(pass, ids, values);
                 });
             }
         }
+        !is_incomplete.into_inner()
     }
 
     /// Copies the pass of one image tile into the pass of a region.

@@ -16,18 +16,59 @@ use scene::{Scene, Style};
 use scene_file::Pass;
 use std::borrow::Cow;
 
-/// The nearest primitive at a pixel's center, as the rasterizer found it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Hit {
-    /// The primitive id; `u32::MAX` if there is no primitive.
-    pub(super) id: u32,
-    /// Barycentric weights on the snapped triangle, as used by shading.
-    pub(super) weights: [f32; 3],
+/// The number of pixels whose weights are computed together.
+const LANES: usize = 4;
+
+/// The nearest primitive at each pixel's center, as the rasterizer found it: rows from the top.
+pub(super) struct Visibility {
+    /// Primitive ids; [`Self::NOTHING`] where there is no primitive.
+    pub(super) ids: Vec<u32>,
+    /// Barycentric weights on the snapped triangles, as used by shading; empty if they are not
+    /// needed.
+    pub(super) weights: Vec<[f32; 3]>,
 }
 
-impl Hit {
-    /// No primitive.
-    pub(super) const MISS: Self = Self { id: u32::MAX, weights: [0.0; 3] };
+impl Visibility {
+    /// The id of a pixel without a primitive.
+    pub(super) const NOTHING: u32 = u32::MAX;
+
+    /// Returns the weights of a row of pixels; empty if they are not needed.
+    pub(super) fn row_weights(&self, row: usize, width: usize) -> &[[f32; 3]] {
+        self.weights.get(row * width..(row + 1) * width).unwrap_or_default()
+    }
+}
+
+/// One row of a [`Visibility`].
+pub(super) struct VisibleRow<'v> {
+    /// Primitive ids.
+    pub(super) ids: &'v [u32],
+    /// Barycentric weights; empty if they are not needed.
+    pub(super) weights: &'v [[f32; 3]],
+    /// The column and row of the first pixel in the tile.
+    pub(super) first_pixel: [u32; 2],
+}
+
+impl<'v> VisibleRow<'v> {
+    /// Iterates over the longest parts that show the same primitive, and their first columns; parts
+    /// without a primitive are left out.
+    fn runs(&self) -> impl Iterator<Item = (usize, &'v [u32])> {
+        let mut column = 0;
+        self.ids.chunk_by(|a, b| a == b).filter_map(move |run| {
+            let first = column;
+            column += run.len();
+            (run[0] != Visibility::NOTHING).then_some((first, run))
+        })
+    }
+}
+
+/// Neighboring pixels of a row that show the same primitive.
+struct Run<'v> {
+    /// The column and row of the first pixel in the tile.
+    first_pixel: [u32; 2],
+    /// The number of pixels.
+    length: usize,
+    /// The pixels' barycentric weights; empty if they are not needed.
+    weights: &'v [[f32; 3]],
 }
 
 /// All primitives of a scene, by ascending primitive id.
@@ -125,114 +166,210 @@ impl<'a> SceneGeometry<'a> {
         })
     }
 
-    /// Returns the draw call of a hit's primitive.
-    fn draw_of_hit(&self, hit: &Hit) -> Option<&DrawGeometry<'a>> {
-        if hit.id == u32::MAX {
-            return None;
-        }
-        let after = self.draws.partition_point(|draw| draw.first_id <= hit.id);
+    /// Whether a primitive is a point or a line, whose values depend on the rasterizer's weights.
+    pub(super) fn needs_weights(&self) -> bool {
+        self.draws.iter().any(|draw| draw.primitive.topology != Topology::Triangles)
+    }
+
+    /// Returns the draw call of a primitive.
+    fn draw_of_primitive(&self, id: u32) -> Option<&DrawGeometry<'a>> {
+        let after = self.draws.partition_point(|draw| draw.first_id <= id);
         self.draws.get(after.checked_sub(1)?)
     }
 
-    /// Returns the value of an integer pass at a pixel; 0 for background pixels.
-    pub(super) fn id_value(&self, pass: Pass, hit: &Hit) -> u32 {
-        let Some(draw) = self.draw_of_hit(hit) else { return 0 };
-        let ids = draw.owner_ids;
-        match pass {
-            Pass::Model => ids.model,
-            Pass::Object => ids.object,
-            Pass::Node => ids.node,
-            Pass::Mesh => ids.mesh,
-            Pass::Material => ids.material,
-            _ => hit.id + 1,
+    /// Writes the values of an integer pass for a row of pixels with these primitive ids.
+    /// Background pixels are left unchanged.
+    pub(super) fn write_ids(&self, pass: Pass, ids: &[u32], values: &mut [u32]) {
+        let row = VisibleRow { ids, weights: &[], first_pixel: [0, 0] };
+        for (first, run) in row.runs() {
+            let Some(draw) = self.draw_of_primitive(run[0]) else { continue };
+            let ids = draw.owner_ids;
+            let value = match pass {
+                Pass::Model => ids.model,
+                Pass::Object => ids.object,
+                Pass::Node => ids.node,
+                Pass::Mesh => ids.mesh,
+                Pass::Material => ids.material,
+                _ => run[0] + 1,
+            };
+            values[first..first + run.len()].fill(value);
         }
     }
 
-    /// Writes the values of a floating-point pass for a pixel of the tile. Values of background
-    /// pixels are left unchanged.
+    /// Writes the values of a floating-point pass for a row of pixels. Values of background pixels
+    /// are left unchanged.
     ///
-    /// `last` caches the previous pixel's item, because neighbors usually show the same triangle.
-    pub(super) fn write_value<'s>(
-        &'s self,
-        pass: Pass,
-        hit: &Hit,
-        pixel: [u32; 2],
-        last: &mut Option<HitItem<'s, 'a>>,
-        values: &mut [f32],
-    ) {
-        if hit.id == u32::MAX {
-            return;
+    /// Returns whether all other pixels have a value. If not, the rasterizer's weights are missing.
+    pub(super) fn write_row(&self, pass: Pass, row: &VisibleRow<'_>, values: &mut [f32]) -> bool {
+        let count = pass.channels();
+        let mut is_complete = true;
+        for (first, ids) in row.runs() {
+            let Some(item) = self.visible_item(pass, ids[0]) else { continue };
+            let [left, y] = row.first_pixel;
+            let run = Run {
+                first_pixel: [left + first as u32, y],
+                length: ids.len(),
+                weights: row.weights.get(first..first + ids.len()).unwrap_or_default(),
+            };
+            let values = &mut values[first * count..(first + ids.len()) * count];
+            is_complete &= self.write_run(pass, &item, &run, values);
         }
-        if last.as_ref().is_none_or(|item| item.id != hit.id) {
-            *last = self.item_of_hit(hit);
-        }
-        let Some(item) = last else { return };
-        let point = self.surface_point(item, hit, pixel);
-        let to_view = |point: Point<World>| self.world_to_view.transform_point(point);
-        let measured = match pass {
-            Pass::Depth => [-to_view(point.position).z(), 0.0, 0.0],
-            Pass::Distance => [to_view(point.position).raw().length(), 0.0, 0.0],
-            Pass::Position => point.position.into(),
-            Pass::Normal => self.visible_normal(item, &point).to_array(),
-            Pass::ViewNormal => {
-                let normal = Normal::from_raw(self.visible_normal(item, &point));
+        is_complete
+    }
+
+    /// Writes the values of neighboring pixels that show the same primitive.
+    fn write_run(&self, pass: Pass, item: &VisibleItem, run: &Run<'_>, values: &mut [f32]) -> bool {
+        let to_view = |point: &SurfacePoint| self.world_to_view.transform_point(point.position);
+        match pass {
+            Pass::Depth => self.fill_run(item, run, values, |point| [-to_view(point).z()]),
+            Pass::Distance => {
+                self.fill_run(item, run, values, |point| [to_view(point).raw().length()])
+            }
+            Pass::Position => self.fill_run(item, run, values, |point| point.position.into()),
+            Pass::Normal => {
+                let normal = |point: &SurfacePoint| self.visible_normal(item, point).to_array();
+                self.fill_run(item, run, values, normal)
+            }
+            Pass::ViewNormal => self.fill_run(item, run, values, |point| {
+                let normal = Normal::from_raw(self.visible_normal(item, point));
                 let in_view = self.world_to_view.transform_normal(normal).raw();
                 in_view.normalize_or_zero().to_array()
-            }
-            Pass::Uv => item.uv(&point),
-            _ => point.weights,
-        };
-        for (value, measured) in values.iter_mut().zip(measured) {
-            *value = measured as f32;
+            }),
+            Pass::Uv => self.fill_run(item, run, values, |point| {
+                let [u, v, _] =
+                    interpolate(item.attributes.unwrap_or_default(), point.weights).to_array();
+                [u, v]
+            }),
+            _ => self.fill_run(item, run, values, |point| point.weights),
         }
     }
 
-    /// Returns the point, line or triangle of a hit, with its corners in clip space and in world
-    /// space.
-    fn item_of_hit(&self, hit: &Hit) -> Option<HitItem<'_, 'a>> {
-        let draw = self.draw_of_hit(hit)?;
-        let vertices = draw.vertex_indices((hit.id - draw.first_id) as usize)?;
+    /// Writes the measured values at the centers of neighboring pixels.
+    ///
+    /// Computing four pixels together takes half the time: their divisions overlap.
+    #[inline(always)]
+    fn fill_run<const N: usize>(
+        &self,
+        item: &VisibleItem,
+        run: &Run<'_>,
+        values: &mut [f32],
+        measure: impl Fn(&SurfacePoint) -> [f64; N],
+    ) -> bool {
+        let write = |weights: [f64; 3], values: &mut [f32; N]| {
+            let position = Point::from_raw(interpolate(item.corners.map(Point::raw), weights));
+            let measured = measure(&SurfacePoint { weights, position });
+            *values = measured.map(|value| value as f32);
+        };
+        let mut is_complete = true;
+        let chunks = values.as_chunks_mut::<N>().0[..run.length].chunks_mut(LANES);
+        for (first, chunk) in (0..).step_by(LANES).zip(chunks) {
+            match self.exact_weights(item, run, first) {
+                Some(weights) => {
+                    for (values, weights) in chunk.iter_mut().zip(weights) {
+                        write(weights, values);
+                    }
+                }
+                None => {
+                    is_complete &= self.fill_slowly(item, run, first, chunk, &write);
+                }
+            }
+        }
+        is_complete
+    }
+
+    /// Writes the values of a few pixels, some of which have no exact weights.
+    #[cold]
+    fn fill_slowly<const N: usize>(
+        &self,
+        item: &VisibleItem,
+        run: &Run<'_>,
+        first: usize,
+        values: &mut [[f32; N]],
+        write: &impl Fn([f64; 3], &mut [f32; N]),
+    ) -> bool {
+        let mut is_complete = true;
+        for (column, values) in (first..).zip(values) {
+            let exact = item.edge_normals.as_ref().and_then(|edge_normals| {
+                perspective_weights(edge_normals, self.pixel_center(run, column))
+            });
+            // Fragments of points and lines extend beyond the primitive itself.
+            let weights = exact.or_else(|| Some(run.weights.get(column)?.map(f64::from)));
+            match weights {
+                Some(weights) => write(weights, values),
+                None => is_complete = false,
+            }
+        }
+        is_complete
+    }
+
+    /// Returns the center of a run's pixel in normalized device coordinates, with 1 as z.
+    #[inline(always)]
+    fn pixel_center(&self, run: &Run<'_>, column: usize) -> DVec3 {
+        let [left, y] = run.first_pixel;
+        let center = [f64::from(left + column as u32) + 0.5, f64::from(y) + 0.5];
+        self.screen_to_ndc.transform_point(Point::new(center[0], center[1], 0.0)).raw().with_z(1.0)
+    }
+
+    /// Returns the weights of [`LANES`] neighboring pixels, or `None` if one has none: points and
+    /// lines, and triangles that are seen edge-on.
+    #[inline(always)]
+    fn exact_weights(
+        &self,
+        item: &VisibleItem,
+        run: &Run<'_>,
+        first: usize,
+    ) -> Option<[[f64; 3]; LANES]> {
+        let edge_normals = item.edge_normals.as_ref()?;
+        let mut all = [[0.0; 3]; LANES];
+        for (lane, weights) in all.iter_mut().enumerate() {
+            let center = self.pixel_center(run, first + lane);
+            *weights = edge_normals.map(|normal| normal.dot(center).max(0.0));
+        }
+        let factors = all.map(|weights| 1.0 / (weights[0] + weights[1] + weights[2]));
+        let mut is_finite = true;
+        for (weights, factor) in all.iter_mut().zip(factors) {
+            *weights = weights.map(|weight| weight * factor);
+            is_finite &= weights.iter().all(|weight| weight.is_finite());
+        }
+        is_finite.then_some(all)
+    }
+
+    /// Returns a point, line or triangle with what a pass needs.
+    fn visible_item(&self, pass: Pass, id: u32) -> Option<VisibleItem> {
+        let draw = self.draw_of_primitive(id)?;
+        let vertices = draw.vertex_indices((id - draw.first_id) as usize)?;
         let model_positions = &draw.skinned.positions;
         let mut positions = [Point::<Model>::ORIGIN; 3];
         for (position, vertex) in positions.iter_mut().zip(vertices) {
             *position = model_point(*model_positions.get(vertex)?);
         }
         let in_clip_space = positions.map(|point| draw.model_to_clip.transform_point(point));
-        let edge_normals = edge_normals(in_clip_space);
         let corners = positions.map(|point| draw.model_to_world.transform_point(point));
-        Some(HitItem { id: hit.id, draw, vertices, edge_normals, corners })
-    }
-
-    /// Returns the surface point at a pixel's center. Points and lines use the rasterizer's
-    /// weights, because their fragments extend beyond the primitive itself.
-    fn surface_point(&self, item: &HitItem<'_, '_>, hit: &Hit, [x, y]: [u32; 2]) -> SurfacePoint {
-        let weights = if item.draw.primitive.topology == Topology::Triangles {
-            let center = Point::new(f64::from(x) + 0.5, f64::from(y) + 0.5, 0.0);
-            let center = self.screen_to_ndc.transform_point(center).raw().with_z(1.0);
-            perspective_weights(&item.edge_normals, center)
-        } else {
-            None
-        };
-        let weights = weights.unwrap_or(hit.weights.map(f64::from));
-        let position = Point::from_raw(interpolate(item.corners.map(Point::raw), weights));
-        SurfacePoint { weights, position }
+        let is_normal = matches!(pass, Pass::Normal | Pass::ViewNormal);
+        let is_triangle = draw.primitive.topology == Topology::Triangles;
+        Some(VisibleItem {
+            edge_normals: is_triangle.then(|| edge_normals(in_clip_space)),
+            face_normal: if is_normal { draw.face_normal(corners) } else { DVec3::ZERO },
+            attributes: match pass {
+                Pass::Normal | Pass::ViewNormal if !self.is_flat => draw.vertex_normals(vertices),
+                Pass::Uv => draw.vertex_uvs(vertices),
+                _ => None,
+            },
+            corners,
+        })
     }
 
     /// Returns the unit normal of the visible side. It is interpolated for smooth surfaces, the
     /// triangle's normal for flat surfaces, and zero for points and lines.
-    fn visible_normal(&self, item: &HitItem<'_, '_>, point: &SurfacePoint) -> DVec3 {
-        let draw = item.draw;
-        if draw.primitive.topology != Topology::Triangles {
+    fn visible_normal(&self, item: &VisibleItem, point: &SurfacePoint) -> DVec3 {
+        if item.edge_normals.is_none() {
             return DVec3::ZERO;
         }
-        let [a, b, c] = item.corners.map(Point::raw);
-        let is_mirrored = draw.model_to_world.determinant() < 0.0;
-        let face = (b - a).cross(c - a).normalize_or_zero() * if is_mirrored { -1.0 } else { 1.0 };
-        let smooth_normal = item.smooth_normal(point).filter(|_| !self.is_flat);
+        let smooth = |normals| interpolate(normals, point.weights).try_normalize();
         let viewer = self.viewer.raw();
         let to_viewer = viewer.truncate() - point.position.raw() * viewer.w;
-        let sign = if face.dot(to_viewer) < 0.0 { -1.0 } else { 1.0 };
-        smooth_normal.unwrap_or(face) * sign
+        let sign = if item.face_normal.dot(to_viewer) < 0.0 { -1.0 } else { 1.0 };
+        item.attributes.and_then(smooth).unwrap_or(item.face_normal) * sign
     }
 }
 
@@ -244,44 +381,47 @@ impl DrawGeometry<'_> {
         let indices = self.primitive.indices.get(item * count..(item + 1) * count)?;
         Some([0, 1, 2].map(|k: usize| indices[k.min(count - 1)] as usize))
     }
+
+    /// Returns the unit normal of a triangle with these corners, on the front side.
+    fn face_normal(&self, corners: [Point<World>; 3]) -> DVec3 {
+        let [a, b, c] = corners.map(Point::raw);
+        let is_mirrored = self.model_to_world.determinant() < 0.0;
+        (b - a).cross(c - a).normalize_or_zero() * if is_mirrored { -1.0 } else { 1.0 }
+    }
+
+    /// Returns three vertex normals in world space, or `None` if there are none.
+    fn vertex_normals(&self, vertices: [usize; 3]) -> Option<[DVec3; 3]> {
+        let normals = self.skinned.normals.as_deref()?;
+        let mut vertex_normals = [DVec3::ZERO; 3];
+        for (vertex_normal, vertex) in vertex_normals.iter_mut().zip(vertices) {
+            let normal = transform_normal(self.normal_to_world, *normals.get(vertex)?);
+            *vertex_normal = DVec3::from_array(normal.map(f64::from));
+        }
+        Some(vertex_normals)
+    }
+
+    /// Returns the texture coordinates of three vertices, with 0 as the third component.
+    fn vertex_uvs(&self, vertices: [usize; 3]) -> Option<[DVec3; 3]> {
+        let uvs = self.uvs.as_deref()?;
+        Some(vertices.map(|vertex| {
+            let [u, v] = uvs.get(vertex).copied().unwrap_or_default();
+            DVec3::new(u.into(), v.into(), 0.0)
+        }))
+    }
 }
 
 /// A point, line or triangle that is visible in some pixel.
-pub(super) struct HitItem<'s, 'a> {
-    /// The primitive id.
-    id: u32,
-    /// The draw call.
-    draw: &'s DrawGeometry<'a>,
-    /// Vertex indices.
-    vertices: [usize; 3],
-    /// Edge normals in (x, y, w), for computing weights at a point of the picture.
-    edge_normals: [DVec3; 3],
+struct VisibleItem {
+    /// Edge normals in (x, y, w), for computing weights at a point of the picture; `None` for
+    /// points and lines.
+    edge_normals: Option<[DVec3; 3]>,
+    /// The unit normal of the triangle in world space, if the pass needs it.
+    face_normal: DVec3,
+    /// The vertex normals in world space, or the texture coordinates with 0 as the third
+    /// component, if the pass needs them and the primitive has them.
+    attributes: Option<[DVec3; 3]>,
     /// Vertex positions in world space.
     corners: [Point<World>; 3],
-}
-
-impl HitItem<'_, '_> {
-    /// Returns the interpolated vertex normal in world space, or `None` if there are no vertex
-    /// normals.
-    fn smooth_normal(&self, point: &SurfacePoint) -> Option<DVec3> {
-        let normals = self.draw.skinned.normals.as_deref()?;
-        let mut vertex_normals = [DVec3::ZERO; 3];
-        for (vertex_normal, vertex) in vertex_normals.iter_mut().zip(self.vertices) {
-            let normal = transform_normal(self.draw.normal_to_world, *normals.get(vertex)?);
-            *vertex_normal = DVec3::from_array(normal.map(f64::from));
-        }
-        interpolate(vertex_normals, point.weights).try_normalize()
-    }
-
-    /// Returns the interpolated texture coordinates, with 0 as the third component.
-    fn uv(&self, point: &SurfacePoint) -> [f64; 3] {
-        let Some(uvs) = self.draw.uvs.as_deref() else { return [0.0; 3] };
-        let uv = self.vertices.map(|vertex| {
-            let [u, v] = uvs.get(vertex).copied().unwrap_or_default();
-            DVec3::new(u.into(), v.into(), 0.0)
-        });
-        interpolate(uv, point.weights).to_array()
-    }
 }
 
 /// A point on a primitive.
