@@ -68,7 +68,7 @@ mod _native {
     #[pymodule_export]
     use super::native_camera::{NativeCamera, camera_from_ron, make_camera};
     #[pymodule_export]
-    use super::rendering::{encode_png, over_white, render, render_many};
+    use super::rendering::{encode_gray_png, encode_png, over_white, render, render_many};
     #[pymodule_export]
     use super::run_program;
     #[pymodule_export]

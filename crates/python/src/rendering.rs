@@ -143,6 +143,33 @@ pub(crate) fn encode_png<'py>(
     Ok(pyo3::types::PyBytes::new(py, &bytes))
 }
 
+/// Encodes whole numbers from 0 to 65535 (height, width) as a 16-bit grayscale PNG file.
+#[pyfunction]
+pub(crate) fn encode_gray_png<'py>(
+    py: Python<'py>,
+    codes: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, pyo3::types::PyBytes>> {
+    use numpy::{PyArray2, PyArrayMethods as _, PyUntypedArrayMethods as _};
+    let wrong = || PyErr::from(Failure::argument("codes", "expected uint16 (height, width)"));
+    let array = codes.cast::<PyArray2<u16>>().map_err(|_| wrong())?;
+    let [height, width] = *array.shape() else { return Err(wrong()) };
+    let (Ok(width), Ok(height)) = (u32::try_from(width), u32::try_from(height)) else {
+        return Err(wrong());
+    };
+    let codes = array.to_vec()?;
+    let encode = || -> Result<Vec<u8>, png::EncodingError> {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, width, height);
+        encoder.set_color(png::ColorType::Grayscale);
+        encoder.set_depth(png::BitDepth::Sixteen);
+        let big_endian: Vec<u8> = codes.iter().flat_map(|code| code.to_be_bytes()).collect();
+        encoder.write_header()?.write_image_data(&big_endian)?;
+        Ok(bytes)
+    };
+    let bytes = py.detach(encode).map_err(|_| wrong())?;
+    Ok(pyo3::types::PyBytes::new(py, &bytes))
+}
+
 /// Reads a picture from colors with alpha.
 fn read_picture(rgba: &Bound<'_, PyAny>) -> PyResult<Picture> {
     use numpy::{PyArray3, PyArrayMethods as _, PyUntypedArrayMethods as _};
