@@ -37,6 +37,7 @@ const PEERS: &[&str] = &[
     "ipykernel",
     "kubernetes-validate",
     "ray",
+    "datasets",
 ];
 /// The maximum size of a released wheel in bytes.
 const MAX_WHEEL_BYTES: u64 = 8_000_000;
