@@ -13,34 +13,14 @@ const TOKEN_BYTES: usize = 16;
 /// # Errors
 /// Returns an error if the system cannot provide random bytes.
 pub(super) fn new_token() -> Result<String, CliError> {
-    let bytes = random_bytes().map_err(|error| {
+    let mut bytes = [0_u8; TOKEN_BYTES];
+    getrandom::fill(&mut bytes).map_err(|error| {
         CliError::Usage(format!(
             "cannot read random bytes from the system: {error}\n  = help: the page address must be \
              secret; check that /dev/urandom is readable"
         ))
     })?;
     Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
-}
-
-#[cfg(unix)]
-fn random_bytes() -> std::io::Result<[u8; TOKEN_BYTES]> {
-    use std::io::Read as _;
-    let mut bytes = [0; TOKEN_BYTES];
-    std::fs::File::open("/dev/urandom")?.read_exact(&mut bytes)?;
-    Ok(bytes)
-}
-
-/// Derives random bytes from the standard library. It has no generator, but it seeds the hash keys
-/// of its maps from the system, and without the key, the hash of a number cannot be guessed.
-#[cfg(not(unix))]
-fn random_bytes() -> std::io::Result<[u8; TOKEN_BYTES]> {
-    use std::hash::{BuildHasher as _, RandomState};
-    let key = RandomState::new();
-    let mut bytes = [0; TOKEN_BYTES];
-    for (number, part) in bytes.chunks_exact_mut(8).enumerate() {
-        part.copy_from_slice(&key.hash_one(number).to_le_bytes());
-    }
-    Ok(bytes)
 }
 
 /// Returns the rest of a path after the token and a slash; `None` without the token.

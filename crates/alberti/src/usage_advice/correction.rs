@@ -114,14 +114,13 @@ fn correct_command(word: &str, words: &[String]) -> Option<Vec<String>> {
     let name =
         example.first().filter(|name| ["render", "batch", "info", "check"].contains(name))?;
     let folder = example.windows(2).find(|pair| pair[0] == "--out-dir" || pair[0] == "--size");
-    let flags = folder.map_or(String::new(), |pair| pair.join(" "));
-    let mut corrected = replaced(words, at..=at, name);
+    let flags = folder.map_or(String::new(), |pair| format!(" {}", pair.join(" ")));
+    let mut corrected = replaced(words, at..=at, &format!("{name}{flags}"));
     if *name == "batch" {
         // A batch names its pictures itself.
         corrected.retain(|word| word.starts_with('-') || !OutputFormat::is_known(Path::new(word)));
     }
-    let end = corrected.len();
-    Some(replaced(&corrected, end..end, &flags))
+    Some(corrected)
 }
 
 /// Replaces a flag that the command does not have, and its value.

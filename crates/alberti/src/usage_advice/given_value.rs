@@ -33,6 +33,10 @@ pub(super) fn with_given_value(
     if example.starts_with("--") {
         return Given::Nothing;
     }
+    // In f3d, -1 means all animations.
+    if name == "animation" && given.starts_with('-') {
+        return Given::FitsNot(flag.to_owned());
+    }
     if let Some(factor) = percent(&given).filter(|_| name == "size") {
         return Given::Fits(format!("--scale {factor}"));
     }
@@ -195,14 +199,21 @@ fn rewritten(flag: &str, given: &str) -> Option<String> {
     }
 }
 
-/// Returns a size in this program's notation: `200,150!` as `200x150`.
+/// Returns a size in this program's notation: `200,150!` as `200x150`. The missing side of
+/// `640x` or `x480` follows from the shape of a picture without `--size`.
 fn rewritten_size(given: &str) -> String {
     let given = given.trim_matches(['!', '^', '>', '<', '(', ')', '[', ']']);
     let sides = given.trim_end_matches("px").split([',', ' ', ':', '*', 'X', '×', 'x']);
-    let sides: Vec<&str> = sides.filter(|side| !side.is_empty()).collect();
+    let sides: Vec<&str> = sides.collect();
+    let number = |side: &str| side.parse::<u32>().ok().filter(|side| *side > 3);
+    let given = sides.iter().filter(|side| !side.is_empty()).copied().collect::<Vec<_>>().join("x");
     match sides[..] {
         [side] => format!("{side}x{side}"),
-        _ => sides.join("x"),
+        [width, ""] => number(width).map_or(given, |width| format!("{width}x{}", width / 4 * 3)),
+        ["", height] => {
+            number(height).map_or(given, |height| format!("{}x{height}", height / 3 * 4))
+        }
+        _ => given,
     }
 }
 

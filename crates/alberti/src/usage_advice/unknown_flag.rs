@@ -5,6 +5,7 @@ use super::given_value::{
     Given, accepted_value, following_numbers, lens_angle, quoted, value_of, with_given_value,
 };
 use super::{context, full_name, has_flag, is_misspelling, takes_value, with_hyphens};
+use crate::format::OutputFormat;
 use crate::negative_numbers::called_command;
 use clap::error::ContextKind;
 use clap::{Command, Error};
@@ -108,6 +109,8 @@ pub(super) fn what_to_write(
         Some(help)
     } else if let Some(help) = foreign_habit(stem, command) {
         Some(help.to_owned())
+    } else if let Some(flags) = combined_flags(name, command) {
+        Some(format!("short flags cannot be combined: use `{flags}`"))
     } else {
         foreign_flag(stem, command).map(|advice| {
             let advice = without_given_flags(advice, words, command);
@@ -124,6 +127,30 @@ pub(super) fn what_to_write(
             }
         })
     }
+}
+
+/// Returns the flags here for f3d's short flags in one word, such as `-xgq`. Those without a
+/// counterpart are left out.
+fn combined_flags(name: &str, command: &Command) -> Option<String> {
+    const FLAGS: [(char, &str); 7] = [
+        ('x', "--overlay axes"),
+        ('g', "--overlay grid"),
+        ('e', "--overlay edges"),
+        ('a', "--samples 8"),
+        ('q', "--ambient-occlusion"),
+        ('t', "--tone-mapping aces"),
+        ('p', ""),
+    ];
+    let letters = name.strip_prefix('-').filter(|letters| !letters.starts_with('-'))?;
+    let is_known = foreign_flag(letters, command).is_some() || !has_flag(command, "overlay");
+    if letters.len() < 2 || is_known || letters == "page" {
+        return None;
+    }
+    let letters = letters.trim_end_matches(['n', 's']).chars();
+    let flags = letters.map(|letter| FLAGS.iter().find(|flag| flag.0 == letter).map(|it| it.1));
+    let flags = flags.collect::<Option<Vec<_>>>()?;
+    let flags: Vec<&str> = flags.into_iter().filter(|flag| !flag.is_empty()).collect();
+    (!flags.is_empty()).then(|| flags.join(" "))
 }
 
 /// Returns the format that `-f svg`, `-Tsvg` or `--export-type=svg` selects in other programs,
@@ -225,7 +252,12 @@ fn advise_on_no_window(name: &str, words: &[String]) -> Option<String> {
     let help = if file.to_ascii_lowercase().ends_with(".blend") {
         "export the .blend file as .glb and run `alberti render model.glb`".to_owned()
     } else {
-        let output = value_of("-o", words).map(|name| format!(" -o {}", quoted(&name)));
+        let output = value_of("-o", words).map(|name| {
+            // `//` is the scene's folder in Blender, and `####` the frame number.
+            let name = name.trim_start_matches('/').trim_end_matches(['#', '_']);
+            let has_format = OutputFormat::is_known(Path::new(name));
+            format!(" -o {}", quoted(&format!("{name}{}", if has_format { "" } else { ".png" })))
+        });
         format!("run `alberti render {}{}`", quoted(&file), output.unwrap_or_default())
     };
     let is_short = name == "-b";

@@ -1,5 +1,6 @@
 //! Advice on values that a flag does not accept.
 
+use super::foreign_words::foreign_words;
 use super::given_value::{
     accepted_value, following_numbers, foreign_value, invalid_value, quoted, similar_color,
 };
@@ -23,7 +24,10 @@ pub(super) fn advise_on_value(
     if let Some(advice) = other_meaning(&flag, &given) {
         return Some(advice);
     }
-    let given = Some(given).filter(|given| !given.is_empty())?;
+    if given.is_empty() {
+        add_example(error, &flag);
+        return None;
+    }
     let command = called_command(program, words);
     if let Some((azimuth, elevation)) = given.split_once(',').filter(|_| flag == "view")
         && let (Ok(azimuth), Ok(elevation)) = (azimuth.parse::<f64>(), elevation.parse::<f64>())
@@ -69,6 +73,15 @@ pub(super) fn advise_on_value(
         error.remove(ContextKind::SuggestedValue);
     }
     None
+}
+
+/// Adds an example to the error for a flag without its value.
+fn add_example(error: &mut Error, flag: &str) {
+    if let Some(row) = foreign_words("flag").find(|row| row.owner == flag) {
+        let example = row.advice.split(" --").next().unwrap_or(row.advice);
+        let tip = ContextValue::StyledStrs(vec![StyledStr::from(format!("as in `{example}`"))]);
+        error.insert(ContextKind::Suggested, tip);
+    }
 }
 
 /// Returns the value that was probably meant.
