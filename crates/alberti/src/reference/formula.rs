@@ -35,7 +35,7 @@ fn plain_text(formula: &Formula) -> String {
         } else if is_fence || line.is_empty() {
             push_paragraph(&mut page, &mut paragraph);
             verbatim ^= is_fence;
-        } else if line.starts_with("Source: ") || line.starts_with("Command: ") {
+        } else if ["Source: ", "Command: ", "Book: "].iter().any(|word| line.starts_with(word)) {
             page.push_str(&format!("  {line}\n"));
         } else {
             paragraph += &format!("{} ", line.replace('`', ""));
