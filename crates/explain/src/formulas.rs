@@ -7,6 +7,8 @@
 //!  | D3D-1 | left-handed, by angle | F/(F−N) | …                     a row of a table
 //! ```
 
+mod html;
+
 use std::fmt;
 
 /// The file from which the entries are parsed.

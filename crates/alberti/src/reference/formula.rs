@@ -6,19 +6,13 @@
 use super::text::wrap_paragraphs;
 use super::{ReferenceEntry, ReferenceFormat, ReferenceSection};
 use explain::formulas::Formula;
-use page::escape_markup;
 
 /// Returns the entry for a formula: name, formula, meaning, sources and a command.
 pub(super) fn format_formula(formula: &Formula, format: ReferenceFormat) -> String {
     match format {
         ReferenceFormat::Text => plain_text(formula),
         ReferenceFormat::Markdown => format!("# {formula}"),
-        ReferenceFormat::Html => format!(
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{}</title>\n\
-             <pre>\n{}</pre>\n</html>\n",
-            escape_markup(formula.name),
-            escape_markup(&plain_text(formula))
-        ),
+        ReferenceFormat::Html => formula.to_html(),
     }
 }
 
