@@ -81,7 +81,7 @@ fn read_diagonal(
     let planar = scale[2].is(1.0) && offset[2].is_zero();
     let base = match (planar, scale[0].value < 0.0) {
         (true, _) => 4,
-        (false, false) => 10,
+        (false, false) => 12,
         (false, true) => 18,
     };
     let (scale, offset) = (scale.map(Rounded::simplest), offset.map(Rounded::simplest));

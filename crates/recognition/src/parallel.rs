@@ -34,7 +34,7 @@ pub(crate) fn read_boxes(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
 /// reversed.
 pub(crate) fn box_rarity(convention: Convention, rarity: u32) -> u32 {
     let reversed = convention.near_depth() > convention.far_depth();
-    if reversed && convention != Convention::CHAPTER { rarity + 3 } else { rarity }
+    if reversed && convention != Convention::CHAPTER { rarity + 1 } else { rarity }
 }
 
 fn box_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixMeaning, u32)> {
@@ -96,7 +96,7 @@ fn order_cost(near: Rounded, far: Rounded) -> u32 {
     match (near.value, far.value) {
         (near, far) if near > far => MIRRORED,
         (_, far_value) if far_value < 0.0 => MIRRORED,
-        (near_value, _) if near_value < 0.0 && !near.is_zero() => 2,
+        (near_value, _) if near_value < 0.0 && !near.is_zero() => 6,
         _ => 0,
     }
 }
