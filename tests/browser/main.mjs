@@ -284,6 +284,19 @@ async function testPage(browser, server, engine) {
     await explorer.close();
   });
 
+  await test(`${engine}: the codes above the matrices lead to their entries on a server`, async () => {
+    const explorer = await open({ hash: '#v=1&lesson=perspective' });
+    const links = explorer.page.locator('#matrix .formula a');
+    if (engine === 'native') {
+      const [entry] = await Promise.all([explorer.page.context().waitForEvent('page'), links.first().click()]);
+      const [code, text] = [await links.first().innerText(), await entry.locator('body').innerText()];
+      assert(text.startsWith(code) && text.includes('Book: '), text);
+    } else {
+      assert((await links.count()) === 0, 'a link without a server');
+    }
+    await explorer.close();
+  });
+
   await test(`${engine}: a lesson that needs a file says how to begin without one, and shows nothing else`, async () => {
     const isNative = engine === 'native';
     for (const [language, words] of [['en', 'To begin'], ['zh', isNative ? '启动程序' : '选择文件']]) {

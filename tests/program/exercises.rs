@@ -210,7 +210,10 @@ fn every_formula_is_in_the_reference_and_its_command_works() {
     let markdown = sandbox.run(&["reference", "PE-1", "--format", "markdown"]).stdout;
     assert!(markdown.contains("```text\n    ┌ n 0  0    0  ┐"), "{markdown}");
     let html = sandbox.run(&["reference", "PE-1", "--format", "html"]).stdout;
-    assert!(html.starts_with("<!DOCTYPE html>") && html.contains("Command: alberti"), "{html}");
+    assert!(
+        html.starts_with("<!DOCTYPE html>") && html.contains("Command: <code>alberti"),
+        "{html}"
+    );
     let unknown = sandbox.run(&["reference", "UNKNOWN-1"]);
     assert!(unknown.code == 1 && unknown.stderr.contains("no entry named `UNKNOWN-1`"));
     assert!(unknown.stderr.contains("`alberti scene doc` lists"), "{}", unknown.stderr);

@@ -2,7 +2,7 @@
 
 use crate::sandbox::Sandbox;
 use alberti_tests::skip::report_skip;
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::{TcpListener, TcpStream};
 use std::process::{Child, Command};
@@ -142,6 +142,33 @@ fn a_copied_scene_works_in_an_empty_folder() {
     sandbox.write_file("unknown.ron", "Scene(models: [(path: \"lesson:hous\")])");
     let unknown = sandbox.run(&["render", "unknown.ron", "-o", "unknown.png"]);
     assert!(unknown.code != 0 && unknown.stderr.contains("lesson:hous"), "{}", unknown.stderr);
+}
+
+/// Every formula id above a matrix is a link, and its page names the page of the book.
+#[test]
+fn every_formula_of_the_lessons_has_a_page() {
+    let sandbox = Sandbox::new("explore_formulas");
+    let server = Server::start(&sandbox, &[]);
+    let (_, lessons) = server.get("/compute?v=1&what=lessons");
+    let lessons: serde_json::Value = serde_json::from_str(&lessons).expect("JSON");
+    let mut codes = BTreeSet::new();
+    for lesson in lessons["lessons"].as_array().expect("lessons") {
+        let id = lesson["id"].as_str().expect("an id");
+        let (_, state) = server.get(&format!("/compute?v=1&what=state&lesson={id}&size=32x20"));
+        let formulas =
+            state.split("\"formula\":\"").skip(1).filter_map(|rest| rest.split('"').next());
+        codes.extend(formulas.flat_map(|ids| ids.split(", ")).map(str::to_owned));
+    }
+    assert!(codes.len() > 5, "{codes:?}");
+    for code in codes {
+        let (status, page) = server.get(&format!("/reference/{code}"));
+        assert_eq!(status, 200, "{code}");
+        assert!(
+            page.starts_with("<!DOCTYPE html>") && page.contains("<p>Book: "),
+            "{code}: {page}"
+        );
+    }
+    assert_eq!(server.get("/reference/unknown").0, 404);
 }
 
 #[test]

@@ -46,6 +46,75 @@ fn the_likeliest_reading_matches_the_source_program() {
     assert!(camera.contains("a camera pose (view to world): eye (0, 0, -7.0711)"), "{camera}");
 }
 
+/// The slips of students: one sign of a projection or a rotation, and mirrored windows.
+#[test]
+fn one_wrong_sign_is_named_with_other_repairs() {
+    let sandbox = Sandbox::new("matrix_one_sign");
+    for (numbers, words) in [
+        (
+            "0.974279 0 0 0 0 1.732051 0 0 0 0 -1.002002 0.2002 0 0 -1 0",
+            "With the sign of row 3, column 4 flipped, it is a perspective projection: left -0.10264",
+        ),
+        (
+            "1 0 .5 0 0 4/3 1/3 0 0 0 -2 6 0 0 -1 0",
+            "column 4 flipped, it is a perspective projection: left -1, right 3, bottom -1, top 2, \
+             near 2, far 6, for OpenGL",
+        ),
+        (
+            "-2 0 0 0 0 -2 0 0 0 0 -8 12 0 0 1 0",
+            "row 3, column 4 flipped, it is the textbook's P: n = -2, f = -6.\n",
+        ),
+        (
+            "1.609476 0 0 0 0 -2.414214 0 0 0 0 1.001001 -0.1001 0 0 -1 0",
+            "for Vulkan (near 0, far 1, y down). Another repair is possible: negate the last row.",
+        ),
+        (
+            "0.8776 0 0.4794 0 0 1 0 0 0.4794 0 0.8776 0 0 0 0 1",
+            "Another repair is possible: flip the sign of row 1, column 3.",
+        ),
+        (
+            "-0.974279 0 0 0 0 1.732051 0 0 0 0 -1.002002 -0.2002 0 0 -1 0",
+            "As given, it is a perspective projection, mirrored left to right: left 0.10264, right",
+        ),
+        (
+            "1 0 0 .5 0 4/3 0 1/3 0 0 -6 -2 0 0 0 -1",
+            "With columns 3 and 4 exchanged, it is a perspective projection: left -1, right 3",
+        ),
+        (
+            "1.299038 0 0 0 0 1.732051 0 0 0 0 1.020408 -0.102041 0 0 1 1",
+            "a misprint in which the last entry is 1 instead of 0, so w is the distance plus 1.",
+        ),
+        (
+            "1 0 0 0 0 1.7778 0 0 0 0 0 1 0 0 10 0",
+            "near 10, far infinite, for Direct3D with reversed depth",
+        ),
+    ] {
+        let found = report(&sandbox, "matrix", numbers);
+        assert!(found.contains(words), "{numbers}: {found}");
+    }
+}
+
+/// Views from (1, 2, −5) to the origin, as Direct3D prints them and as OpenCV's extrinsics.
+#[test]
+fn a_view_is_read_with_the_gaze_of_its_interface() {
+    let sandbox = Sandbox::new("matrix_views");
+    let gaze = "eye (1, 2, -5), gaze (-0.1826, -0.3652, 0.9129), up (-0.0716, 0.9309, 0.3581)";
+    for (numbers, axes) in [
+        (
+            "0.9806 -0.0716 -0.1826 0 0 0.9309 -0.3651 0 0.1961 0.3581 0.9129 0 0 0 5.4772 1",
+            "looks along +z, as in Direct3D",
+        ),
+        (
+            "-0.9806 0 -0.1961 0 0.0716 -0.9309 -0.3581 0 -0.1826 -0.3651 0.9129 5.4772 0 0 0 1",
+            "looks along +z with y down, as in OpenCV",
+        ),
+    ] {
+        let found = report(&sandbox, "matrix", numbers);
+        let verdict = found.lines().last().expect("a verdict");
+        assert!(verdict.contains(&format!("{gaze}, for a view space that {axes}.")), "{verdict}");
+    }
+}
+
 /// XMMatrixLookAtLH: zaxis = at − eye, xaxis = up × zaxis, yaxis = zaxis × xaxis, each of length 1.
 #[test]
 fn the_direct3d_camera_is_look_at_lh() {

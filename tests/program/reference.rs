@@ -89,6 +89,48 @@ fn the_reference_is_also_available_as_markdown_and_html() {
     }
 }
 
+/// The codes of the book's margins: topics, misprints and formulas, with the pages that cover them.
+#[test]
+fn codes_of_the_book_lead_to_its_pages() {
+    let sandbox = Sandbox::new("reference_codes");
+    for (code, lines) in [
+        (
+            "M14",
+            [
+                "M14, A 1 at the end of a perspective's bottom row",
+                "Three matrices have the bottom row (0, 0, −1, 1). Correct: (0, 0, −1, 0).",
+                "Command: alberti explain --matrix '1 0 0 0",
+                "Errata (printed-wrong.md)",
+            ],
+        ),
+        (
+            "c61",
+            [
+                "C61, Field of view, aspect ratio",
+                "near and far are validated",
+                "Book: ",
+                "(conventions.md)",
+            ],
+        ),
+        (
+            "GL-1",
+            [
+                "GL-1, ",
+                "Source: ",
+                "Command: ",
+                "Book: Matrices of the graphics APIs (conventions.md)",
+            ],
+        ),
+    ] {
+        let run = sandbox.run(&["reference", code]);
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{code}");
+        for line in lines {
+            assert!(run.stdout.contains(line), "{code}, {line}: {}", run.stdout);
+        }
+    }
+    assert_eq!(sandbox.run(&["reference", "M99"]).code, 1);
+}
+
 /// Symbols and id prefixes lead to formulas; other words lead to the list of formulas.
 #[test]
 fn textbook_words_lead_to_formulas() {

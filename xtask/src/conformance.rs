@@ -1,7 +1,8 @@
 //! `cargo xtask conformance`: writes the table of the sources' topics and their tests.
 //!
-//! The table, `tests/CONFORMANCE.md`, is generated from the source text of the tests. With
-//! `--check` it is compared instead of written. In both modes, the command fails if a math crate
+//! The table, `tests/CONFORMANCE.md`, is generated from the source text of the tests, and
+//! `docs/topics.md`, the topics by id, from the book. With `--check` they are compared instead of
+//! written. In both modes, the command fails if a math crate
 //! has no test for an item it is responsible for, or if a test names an unknown item. The book
 //! marks every topic on the page that covers it, and its pages are the evidence for topics outside
 //! mathematics.
@@ -10,6 +11,7 @@ mod book;
 mod items;
 mod scan;
 mod table;
+mod topics;
 mod vectors;
 
 use crate::Outcome;
@@ -21,9 +23,11 @@ use scan::Test;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
+use topics::Chapters;
 use vectors::VECTORS;
 
 const TABLE_PATH: &str = "tests/CONFORMANCE.md";
+const TOPICS_PATH: &str = "docs/topics.md";
 const BOOK_PATH: &str = "book/src";
 /// The path of the sources' inventory, relative to the root; `INVENTORY` overrides it.
 const INVENTORY_PATH: &str = "../shared/inventory.md";
@@ -42,7 +46,6 @@ pub fn run_conformance(arguments: &[String]) -> Outcome {
         of_crates.flat_map(|source| scan::scan_tests(&source.path, &source.text)).collect();
     let marks = BookMarks::read(&project_root().join(BOOK_PATH))?;
     let document = table::conformance_document(&tests, marks.as_ref());
-    let path = project_root().join(TABLE_PATH);
     let mut faults = [
         missing_items(&tests),
         unknown_items(&tests),
@@ -50,10 +53,17 @@ pub fn run_conformance(arguments: &[String]) -> Outcome {
         differing_lists(&document, marks.as_ref())?,
     ]
     .concat();
-    if !check {
-        fs::write(&path, &document).map_err(|error| format!("{TABLE_PATH}: {error}"))?;
-    } else if read_text(&path).ok().as_ref() != Some(&document) {
-        faults.push(format!("{TABLE_PATH} is stale: run `cargo xtask conformance`"));
+    let mut documents = vec![(TABLE_PATH, document)];
+    if let Some(marks) = &marks {
+        documents.push((TOPICS_PATH, topics::topics_document(&Chapters::read()?, marks)));
+    }
+    for (path, document) in documents {
+        let file = project_root().join(path);
+        if !check {
+            fs::write(&file, &document).map_err(|error| format!("{path}: {error}"))?;
+        } else if read_text(&file).ok() != Some(document) {
+            faults.push(format!("{path} is stale: run `cargo xtask conformance`"));
+        }
     }
     if faults.is_empty() {
         println!("{}", coverage_summary(&tests, marks.as_ref()));

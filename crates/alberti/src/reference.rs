@@ -28,10 +28,10 @@ use schema::SchemaName;
 /// Arguments of `alberti reference` and `alberti scene doc`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ReferenceArgs {
-    /// Flag, command, type, field, field path or formula [default: all flags and fields]
+    /// Flag, command, type, field, field path, formula or code [default: all flags and fields]
     ///
-    /// Examples: --size, render, LookAt, camera.projection, PE-1 (a formula id). A word from a
-    /// formula's name or text lists the matching ids; `formulas` lists all formulas.
+    /// Examples: --size, LookAt, PE-1 (a formula), C61 (a topic of the book), M14 (a misprint). A
+    /// word from a formula's name or text lists the matching ids; `formulas` lists all formulas.
     #[arg(allow_hyphen_values = true)]
     word: Option<String>,
     /// Output format

@@ -7,10 +7,15 @@
 //!  | D3D-1 | left-handed, by angle | F/(F−N) | …                     a row of a table
 //! ```
 
+mod html;
+
 use std::fmt;
 
 /// The file from which the entries are parsed.
 const PAGE: &str = include_str!("../formulas.md");
+
+/// The file with the topics, the misprints, and the pages of the book for every id.
+const TOPICS: &str = include_str!("../topics.md");
 
 /// An entry of the formulas.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -25,10 +30,34 @@ pub struct Formula {
     pub command: Option<&'static str>,
 }
 
-/// Finds the formula with this id, such as `PE-1`, in any case.
+/// Finds the formula with this id, such as `PE-1`, or the topic or misprint, such as `C61` or
+/// `M14`, in any case.
 #[must_use]
 pub fn find_formula(id: &str) -> Option<Formula> {
-    entries().find(|entry| entry.has_id(id)).or_else(|| table_row(id))
+    entries().find(|entry| entry.has_id(id)).or_else(|| table_row(id)).or_else(|| topic(id))
+}
+
+/// Returns the text below the name of a topic, misprint or formula, and the name.
+fn topic_entry(id: &str) -> Option<(&'static str, &'static str)> {
+    TOPICS.split("\n**").skip(1).find_map(|part| {
+        let (name, rest) = part.split_once("**\n")?;
+        let named = name.split(',').next()?;
+        named.eq_ignore_ascii_case(id).then(|| (name, rest.split("\n#").next().unwrap_or(rest)))
+    })
+}
+
+/// Returns the line of links to the pages of the book that cover an id.
+fn pages(id: &str) -> Option<&'static str> {
+    let (_, rest) = topic_entry(id)?;
+    rest.lines().find_map(|line| line.strip_prefix("Book: "))
+}
+
+/// Returns a topic or a misprint of the sources.
+fn topic(id: &str) -> Option<Formula> {
+    let (name, rest) = topic_entry(id)?;
+    let (body, _) = rest.split_once("Book: ")?;
+    let (text, command) = split_command(body);
+    name.contains(',').then_some(Formula { name, marks: "", text, command })
 }
 
 /// Returns all entries, in file order; table rows belong to the entry of their table.
@@ -100,6 +129,16 @@ impl Formula {
         })
     }
 
+    /// Returns the titles and file names of the pages of the book that cover the formula.
+    pub fn book_pages(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
+        let ids = self.name.split(|c: char| !c.is_alphanumeric() && c != '-');
+        let links = ids.filter_map(pages).next().unwrap_or_default().split(", [");
+        links.filter_map(|link| {
+            let (title, path) = link.trim_start_matches('[').split_once("](")?;
+            Some((title, path.trim_end_matches(')').rsplit('/').next()?))
+        })
+    }
+
     /// Returns the first three equations of the text: code that contains `=` or `→`.
     pub fn equations(&self) -> impl Iterator<Item = &'static str> {
         let code = self.text.split("```").next().unwrap_or_default().split('`').skip(1).step_by(2);
@@ -110,13 +149,23 @@ impl Formula {
 impl fmt::Display for Formula {
     /// Writes Markdown: the name, the text, the sources and the command.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{}\n\n{}\n", self.name, self.text)?;
+        writeln!(f, "{}\n", self.name)?;
+        if !self.text.is_empty() {
+            writeln!(f, "{}\n", self.text)?;
+        }
         for source in self.sources() {
             writeln!(f, "Source: {source}")?;
         }
         match self.command {
-            Some(command) => writeln!(f, "Command: {command}"),
-            None => writeln!(f, "Command: none demonstrates it separately"),
+            Some(command) => writeln!(f, "Command: {command}")?,
+            None if self.marks.is_empty() => {}
+            None => writeln!(f, "Command: none demonstrates it separately")?,
+        }
+        let pages: Vec<String> =
+            self.book_pages().map(|(title, file)| format!("{title} ({file})")).collect();
+        match &pages[..] {
+            [] => Ok(()),
+            _ => writeln!(f, "Book: {}", pages.join(", ")),
         }
     }
 }
@@ -143,7 +192,8 @@ fn table_row(id: &str) -> Option<Formula> {
     let section = PAGE[..at].rfind("\n### ")?;
     let (text, command) = split_command(PAGE[section..].split("\n**").next()?);
     let (_, text) = text.trim().split_once('\n')?;
-    Some(Formula { name: row.trim_matches(['|', ' ']), marks: "std", text: text.trim(), command })
+    let name = row.trim_matches(['|', ' ']);
+    Some(Formula { name, marks: "std", text: text.trim(), command })
 }
 
 /// Splits an entry into its body and its command.
@@ -170,8 +220,26 @@ mod tests {
         let row = find_formula("D3D-3").expect("a row");
         assert!(row.name.starts_with("D3D-3 | left-handed, by window"), "{}", row.name);
         assert!(row.text.contains("0 0 A B") && row.command.is_some());
+        let pages = find_formula("D3D-1").expect("a row").book_pages().next();
+        assert_eq!(pages, Some(("Matrices of the graphics APIs", "conventions.md")));
         assert_eq!(find_formula("UNKNOWN-1"), None);
         assert_eq!(find_formula("and"), None);
+    }
+
+    /// The codes of the book's margins and of its boxes.
+    #[test]
+    fn topics_and_misprints_lead_to_the_book() {
+        let misprint = find_formula("m14").expect("a misprint");
+        assert_eq!(misprint.name, "M14, A 1 at the end of a perspective's bottom row");
+        assert!(misprint.text.starts_with("Three matrices have the bottom row"));
+        assert!(misprint.command.is_some_and(|command| command.starts_with("alberti explain ")));
+        assert!(misprint.book_pages().any(|page| page == ("Errata", "printed-wrong.md")));
+        for id in ["C61", "C1", "M11b", "M28"] {
+            let topic = find_formula(id).expect("a topic");
+            assert!(topic.book_pages().next().is_some(), "{id}");
+            assert!(topic.to_string().contains("\nBook: "), "{topic}");
+        }
+        assert_eq!(find_formula("C999"), None);
     }
 
     #[test]

@@ -8,6 +8,7 @@
 
 mod meaning;
 mod planar;
+mod slip;
 
 pub use planar::explain_planar_matrix;
 
@@ -16,9 +17,8 @@ use super::{Explanation, Step};
 use glam::DMat4;
 use homog::{Clip, HPointKind, Projective, View};
 use meaning::{describe_meaning, meaning_steps};
-use recognition::{
-    MatrixMeaning, MatrixReading, Misprint, Recognition, Suspicion, SuspicionStrength, recognize,
-};
+use recognition::{MatrixMeaning, MatrixReading, Misprint, Recognition, recognize};
+use slip::{corrected_reading, matrix_verdict, misprint_steps};
 
 /// The maximum number of readings listed after the first.
 const OTHER_READINGS: usize = 5;
@@ -47,24 +47,9 @@ pub fn explain_matrix(rows: [[f64; 4]; 4]) -> Result<Explanation, String> {
         None => meaning_steps(&found.first()),
     });
     steps.extend(other_readings_step(&found));
-    steps.extend((0..).zip(&found.suspicions).map(|(at, slip)| misprint_step(at, rows, slip)));
+    steps.extend(misprint_steps(rows, &found));
     let verdict = matrix_verdict(map, &found);
     Ok(Explanation { subject: "A matrix for column vectors".to_owned(), steps, verdict })
-}
-
-/// Returns the reading of the corrected matrix, with its title, if it is clearly more likely and
-/// the matrix as given has no meaning worth reporting.
-fn corrected_reading(found: &Recognition) -> Option<(MatrixReading, &'static str)> {
-    let slip = found.misprint()?;
-    let title = match slip.misprint {
-        Misprint::Transposed => {
-            "Most likely reading, transposed: the matrix is for row vectors, or stored by columns"
-        }
-        Misprint::LastRowNegated => "Most likely reading, with the last row negated",
-        Misprint::WrongSign => "Most likely reading, with one sign flipped",
-        _ => return None,
-    };
-    Some((recognize(slip.remedied?).first(), title))
 }
 
 /// Returns an error that names the row and column, from 1, of the first entry that is not finite.
@@ -194,7 +179,7 @@ fn vanishing_points_step(map: Projective<View, Clip>) -> Step {
 /// Returns the step with the readings after the first, beginning with the equally likely ones.
 fn other_readings_step(found: &Recognition) -> Option<Step> {
     let misprint = found.misprint().map(|slip| slip.misprint);
-    if matches!(misprint, Some(Misprint::LastRowNegated | Misprint::WrongSign)) {
+    if misprint.is_some_and(Misprint::takes_one_step) {
         return None;
     }
     let turned = misprint == Some(Misprint::Transposed);
@@ -221,119 +206,4 @@ fn other_readings_step(found: &Recognition) -> Option<Step> {
         };
         step.with_item(at.to_string(), name, describe_meaning(reading))
     }))
-}
-
-/// Describes a position in a matrix, counted from 1.
-fn place_words(row: usize, column: usize) -> String {
-    format!("row {}, column {}", row + 1, column + 1)
-}
-
-/// Describes the entry with the wrong sign.
-fn entry_words(rows: [[f64; 4]; 4], found: &Recognition) -> String {
-    let changed = found.misprint().and_then(|slip| changed_entry(rows, slip));
-    changed.map_or("one entry".to_owned(), |[row, column]| place_words(row, column))
-}
-
-/// Returns the first entry that the remedy changes, as row and column counted from 0.
-fn changed_entry(rows: [[f64; 4]; 4], slip: &Suspicion) -> Option<[usize; 2]> {
-    let remedied = slip.remedied?;
-    let at = (0..16).find(|at| rows[at / 4][at % 4] != remedied[at / 4][at % 4])?;
-    Some([at / 4, at % 4])
-}
-
-/// Returns the step with a known misprint, its correction, and the meaning of the corrected matrix.
-///
-/// The corrected matrix is shown only if the sixteen entries determine it. The first misprint has
-/// the id `misprint`; later ones have `other_misprint`.
-fn misprint_step(at: usize, rows: [[f64; 4]; 4], slip: &Suspicion) -> Step {
-    let known = slip.misprint.id().unwrap_or("unnumbered");
-    let title = match (slip.misprint, slip.strength) {
-        (Misprint::Transposed, SuspicionStrength::Likely) => {
-            "It looks like a matrix for row vectors, or one stored by columns".to_owned()
-        }
-        (Misprint::Transposed, SuspicionStrength::Equal) => {
-            "It may also be a matrix for row vectors: the numbers are the same".to_owned()
-        }
-        (_, SuspicionStrength::Likely) if slip.misprint.id().is_none() => {
-            "It looks like a sign error".to_owned()
-        }
-        (_, SuspicionStrength::Likely) => format!("It looks like a known misprint ({known})"),
-        (_, SuspicionStrength::Equal) => {
-            format!("It may also be a known misprint ({known}): the numbers are the same")
-        }
-    };
-    let step = Step::new(if at == 0 { "misprint" } else { "other_misprint" }, title, None)
-        .with_item("finding", "finding", slip.misprint.description())
-        .with_item("remedy", "remedy", slip.misprint.remedy());
-    let step = match (slip.misprint, changed_entry(rows, slip)) {
-        (Misprint::WrongSign, Some([row, column])) => {
-            step.with_item("entry", "entry", place_words(row, column))
-        }
-        _ => step,
-    };
-    // If the report is on the corrected matrix, it already has its reading.
-    let corrected = [Misprint::Transposed, Misprint::LastRowNegated, Misprint::WrongSign];
-    let likely = slip.strength == SuspicionStrength::Likely;
-    let is_read = at == 0 && likely && corrected.contains(&slip.misprint);
-    match slip.remedied {
-        Some(remedied) if is_read => step.with_item("remedied", "then", remedied),
-        Some(remedied) => step.with_item("remedied", "then", remedied).with_item(
-            "remedied_reading",
-            "meaning",
-            describe_meaning(&recognize(remedied).first()),
-        ),
-        None => step,
-    }
-}
-
-/// States the result in a sentence: the first reading, and the misprint if it is more plausible.
-fn matrix_verdict(map: Projective<View, Clip>, found: &Recognition) -> String {
-    let first = found.first();
-    let misprint = found.misprint().map(|slip| slip.misprint);
-    let what = if first.meaning.is_named() {
-        format!("It is {}.", describe_meaning(&first))
-    } else {
-        format!("It is {}, but not a named transform or projection.", map.classify())
-    };
-    let turned = |slip: &Suspicion| {
-        let transposed = slip.remedied.map(|matrix| recognize(matrix).first());
-        transposed.map_or(String::new(), |reading| describe_meaning(&reading))
-    };
-    let corrected = corrected_reading(found);
-    if let Some((reading, _)) =
-        corrected.filter(|_| !matches!(misprint, Some(Misprint::Transposed)))
-    {
-        let corrected = describe_meaning(&reading);
-        let slip = match misprint {
-            Some(Misprint::LastRowNegated) => "its last row negated".to_owned(),
-            _ => format!("the sign of {} flipped", entry_words(map.rows(), found)),
-        };
-        return format!("It looks like a misprint. With {slip}, it is {corrected}.");
-    }
-    if let Some((reading, _)) = corrected {
-        let turned = describe_meaning(&reading);
-        let stands = what.replacen("It is", "As given, for column vectors, it is", 1);
-        return format!(
-            "Transposed, it is {turned}. The matrix is for row vectors, or stored by columns. {stands}"
-        );
-    }
-    if let Some(slip) = found.misprint() {
-        return format!(
-            "{what} But it looks like a misprint in which {}.",
-            slip.misprint.description()
-        );
-    }
-    match found.suspicions.first() {
-        Some(slip) if slip.misprint == Misprint::Transposed => {
-            format!("{what} For row vectors, the same numbers are {}.", turned(slip))
-        }
-        Some(slip) => {
-            let id = slip.misprint.id().map_or(String::new(), |id| format!(" ({id})"));
-            format!(
-                "{what} A known misprint{id} has the same numbers; in it, {}.",
-                slip.misprint.description()
-            )
-        }
-        None => what,
-    }
 }

@@ -3,6 +3,7 @@
 // A step is `{id, title, formula, items: [{id, name, value}]}`; a value is a number, a vector, `{rows}` or text.
 
 import { element, formatNumber, math } from './dom.js';
+import { resourceUrl, server } from './resources.js';
 import { term } from './texts.js';
 
 /** Renders steps for the matrix pane. @param {object[]} steps @param {(value: any) => string} word */
@@ -13,7 +14,14 @@ export function stepsWithMatrices(steps, word) {
 }
 
 function heading({ title, formula }, word) {
-  return element('h4', {}, term(word(title)), ' ', element('span', { class: 'formula' }, formula ?? ''));
+  return element('h4', {}, term(word(title)), ' ', element('span', { class: 'formula' }, ...codes(formula ?? '')));
+}
+
+/** Links formula ids to their entries on the server. A static page has no entries. @param {string} formula */
+function codes(formula) {
+  if (!server.native || formula === '') return [formula];
+  const link = (id) => element('a', { href: resourceUrl(`reference/${id}`), target: '_blank', rel: 'noopener' }, id);
+  return formula.split(', ').flatMap((id, i) => (i > 0 ? [', ', link(id)] : [link(id)]));
 }
 
 /** Renders the matrices of a step side by side. */

@@ -79,7 +79,11 @@ fn read_diagonal(
     let digits = different(&scale) + different(&offset);
     // A view volume would also map z.
     let planar = scale[2].is(1.0) && offset[2].is_zero();
-    let base = if planar { 4 } else { 6 };
+    let base = match (planar, scale[0].value < 0.0) {
+        (true, _) => 4,
+        (false, false) => 12,
+        (false, true) => 18,
+    };
     let (scale, offset) = (scale.map(Rounded::simplest), offset.map(Rounded::simplest));
     push(MatrixMeaning::Windowing { scale, offset }, base + 2 * digits + mirrored);
 }

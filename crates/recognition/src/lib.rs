@@ -55,6 +55,7 @@ mod matrix_reading;
 mod matrix_text;
 mod meaning;
 mod misprint;
+mod one_step;
 mod parallel;
 mod perspective;
 mod pixels;
@@ -71,7 +72,7 @@ pub use matrix_text::{GivenMatrix, MatrixTextError, ParsedMatrix, parse_matrix, 
 pub use meaning::{Lens, MatrixMeaning};
 pub use misprint::{IntendedProjection, Misprint, misprint_of};
 pub use planar::{PlanarMatrix, PlanarReading, recognize_planar};
-pub use rigid::CameraReading;
+pub use rigid::{CameraReading, ViewAxes};
 pub use suspicion::{Suspicion, SuspicionStrength};
 pub use viewport::{IntrinsicsReading, ViewportReading};
 

@@ -166,7 +166,8 @@ fn unnamed_reading(entries: &Entries<4>) -> MatrixReading {
     MatrixReading { meaning, factor: 1.0, cost }
 }
 
-/// Returns the cost of a common factor: 0 for a factor of 1.
+/// Returns the cost of a common factor: 0 for a factor of 1. A negative factor is less likely.
 pub(crate) fn factor_cost(factor: Rounded) -> u32 {
-    if factor.is(1.0) { 0 } else { 2 + 2 * factor.digits() }
+    let sign = if factor.value < 0.0 { 2 } else { 0 };
+    if factor.is(1.0) { 0 } else { 2 + sign + 2 * factor.digits() }
 }

@@ -29,7 +29,8 @@ pub enum Misprint {
     /// M12 (32): the offsets are in the fourth column, so the matrix is not glFrustum but a
     /// projection with its apex moved (LW-1).
     ApexMoved,
-    /// M14 (26): the bottom row is (0, 0, −1, 1) instead of (0, 0, −1, 0).
+    /// M14 (26): the bottom row is (0, 0, −1, 1) instead of (0, 0, −1, 0). For a camera that looks along
+    /// +z, it is (0, 0, 1, 1).
     BottomRowOne,
     /// M15 (33): the depth offset of Ortho has the wrong sign, so near and far map outside [−1, 1].
     OrthoOffsetSign,
@@ -42,8 +43,16 @@ pub enum Misprint {
     /// The last row has the wrong sign: w is the distance behind the eye, but the depth row is for
     /// points in front of it.
     LastRowNegated,
-    /// One entry of a rotation has the wrong sign, which changes lengths and angles.
+    /// One entry has the wrong sign.
     WrongSign,
+    /// One row, but not the last, has the wrong sign.
+    RowNegated,
+    /// Two entries are exchanged.
+    EntriesExchanged,
+    /// Two rows are exchanged.
+    RowsExchanged,
+    /// Two columns are exchanged.
+    ColumnsExchanged,
     /// (24): the matrix is for row vectors but is used with column vectors.
     Transposed,
 }
@@ -61,7 +70,7 @@ pub enum IntendedProjection {
 
 impl Misprint {
     /// All misprints.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 18] = [
         Self::PerspectiveLeftOut,
         Self::RepeatedTranslation,
         Self::DepthReversed,
@@ -75,6 +84,10 @@ impl Misprint {
         Self::Degrees,
         Self::LastRowNegated,
         Self::WrongSign,
+        Self::RowNegated,
+        Self::EntriesExchanged,
+        Self::RowsExchanged,
+        Self::ColumnsExchanged,
         Self::Transposed,
     ];
 
@@ -92,8 +105,28 @@ impl Misprint {
             Self::FrustumOffsetOne => Some("M16"),
             Self::HalfOfTangent => Some("M17"),
             Self::Degrees => Some("M19"),
-            Self::LastRowNegated | Self::WrongSign | Self::Transposed => None,
+            Self::LastRowNegated
+            | Self::WrongSign
+            | Self::RowNegated
+            | Self::EntriesExchanged
+            | Self::RowsExchanged
+            | Self::ColumnsExchanged
+            | Self::Transposed => None,
         }
+    }
+
+    /// Returns whether one step undoes the misprint: a sign flipped, a row negated, or an exchange.
+    #[must_use]
+    pub const fn takes_one_step(self) -> bool {
+        matches!(
+            self,
+            Self::LastRowNegated
+                | Self::WrongSign
+                | Self::RowNegated
+                | Self::EntriesExchanged
+                | Self::RowsExchanged
+                | Self::ColumnsExchanged
+        )
     }
 
     /// Returns a description of the error, in one sentence.
@@ -114,7 +147,7 @@ impl Misprint {
             Self::ApexMoved => {
                 "the offsets are in the last column: the apex moves behind the window's center"
             }
-            Self::BottomRowOne => "the bottom row is (0, 0, −1, 1), so w is the distance plus 1",
+            Self::BottomRowOne => "the last entry is 1 instead of 0, so w is the distance plus 1",
             Self::OrthoOffsetSign => {
                 "the depth offset has the wrong sign: the box appears to be behind the eye"
             }
@@ -127,7 +160,11 @@ impl Misprint {
                 "the last row is negated: w does not match the depth row, so no plane in \
                  front of the eye maps to the near or far depth"
             }
-            Self::WrongSign => "one sign is wrong: with it flipped, the matrix is rigid",
+            Self::WrongSign => "one entry has the wrong sign",
+            Self::RowNegated => "one row has the wrong sign",
+            Self::EntriesExchanged => "two entries are exchanged",
+            Self::RowsExchanged => "two rows are exchanged",
+            Self::ColumnsExchanged => "two columns are exchanged",
             Self::Transposed => "rows and columns are swapped: this matrix is for row vectors",
         }
     }
@@ -154,6 +191,10 @@ impl Misprint {
             Self::Degrees => "convert first: radians = degrees π/180",
             Self::LastRowNegated => "negate the last row",
             Self::WrongSign => "flip the sign of this entry",
+            Self::RowNegated => "negate this row",
+            Self::EntriesExchanged => "exchange these two entries",
+            Self::RowsExchanged => "exchange these two rows",
+            Self::ColumnsExchanged => "exchange these two columns",
             Self::Transposed => "transpose the matrix",
         }
     }
@@ -195,6 +236,10 @@ impl Misprint {
                 | Self::HalfOfTangent
                 | Self::Degrees
                 | Self::WrongSign
+                | Self::RowNegated
+                | Self::EntriesExchanged
+                | Self::RowsExchanged
+                | Self::ColumnsExchanged
                 | Self::OrthoOffsetSign,
                 _,
             ) => None,

@@ -2,7 +2,7 @@
 
 use super::convention_list::CONVENTIONS;
 use super::matrix_reading::factor_cost;
-use super::perspective::MIRRORED;
+use super::perspective::{MIRRORED, SHALLOW, is_shallow};
 use super::rounded::{Entries, Rounded, divide_entries};
 use super::{MatrixMeaning, MatrixReading};
 use alloc::vec::Vec;
@@ -34,7 +34,7 @@ pub(crate) fn read_boxes(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
 /// reversed.
 pub(crate) fn box_rarity(convention: Convention, rarity: u32) -> u32 {
     let reversed = convention.near_depth() > convention.far_depth();
-    if reversed && convention != Convention::CHAPTER { rarity + 3 } else { rarity }
+    if reversed && convention != Convention::CHAPTER { rarity + 1 } else { rarity }
 }
 
 fn box_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixMeaning, u32)> {
@@ -53,6 +53,7 @@ fn box_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixMeani
     let distance = |depth: f64| (Rounded::exact(depth) - z[3]) / (z[2] * ahead);
     let (near, far) = (distance(convention.near_depth()), distance(convention.far_depth()));
     cost += pair_cost(l, r) + pair_cost(b, t) + pair_cost(near, far);
+    cost += if is_shallow(near, far) { SHALLOW } else { 0 };
     // The depths that gluOrtho2D passes to glOrtho for two-dimensional pictures.
     let is_plane_depth = is_screen && near.is(-1.0) && far.is(1.0);
     cost += if is_plane_depth { 0 } else { order_cost(near, far) };
@@ -85,8 +86,8 @@ fn is_from_top_left([l, r, b, t]: [Rounded; 4]) -> bool {
 
 /// Returns twice the number of digits of two edges, or of one edge if the other is its negative.
 fn pair_cost(low: Rounded, high: Rounded) -> u32 {
-    let second = if (low + high).is_zero() { 0 } else { low.digits() };
-    2 * (high.digits() + second)
+    let second = if (low + high).is_zero() { 0 } else { low.decimal_digits() };
+    2 * (high.decimal_digits() + second)
 }
 
 /// Returns the cost of the order and signs of near and far. It is 0 if both planes are in front of
@@ -95,7 +96,7 @@ fn order_cost(near: Rounded, far: Rounded) -> u32 {
     match (near.value, far.value) {
         (near, far) if near > far => MIRRORED,
         (_, far_value) if far_value < 0.0 => MIRRORED,
-        (near_value, _) if near_value < 0.0 && !near.is_zero() => 2,
+        (near_value, _) if near_value < 0.0 && !near.is_zero() => 6,
         _ => 0,
     }
 }

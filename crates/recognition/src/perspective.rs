@@ -9,7 +9,16 @@ use alloc::vec::Vec;
 use projection::{ApexMovedFrustum, Convention, Frustum};
 
 /// The cost that a mirrored window adds to the digits of a reading.
-pub(crate) const MIRRORED: u32 = 12;
+pub(crate) const MIRRORED: u32 = 14;
+
+/// The cost of an angle of view above 150° in both directions.
+const WIDE: u32 = 6;
+
+/// The cost of the inverse of a projection with reversed depth and an infinite far plane.
+const INFINITE_INVERSE: u32 = 14;
+
+/// The cost of a volume whose far plane is at most at twice the near distance.
+pub(crate) const SHALLOW: u32 = 5;
 
 /// Adds the readings as frusta (GL-1, PE-2) or as the lesson's frustum with its apex moved (LW-1).
 pub(crate) fn read_frusta(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
@@ -66,12 +75,36 @@ fn frustum_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixM
     let by_apex = around_x.digits() + around_y.digits();
     let lens = (by_apex + lens_digits(centered, near, y[1] * top, x[0]))
         .min(window.into_iter().map(Rounded::digits).sum());
-    let digits = near.digits() + far.map_or(0, Rounded::digits) + lens;
     let meaning = named_frustum(window, near, far, apex, convention)?;
-    // A matrix rounded to a few decimals may have near = 0.1 in one convention and near = 0.05 in
-    // another. People prefer powers of ten.
+    cost += if is_extremely_wide(window, near) { WIDE } else { 0 };
+    Some((meaning, cost + planes_cost(near, far) + 2 * lens))
+}
+
+/// Returns whether the angle of view exceeds 150° in both directions.
+fn is_extremely_wide([l, r, b, t]: [Rounded; 4], near: Rounded) -> bool {
+    let angle = |low: Rounded, high: Rounded| {
+        (high / near).atan_degrees().value - (low / near).atan_degrees().value
+    };
+    angle(l, r).abs() > 150.0 && angle(b, t).abs() > 150.0
+}
+
+/// Returns the cost of the near and far planes.
+///
+/// A matrix rounded to a few decimals may have near = 0.1 in one convention and near = 0.05 in
+/// another. People prefer powers of ten. A volume that ends before twice its near distance is rare,
+/// but the textbook's matrix of near = 1, far = 9 is also the one of near = 1, far = 1.8 with
+/// reversed depth.
+pub(crate) fn planes_cost(near: Rounded, far: Option<Rounded>) -> u32 {
+    let digits = near.decimal_digits() + far.map_or(0, Rounded::decimal_digits);
     let usual = if near.is_power_of_ten() { 0 } else { 2 };
-    Some((meaning, cost + usual + 2 * digits))
+    let shallow = far.is_some_and(|far| is_shallow(near, far));
+    2 * digits + usual + if shallow { SHALLOW } else { 0 }
+}
+
+/// Returns whether the far plane is at most at twice the positive near distance.
+pub(crate) fn is_shallow(near: Rounded, far: Rounded) -> bool {
+    let excess = far - near * Rounded::exact(2.0);
+    near.value > 0.0 && (excess.value <= 0.0 || excess.is_zero())
 }
 
 /// Returns the frustum, or the lesson's frustum if the apex is not at the origin.
@@ -227,11 +260,14 @@ pub(crate) fn read_inverse_frusta(m: &Entries<4>, found: &mut Vec<MatrixReading>
     ];
     let mut inverses = Vec::new();
     read_frusta(&forward, &mut inverses);
+    // Without m[3][3], the matrix is more likely the transpose of Unreal's, for row vectors, than the
+    // inverse of a reversed infinite projection.
+    let rare = if m[3][3].is_zero() { INFINITE_INVERSE } else { 2 };
     found.extend(inverses.into_iter().filter_map(|reading| match reading.meaning {
         MatrixMeaning::Perspective { frustum, lens, convention } => Some(MatrixReading {
             meaning: MatrixMeaning::InversePerspective { frustum, lens, convention },
             factor: 1.0 / reading.factor,
-            cost: reading.cost + 2,
+            cost: reading.cost + rare,
         }),
         _ => None,
     }));

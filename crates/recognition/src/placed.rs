@@ -10,10 +10,10 @@
 use super::convention_list::placed_conventions;
 use super::matrix_reading::factor_cost;
 use super::parallel::box_rarity;
-use super::perspective::{MIRRORED, depth_planes, lens_digits, read_lens};
+use super::perspective::{MIRRORED, depth_planes, lens_digits, planes_cost, read_lens};
 use super::rigid::shorten;
 use super::rounded::{Entries, Rounded, divide_entries};
-use super::{CameraReading, MatrixMeaning, MatrixReading};
+use super::{CameraReading, MatrixMeaning, MatrixReading, ViewAxes};
 use alloc::vec::Vec;
 use glam::{DMat3, DMat4, DVec3};
 use homog::Projective;
@@ -21,6 +21,10 @@ use projection::{Convention, Decomposed, Frustum, Orthographic, decompose};
 
 /// The cost of a camera that is upside down in the world, if a rival reading has it right side up.
 const UPSIDE_DOWN: u32 = 6;
+
+/// The cost of a camera at the origin that only looks backward or is only upside down. Signs that
+/// contradict each other have such a reading.
+const TURNED_ROUND: u32 = 4;
 
 /// Adds the readings as a camera with a frustum, in a right-handed or left-handed world.
 pub(crate) fn read_placed_perspective(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
@@ -161,10 +165,7 @@ impl PlacedFrame {
         let far_distance = far.map_or(f64::INFINITY, Rounded::simplest);
         let frustum = Frustum::new(l, r, b, t, near.simplest(), far_distance).ok()?;
         let lens = read_lens(window, near);
-        let digits = near.digits()
-            + far.map_or(0, Rounded::digits)
-            + lens_digits(window, near, sy, sx)
-            + self.eye_digits();
+        let digits = lens_digits(window, near, sy, sx) + self.eye_digits();
         // A camera that is upside down in OpenGL's convention is upside down in all conventions.
         let rivaled = convention.ahead() > 0.0 || convention.top() < 0.0;
         let turned = match sy.value < 0.0 {
@@ -172,8 +173,9 @@ impl PlacedFrame {
             false if rivaled => posture_cost(&camera),
             false => 0,
         };
+        let at_origin = if camera.is_turned_round() { TURNED_ROUND } else { 0 };
         let meaning = MatrixMeaning::CameraPerspective { camera, frustum, lens, convention };
-        Some((meaning, 12 + turned + 2 * digits))
+        Some((meaning, 12 + at_origin + turned + planes_cost(near, far) + 2 * digits))
     }
 
     fn eye_digits(&self) -> u32 {
@@ -191,8 +193,13 @@ impl PlacedFrame {
             gaze: clean(self.gaze, turn),
             up: clean(self.up * -convention.ahead(), turn),
             right: clean(self.right, turn),
+            axes: axes_of(convention),
         }
     }
+}
+
+fn axes_of(convention: Convention) -> ViewAxes {
+    if convention.ahead() > 0.0 { ViewAxes::Direct3d } else { ViewAxes::OpenGl }
 }
 
 /// Returns the cost of an upside-down camera whose numbers may also describe a normal camera in
@@ -200,7 +207,7 @@ impl PlacedFrame {
 ///
 /// The up axis is y. It is z if the camera's right axis is level only with z up, or if the camera's
 /// up direction has no y component.
-fn posture_cost(camera: &CameraReading) -> u32 {
+pub(crate) fn posture_cost(camera: &CameraReading) -> u32 {
     let level = |axis: usize| camera.right[axis].abs() < 1e-6;
     let upwards = if (level(2) && !level(1)) || camera.up[1].abs() < 1e-6 {
         camera.up[2]
@@ -263,8 +270,13 @@ fn placed_box(
     let volume = Orthographic::new(l, r, b, t, planes[0].simplest(), planes[1].simplest()).ok()?;
     let error = lengths[0].error / lengths[0].value;
     let clean = |v: DVec3| v.to_array().map(|x| shorten(x, error));
-    let camera =
-        CameraReading { eye: [0.0; 3], gaze: clean(gaze), up: clean(up), right: clean(right) };
+    let camera = CameraReading {
+        eye: [0.0; 3],
+        gaze: clean(gaze),
+        up: clean(up),
+        right: clean(right),
+        axes: axes_of(convention),
+    };
     let cost = 14 + posture_cost(&camera) + 2 * digits;
     Some((MatrixMeaning::CameraOrthographic { camera, volume, convention }, cost))
 }

@@ -2,10 +2,23 @@
 //! poses, and model transforms.
 
 use super::matrix_reading::factor_cost;
+use super::placed::posture_cost;
 use super::rounded::{Entries, Rounded, divide_entries};
 use super::{MatrixMeaning, MatrixReading};
 use alloc::vec::Vec;
 use glam::{DMat3, DVec3};
+
+/// The axes of a view space. A rigid matrix does not determine them.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub enum ViewAxes {
+    /// x right, y up, and the camera looks along −z, as in OpenGL and the textbook.
+    OpenGl,
+    /// x right, y up, and the camera looks along +z, in a left-handed world, as in Direct3D.
+    Direct3d,
+    /// x right, y down, and the camera looks along +z, as in OpenCV and COLMAP.
+    OpenCv,
+}
 
 /// The position and axes of a camera in the world, from its matrix from world to view space (CA-2).
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -19,6 +32,41 @@ pub struct CameraReading {
     pub up: [f64; 3],
     /// The right direction in the picture, with length 1: the textbook's u.
     pub right: [f64; 3],
+    /// The axes of the view space in which the matrix is read.
+    pub axes: ViewAxes,
+}
+
+impl CameraReading {
+    /// Returns the camera for other axes, from a camera that looks along −z with y up.
+    fn with_axes(self, axes: ViewAxes) -> Self {
+        let negated = |v: [f64; 3]| v.map(|x| if x == 0.0 { 0.0 } else { -x });
+        let gaze = if axes == ViewAxes::OpenGl { self.gaze } else { negated(self.gaze) };
+        let up = if axes == ViewAxes::OpenCv { negated(self.up) } else { self.up };
+        Self { gaze, up, axes, ..self }
+    }
+
+    /// Returns the cost of a posture: rolled, upside down, or with the origin of the world behind the
+    /// camera, because most cameras look at something near the origin. OpenGL's axes are the most
+    /// common.
+    fn posture(&self) -> u32 {
+        // Few cameras are rolled, so the right axis is usually level in a world where y or z is up.
+        let is_level = self.right[1..].iter().any(|x| x.abs() < 1e-9);
+        let (eye, gaze) = (DVec3::from_array(self.eye), DVec3::from_array(self.gaze));
+        let along = eye.dot(gaze);
+        let is_exact = (eye - gaze * along).length() < 2e-3 * eye.length();
+        let away = match along > 0.5 * eye.length() {
+            true if is_exact => 4,
+            true => 3,
+            false => 0,
+        };
+        let rare = if self.axes == ViewAxes::OpenGl { 0 } else { 2 };
+        rare + posture_cost(self) + away + if is_level { 0 } else { 4 }
+    }
+
+    /// Returns whether the camera is at the origin and looks along the z axis, in either direction.
+    pub(crate) fn is_turned_round(&self) -> bool {
+        self.eye == [0.0; 3] && self.gaze[2].abs() > 1.0 - 1e-6
+    }
 }
 
 /// Returns whether three unit vectors are perpendicular up to rounding.
@@ -73,6 +121,7 @@ pub(crate) fn read_rigid(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
         gaze: clean(-w),
         up: clean(v),
         right: clean(u),
+        axes: ViewAxes::OpenGl,
     };
     let mut push = |meaning: MatrixMeaning, cost: u32| {
         let (factor, cost) = (factor.simplest(), cost + factor_cost(factor));
@@ -94,10 +143,9 @@ pub(crate) fn read_rigid(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
         push(MatrixMeaning::Rotation { axis, angle_degrees, camera }, 6);
         return;
     }
-    // Few cameras are rolled, so the right axis is usually level in a world where y or z is up.
-    let is_level = |camera: &CameraReading| camera.right[1..].iter().any(|x| x.abs() < 1e-9);
-    let roll_cost = |camera: &CameraReading| if is_level(camera) { 0 } else { 4 };
-    push(MatrixMeaning::Camera(camera), 6 + roll_cost(&camera) + 2 * digits(eye));
+    for camera in cameras_with_axes(camera) {
+        push(MatrixMeaning::Camera(camera), 6 + camera.posture() + 2 * digits(eye));
+    }
     let translation = offset.map(Rounded::simplest);
     let angle = Rounded { value: angle_degrees, error: error.to_degrees().max(1e-10) };
     let cost = turn_cost(axis, angle) + 2 * digits(offset);
@@ -108,8 +156,21 @@ pub(crate) fn read_rigid(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
         gaze: clean(-backwards),
         up: clean(up),
         right: clean(right),
+        axes: ViewAxes::OpenGl,
     };
-    push(MatrixMeaning::CameraPose(pose), 8 + roll_cost(&pose) + 2 * digits(offset));
+    if let Some(pose) = cameras_with_axes(pose).min_by_key(CameraReading::posture) {
+        push(MatrixMeaning::CameraPose(pose), 8 + pose.posture() + 2 * digits(offset));
+    }
+}
+
+/// Returns a camera in the axes of OpenGL and Direct3D, and in those of OpenCV if it is upside down
+/// in the others.
+fn cameras_with_axes(camera: CameraReading) -> impl Iterator<Item = CameraReading> {
+    let is_upside_down = posture_cost(&camera) > 0;
+    [ViewAxes::OpenGl, ViewAxes::Direct3d, ViewAxes::OpenCv]
+        .into_iter()
+        .filter(move |axes| is_upside_down || *axes != ViewAxes::OpenCv)
+        .map(move |axes| camera.with_axes(axes))
 }
 
 /// Returns the cost of a rotation in a model transform. Rotations about coordinate axes by angles

@@ -82,15 +82,19 @@ impl Rounded {
         simplest == if exponent < 0 { 1.0 / power } else { power }
     }
 
-    /// Returns the number of significant digits of the shortest decimal within the error, or a
-    /// small cost for a simple fraction such as 16/9. Returns 0 for zero and for numbers that are
-    /// not finite, and 8 if there is neither a short decimal nor a simple fraction.
-    pub(crate) fn digits(self) -> u32 {
+    /// Returns the number of significant digits of the shortest decimal within the error. Returns 0
+    /// for zero and for numbers that are not finite, and 8 if there is no short decimal.
+    pub(crate) fn decimal_digits(self) -> u32 {
         if self.is_zero() || !self.value.is_finite() {
             return 0;
         }
         let found = (1..MANY_DIGITS).find(|&n| self.is(round_to_digits(self.value, n)));
-        let decimal = found.unwrap_or(MANY_DIGITS);
+        found.unwrap_or(MANY_DIGITS)
+    }
+
+    /// Returns [`Self::decimal_digits`], or a small cost for a simple fraction such as 16/9.
+    pub(crate) fn digits(self) -> u32 {
+        let decimal = self.decimal_digits();
         if decimal < 3 {
             return decimal;
         }

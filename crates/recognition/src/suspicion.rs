@@ -5,6 +5,7 @@
 //! strict because every misprinted matrix is also the correct matrix of something less likely.
 
 use super::matrix_reading::{is_moderate, readings_of, transpose};
+use super::one_step::one_step_remedies;
 use super::rounded::{Entries, Rounded};
 use super::{MatrixMeaning, MatrixReading};
 use crate::Misprint;
@@ -43,10 +44,10 @@ pub struct Suspicion {
 }
 
 /// A misprint with its corrected matrix and the cost of the best reading of that matrix.
-struct Remedy {
-    misprint: Misprint,
-    cost: u32,
-    remedied: Option<[[f64; 4]; 4]>,
+pub(crate) struct Remedy {
+    pub(crate) misprint: Misprint,
+    pub(crate) cost: u32,
+    pub(crate) remedied: Option<[[f64; 4]; 4]>,
 }
 
 /// Returns the possible misprints in a matrix with the given readings, in descending order of
@@ -56,36 +57,49 @@ pub(crate) fn suspicions_of(m: &Entries<4>, readings: &[MatrixReading]) -> Vec<S
         return Vec::new();
     }
     let Some(best) = readings.first() else { return Vec::new() };
-    let tests: [fn(&Entries<4>, &MatrixReading) -> Option<Remedy>; 11] = [
+    let tests: [fn(&Entries<4>, &MatrixReading) -> Option<Remedy>; 9] = [
         undo_transposition,
         undo_flat_third_row,
         undo_bottom_row_one,
         undo_ortho_offset_sign,
         undo_half_of_tangent,
         undo_degrees,
-        undo_last_row_sign,
-        undo_wrong_sign,
         tell_moved_apex,
         tell_frustum_offset_one,
         tell_repeated_translation,
     ];
     let mut remedies: Vec<Remedy> = tests.into_iter().filter_map(|test| test(m, best)).collect();
+    remedies.extend(one_step_remedies(m, best));
     remedies.sort_by_key(|remedy| remedy.cost);
     let least = remedies.first().map_or(best.cost, |first| first.cost.min(best.cost));
     remedies.retain(|remedy| remedy.cost <= least + TOLD);
+    remove_repetitions(&mut remedies);
+    // A likely misprint makes the others that are as likely as it likely, too. Most matrices have a
+    // misprint of one step that is less likely.
+    let is_likely = least + MARGIN <= best.cost;
+    remedies.retain(|remedy| is_likely || !remedy.misprint.takes_one_step());
     let suspicion = |remedy: Remedy| Suspicion {
         misprint: remedy.misprint,
-        strength: if remedy.cost + MARGIN <= best.cost {
-            SuspicionStrength::Likely
-        } else {
-            SuspicionStrength::Equal
-        },
+        strength: if is_likely { SuspicionStrength::Likely } else { SuspicionStrength::Equal },
         remedied: remedy.remedied,
     };
     remedies.into_iter().map(suspicion).collect()
 }
 
-fn matrix_of(m: &Entries<4>) -> [[f64; 4]; 4] {
+/// Keeps the most likely of the misprints with the same remedy.
+fn remove_repetitions(remedies: &mut Vec<Remedy>) {
+    let mut known: Vec<[[f64; 4]; 4]> = Vec::new();
+    remedies.retain(|remedy| match remedy.remedied {
+        Some(rows) if known.contains(&rows) => false,
+        Some(rows) => {
+            known.push(rows);
+            true
+        }
+        None => true,
+    });
+}
+
+pub(crate) fn matrix_of(m: &Entries<4>) -> [[f64; 4]; 4] {
     m.map(|row| row.map(|entry| entry.value))
 }
 
@@ -137,17 +151,20 @@ fn undo_flat_third_row(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
 }
 
 /// Undoes M14: the bottom row is (0, 0, −1, 1), below the depth row of a frustum (Eq7), or below
-/// the identity or a scale of x and y (Eq4, Eq5).
+/// the identity or a scale of x and y (Eq4, Eq5). Programs that start with the identity leave the
+/// same 1 in a projection that looks along +z: (0, 0, 1, 1).
 fn undo_bottom_row_one(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
     let [x, y, z, w] = m;
     let opposite = !w[3].is_zero() && (w[2] + w[3]).is_zero();
-    if !opposite || !w[0].is_zero() || !w[1].is_zero() {
+    let remains = w[3].is(1.0) && !w[2].is_zero();
+    if !(opposite || remains) || !w[0].is_zero() || !w[1].is_zero() {
         return None;
     }
     let mut remedied = *m;
     remedied[3][3] = Rounded::exact(0.0);
     let zeros = [x[1], x[2], x[3], y[0], y[2], y[3], z[0], z[1], z[3]];
-    let bare = zeros.into_iter().all(Rounded::is_zero)
+    let bare = opposite
+        && zeros.into_iter().all(Rounded::is_zero)
         && x[0].equals(y[1])
         && !x[0].is_zero()
         && z[2].equals(w[3]);
@@ -215,37 +232,6 @@ fn undo_degrees(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let scale = Rounded::exact(1.0 / libm::tan(0.5 * degrees.to_radians()));
     let scale = Rounded { error: 4.0 * f64::EPSILON * scale.value, ..scale };
     remedy(Misprint::Degrees, &with_scale_y(m, [x, y], scale), is_central)
-}
-
-/// Undoes a negated last row: (0, 0, 1, 0) below the depth row of a camera that looks along −z, or
-/// vice versa.
-fn undo_last_row_sign(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
-    let bare = m[3][0].is_zero() && m[3][1].is_zero() && m[3][3].is_zero();
-    // The matrix is also a camera at the origin that is upside down and looks backward.
-    let turned = matches!(best.meaning, MatrixMeaning::CameraPerspective { .. });
-    if (best.meaning.is_named() && !(turned && best.factor < 0.0)) || !bare || m[3][2].is_zero() {
-        return None;
-    }
-    let mut remedied = *m;
-    remedied[3][2] = -m[3][2];
-    remedy(Misprint::LastRowNegated, &remedied, is_central)
-}
-
-/// Undoes a wrong sign: the matrix is a rotation or a camera, except for the sign of one entry.
-fn undo_wrong_sign(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
-    let affine = m[3][..3].iter().all(|entry| entry.is_zero()) && m[3][3].is(1.0);
-    if best.meaning.is_named() || !affine {
-        return None;
-    }
-    let rigid = |meaning: &MatrixMeaning| {
-        matches!(meaning, MatrixMeaning::Rotation { .. } | MatrixMeaning::Camera(_))
-    };
-    (0..9).find_map(|at| {
-        let (row, column) = (at / 3, at % 3);
-        let mut remedied = *m;
-        remedied[row][column] = -m[row][column];
-        remedy(Misprint::WrongSign, &remedied, rigid).filter(|_| !m[row][column].is_zero())
-    })
 }
 
 /// Reports M12 and returns the matrix of glFrustum with the same parameters.

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::Path;
 
 /// The errata page, which marks every misprint.
-const MISPRINT_PAGE: &str = "printed-wrong";
+pub const MISPRINT_PAGE: &str = "printed-wrong";
 /// The topic index, which is generated from the marks and is not counted as a page.
 const GENERATED_PAGE: &str = "topics";
 

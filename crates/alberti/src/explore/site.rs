@@ -1,4 +1,4 @@
-//! The site that is served: the page, the models, and the explorer's answers.
+//! The site that is served: the page, the models, the formulas, and the explorer's answers.
 
 use super::companions::ModelFiles;
 use super::embedded::{content_type, embedded_files};
@@ -7,6 +7,7 @@ use super::request::Request;
 use super::response::Response;
 use super::token::strip_token;
 use crate::CliError;
+use explain::formulas::find_formula;
 use explorer::{Explorer, ExplorerError};
 use import::percent_encode;
 use scene_file::is_scene_file;
@@ -81,6 +82,9 @@ impl Site {
         let path = if path.is_empty() { INDEX } else { path };
         if path == "compute" {
             return self.compute(&request.query, visitor);
+        }
+        if let Some(formula) = path.strip_prefix("reference/").and_then(find_formula) {
+            return Some(Response::ok(content_type(INDEX), formula.to_html().into_bytes()));
         }
         Some(match self.files.get(path) {
             Some(bytes) => Response::ok(content_type(path), bytes.as_slice()),

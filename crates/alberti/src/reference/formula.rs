@@ -6,19 +6,13 @@
 use super::text::wrap_paragraphs;
 use super::{ReferenceEntry, ReferenceFormat, ReferenceSection};
 use explain::formulas::Formula;
-use page::escape_markup;
 
 /// Returns the entry for a formula: name, formula, meaning, sources and a command.
 pub(super) fn format_formula(formula: &Formula, format: ReferenceFormat) -> String {
     match format {
         ReferenceFormat::Text => plain_text(formula),
         ReferenceFormat::Markdown => format!("# {formula}"),
-        ReferenceFormat::Html => format!(
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{}</title>\n\
-             <pre>\n{}</pre>\n</html>\n",
-            escape_markup(formula.name),
-            escape_markup(&plain_text(formula))
-        ),
+        ReferenceFormat::Html => formula.to_html(),
     }
 }
 
@@ -35,7 +29,7 @@ fn plain_text(formula: &Formula) -> String {
         } else if is_fence || line.is_empty() {
             push_paragraph(&mut page, &mut paragraph);
             verbatim ^= is_fence;
-        } else if line.starts_with("Source: ") || line.starts_with("Command: ") {
+        } else if ["Source: ", "Command: ", "Book: "].iter().any(|word| line.starts_with(word)) {
             page.push_str(&format!("  {line}\n"));
         } else {
             paragraph += &format!("{} ", line.replace('`', ""));

@@ -3,8 +3,10 @@
 use super::super::Step;
 use super::super::conventions::volume_name;
 use super::super::plain_text::format_number;
-use projection::{Classical, Convention, Oblique, PrincipalPlane, ProjectionClass, Window};
-use recognition::{CameraReading, Lens, MatrixMeaning, MatrixReading, ViewportReading};
+use projection::{
+    Classical, Convention, Oblique, Orthographic, PrincipalPlane, ProjectionClass, Window,
+};
+use recognition::{CameraReading, Lens, MatrixMeaning, MatrixReading, ViewAxes, ViewportReading};
 
 /// Describes a reading without a final period: meaning, parameters, convention and factor.
 pub(super) fn describe_meaning(reading: &MatrixReading) -> String {
@@ -48,8 +50,29 @@ fn window_words(w: Window) -> String {
     format!("left {l}, right {r}, bottom {b}, top {t}")
 }
 
+/// Returns whether the window of a perspective or a box is mirrored, and nothing else is unusual.
+pub(super) fn is_mirrored(reading: &MatrixReading) -> bool {
+    let window = match &reading.meaning {
+        MatrixMeaning::Perspective { frustum, .. } => frustum.window(),
+        MatrixMeaning::Orthographic { volume, .. } => volume.window(),
+        _ => return false,
+    };
+    reading.factor > 0.0 && !mirror_words(window).is_empty()
+}
+
+/// Describes a window whose left and right, or bottom and top, are exchanged.
+fn mirror_words(w: Window) -> &'static str {
+    match (w.left() > w.right(), w.bottom() > w.top()) {
+        (false, false) => "",
+        (true, false) => ", mirrored left to right",
+        (false, true) => ", upside down",
+        (true, true) => ", rotated by 180°",
+    }
+}
+
 fn depth_words(near: f64, far: f64) -> String {
-    format!("near {}, far {}", format_number(near), format_number(far))
+    let far = if far.is_finite() { format_number(far) } else { "infinite".to_owned() };
+    format!("near {}, far {far}", format_number(near))
 }
 
 fn oblique_words(oblique: &Oblique) -> String {
@@ -79,12 +102,21 @@ fn planometric_words(turn: f64, height: f64, z_up: bool, onto_plane: bool) -> St
     )
 }
 
+fn box_words(o: &Orthographic) -> String {
+    let (w, depth) = (o.window(), depth_words(o.near(), o.far()));
+    // A window of pixels has its origin in the upper left corner.
+    let is_screen = w.left() == 0.0 && w.top() == 0.0 && w.width() > 0.0;
+    let mirrored = if is_screen { "" } else { mirror_words(w) };
+    format!("orthographic{mirrored}: {}, {depth}", window_words(w))
+}
+
 /// Describes view volumes, also combined with a camera; `None` for other maps.
 fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
     Some(match meaning {
         MatrixMeaning::Perspective { frustum: f, .. } => {
             let (window, depth) = (window_words(f.window()), depth_words(f.near(), f.far()));
-            format!("a perspective projection: {window}, {depth}")
+            let mirrored = mirror_words(f.window());
+            format!("a perspective projection{mirrored}: {window}, {depth}")
         }
         MatrixMeaning::InversePerspective { frustum: f, .. } => {
             let (window, depth) = (window_words(f.window()), depth_words(f.near(), f.far()));
@@ -97,13 +129,7 @@ fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
         MatrixMeaning::ObliqueNear { .. } => {
             "a perspective projection with an oblique near plane".to_owned()
         }
-        MatrixMeaning::Orthographic { volume: o, .. } => {
-            format!(
-                "orthographic: {}, {}",
-                window_words(o.window()),
-                depth_words(o.near(), o.far())
-            )
-        }
+        MatrixMeaning::Orthographic { volume, .. } => box_words(volume),
         MatrixMeaning::CameraPerspective { camera, frustum: f, .. } => {
             let (window, depth) = (window_words(f.window()), depth_words(f.near(), f.far()));
             let world = world_words(meaning);
@@ -207,6 +233,15 @@ fn camera_words(camera: &CameraReading) -> String {
     format!("eye {}, gaze {}, up {}", list(camera.eye), list(camera.gaze), list(camera.up))
 }
 
+/// Names the axes of the view space.
+fn axes_words(camera: &CameraReading) -> &'static str {
+    match camera.axes {
+        ViewAxes::Direct3d => "looks along +z, as in Direct3D",
+        ViewAxes::OpenCv => "looks along +z with y down, as in OpenCV",
+        _ => "looks along -z, as in OpenGL",
+    }
+}
+
 fn viewport_words(v: &ViewportReading) -> String {
     let [x, y] = [v.x, v.y].map(format_number);
     let origin = if v.x == 0.0 && v.y == 0.0 { String::new() } else { format!(" at ({x}, {y})") };
@@ -241,10 +276,13 @@ fn describe_transform(meaning: &MatrixMeaning) -> String {
             format!("a rotation by {}° about {}", format_number(*angle_degrees), list(*axis))
         }
         MatrixMeaning::Camera(camera) => {
-            format!("a camera transform: {}", camera_words(camera))
+            let axes = axes_words(camera);
+            format!("a camera transform: {}, for a view space that {axes}", camera_words(camera))
         }
         MatrixMeaning::CameraPose(camera) => {
-            format!("a camera pose (view to world): {}", camera_words(camera))
+            let axes = axes_words(camera);
+            let camera = camera_words(camera);
+            format!("a camera pose (view to world): {camera}, for a view space that {axes}")
         }
         MatrixMeaning::Shear { linear, .. } => {
             let [x, y, z] = linear.map(list);
@@ -302,9 +340,10 @@ fn add_parameters(step: Step, meaning: &MatrixMeaning) -> Step {
         meaning if meaning.convention().is_some() => add_view_parameters(step, meaning),
         MatrixMeaning::ObliqueShear { projection }
         | MatrixMeaning::ObliqueOntoPlane { projection } => add_oblique(step, projection),
-        MatrixMeaning::Camera(camera)
-        | MatrixMeaning::CameraPose(camera)
-        | MatrixMeaning::Rotation { camera, .. } => {
+        MatrixMeaning::Camera(camera) | MatrixMeaning::CameraPose(camera) => {
+            add_camera(step.with_item("axes", "view space", axes_words(camera)), camera, "gaze")
+        }
+        MatrixMeaning::Rotation { camera, .. } => {
             add_camera(step, camera, "gaze, if it looks along -z")
         }
         MatrixMeaning::ModelTransform { translation, axis, angle_degrees, scale } => step

@@ -4,6 +4,8 @@
 #![allow(missing_docs)]
 
 mod formulas;
+mod generated_table;
+mod generated_views;
 mod hand_typed;
 mod misprints;
 mod placed;

@@ -6,7 +6,7 @@ use glam::{DMat4, DVec4};
 use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, View, World};
 use projection::{
     ApexMovedFrustum, Axonometric, Convention, DepthCurve, Fov, Frustum, NPoint, Oblique,
-    Orthographic, Perspective, ProjectionError, api, chapter, principal_vanishing_points,
+    Orthographic, Perspective, ProjectionError, Window, api, chapter, principal_vanishing_points,
 };
 use proptest::prelude::*;
 use recognition::{IntendedProjection, Misprint, SuspicionStrength, misprint_of, recognize};
@@ -345,7 +345,11 @@ proptest! {
             found.iter().any(|slip| slip.strength == SuspicionStrength::Likely)
         };
         prop_assert!(!likely(bounded.view_to_clip(Convention::OPENGL).raw()));
+        // A mirrored window is less likely than a wrong sign.
         let w = o.window();
+        let (x, y) = ([w.left(), w.right()], [w.bottom(), w.top()]);
+        let [[l, r], [b, t]] = [x, y].map(|[a, b]| [a.min(b), a.max(b)]);
+        let w = Window::new(l, r, b, t).expect("valid");
         let ahead = Orthographic::from_window(w, 0.0, (o.far() - o.near()).abs()).expect("valid");
         prop_assert!(!likely(ahead.view_to_clip(Convention::OPENGL).raw()));
         prop_assert!(!likely(Axonometric::isometric().depth_preserving().raw()));

@@ -1,6 +1,6 @@
 //! Sixty wrong matrices: misprints, matrices for row vectors, wrong signs and common factors.
 //!
-//! Four of them are also correct matrices of something else, as their comments explain, so both
+//! Five of them are also correct matrices of something else, as their comments explain, so both
 //! readings must be reported. Misprints that are correct matrices for other parameters have no row
 //! here (see `hand_typed.rs`). Only two rows are not recognized. With four decimals, M15 with
 //! depths from 0.1 to 100 cannot be distinguished from a correct box from 0.1 to 50, and M17 at 45°
@@ -230,16 +230,19 @@ fn slips_of_the_slides() -> Vec<Row> {
         m
     };
     vec![
-        // Direct3D's reversed box with near 2 and far 4 has the same numbers.
+        // The textbook's volume seen along +z has the same numbers.
         both(
             "M15",
             offset_sign(gl_ortho(WINDOW, 2.0, 6.0)),
-            Expected::Box(Convention::DIRECT3D.reversed(), WINDOW, 2.0, 4.0),
+            Expected::Box(Convention::CHAPTER.left_handed(), WINDOW, 2.0, 6.0),
             Misprint::OrthoOffsetSign,
         ),
-        slip("M15, 0.1 to 100", offset_sign(gl_ortho(WINDOW, 0.1, 100.0)), {
-            Misprint::OrthoOffsetSign
-        }),
+        both(
+            "M15, 0.1 to 100",
+            offset_sign(gl_ortho(WINDOW, 0.1, 100.0)),
+            Expected::Box(Convention::CHAPTER.left_handed(), WINDOW, 0.1, 100.0),
+            Misprint::OrthoOffsetSign,
+        ),
         slip("M15, 4 decimals", rounded(offset_sign(gl_ortho(WINDOW, 0.1, 100.0)), 4), {
             Misprint::OrthoOffsetSign
         }),
