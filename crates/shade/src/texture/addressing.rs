@@ -82,19 +82,18 @@ impl TexelAddressing {
             return lod;
         }
         let Sampler { mag_filter, min_filter, mipmap_mode, .. } = self.sampler;
-        let (has_mag_filter, is_linear) =
-            (mag_filter != min_filter, mipmap_mode == MipmapMode::Linear);
+        let filters_differ = mag_filter != min_filter;
         let round = if mipmap_mode == MipmapMode::Nearest { 0.5 } else { 0.0 };
         let lambdas = self.levels_of_detail(dx, dy);
-        // Values instead of branches, and one loop for each result, so that all of them are
-        // vectorized.
+        // Use `&` instead of `&&`, values instead of branches, and one loop for each result, so that
+        // all loops are vectorized.
         let mut near_levels = [0; N];
         for (near, lambda) in near_levels.iter_mut().zip(&lambdas.0) {
             // The level of detail, rounded down for trilinear filtering or to the nearest single
             // level.
             *near = floor_to_int(lambda + round).min(self.last_level);
         }
-        if is_linear {
+        if mipmap_mode == MipmapMode::Linear {
             for lane in 0..N {
                 let far_weight = lambdas[lane] - near_levels[lane] as f32;
                 let is_between = near_levels[lane] < self.last_level;
@@ -102,7 +101,7 @@ impl TexelAddressing {
             }
         }
         for lane in 0..N {
-            let is_magnified = has_mag_filter & (lambdas[lane] <= 0.0);
+            let is_magnified = filters_differ & (lambdas[lane] <= 0.0);
             lod.near_levels[lane] = if is_magnified { 0 } else { 1 + near_levels[lane] };
         }
         for lane in 0..N {
