@@ -6,11 +6,8 @@
 //! only once.
 
 use super::MipChain;
-use super::texture::{TexelLanes, UvLanes};
+use super::texture::{GroupedTexture, MAX_GROUP, TexelLanes, UvLanes, sample_textures};
 use model::{AlphaMode, Material, TextureInfo, TextureSlot};
-
-/// The maximum number of textures that are sampled as one group.
-const MAX_GROUP: usize = 4;
 
 /// A texture of a material.
 #[derive(Clone, Copy, Debug)]
@@ -98,22 +95,24 @@ impl<'a> MaterialTextures<'a> {
         group: &[MaterialTexture<'a>],
         uvs: &UvLanes<N>,
     ) -> [TexelLanes<N>; MAX_GROUP] {
-        let mut texels = [TexelLanes::ZERO; MAX_GROUP];
-        // The group shares one footprint, and the texel indices for each tap.
-        let addressing = group[0].mip_chain.addressing();
-        let footprint = addressing.footprint(uvs, self.anisotropy);
-        for index in 0..footprint.max_tap_count() {
-            let tap = footprint.tap(addressing, index);
-            for (texture, texel) in group.iter().zip(&mut texels) {
-                if !texture.repeats_previous {
-                    texture.mip_chain.accumulate_tap(&tap, texture.needs_alpha, texel);
-                }
+        // The distinct textures of the group, and the entry of each texture among them.
+        let grouped = |texture: &MaterialTexture<'a>| {
+            let MaterialTexture { mip_chain, needs_alpha, .. } = *texture;
+            GroupedTexture { mip_chain, needs_alpha }
+        };
+        let (mut distinct, mut entries) = ([grouped(&group[0]); MAX_GROUP], [0; MAX_GROUP]);
+        let mut count = 0;
+        for (texture, entry) in group.iter().zip(&mut entries) {
+            if !texture.repeats_previous {
+                distinct[count] = grouped(texture);
+                count += 1;
             }
+            *entry = count - 1;
         }
-        for (index, texture) in group.iter().enumerate() {
-            if texture.repeats_previous {
-                texels[index] = texels[index - 1];
-            }
+        let sampled = sample_textures(&distinct[..count], uvs, self.anisotropy);
+        let mut texels = [TexelLanes::ZERO; MAX_GROUP];
+        for (texel, entry) in texels.iter_mut().zip(entries).take(group.len()) {
+            *texel = sampled[entry];
         }
         texels
     }

@@ -14,6 +14,7 @@ mod filtering;
 mod footprint;
 mod mip_chain;
 
+pub(super) use filtering::{GroupedTexture, MAX_GROUP, sample_textures};
 pub use mip_chain::{MipChain, TexelEncoding};
 
 use super::lanes::{Lanes, Rgb};

@@ -82,31 +82,49 @@ impl TexelAddressing {
             return lod;
         }
         let Sampler { mag_filter, min_filter, mipmap_mode, .. } = self.sampler;
-        let (width, height) = (self.width as f32, self.height as f32);
+        let filters_differ = mag_filter != min_filter;
         let round = if mipmap_mode == MipmapMode::Nearest { 0.5 } else { 0.0 };
-        // Use `&` instead of `&&` and values instead of branches, so that the loop is vectorized.
+        let lambdas = self.levels_of_detail(dx, dy);
+        // Use `&` instead of `&&`, values instead of branches, and one loop for each result, so that
+        // all loops are vectorized.
+        let mut near_levels = [0; N];
+        for (near, lambda) in near_levels.iter_mut().zip(&lambdas.0) {
+            // The level of detail, rounded down for trilinear filtering or to the nearest single
+            // level.
+            *near = floor_to_int(lambda + round).min(self.last_level);
+        }
+        if mipmap_mode == MipmapMode::Linear {
+            for lane in 0..N {
+                let far_weight = lambdas[lane] - near_levels[lane] as f32;
+                let is_between = near_levels[lane] < self.last_level;
+                lod.far_weights[lane] = if is_between { far_weight } else { 0.0 };
+            }
+        }
         for lane in 0..N {
-            let (xu, xv) = (dx[0][lane] * width, dx[1][lane] * height);
-            let (yu, yv) = (dy[0][lane] * width, dy[1][lane] * height);
-            // The number of texels that a pixel covers along its longer side, squared.
-            let square = (xu * xu + xv * xv).max(yu * yu + yv * yv);
+            let is_magnified = filters_differ & (lambdas[lane] <= 0.0);
+            lod.near_levels[lane] = if is_magnified { 0 } else { 1 + near_levels[lane] };
+        }
+        for lane in 0..N {
+            let has_far = lod.far_weights[lane] > 0.0;
+            lod.far_levels[lane] = lod.near_levels[lane] + i32::from(has_far);
+        }
+        lod.is_trilinear = lod.far_weights.0.iter().any(|weight| *weight > 0.0);
+        lod
+    }
+
+    /// Computes the levels of detail λ, at least 0: the logarithms of the number of texels that a
+    /// pixel covers along its longer side.
+    #[inline(always)]
+    fn levels_of_detail<const N: usize>(&self, dx: &[Lanes<N>; 2], dy: &[Lanes<N>; 2]) -> Lanes<N> {
+        let (width, height) = (self.width as f32, self.height as f32);
+        let (xu, xv, yu, yv) = (dx[0] * width, dx[1] * height, dy[0] * width, dy[1] * height);
+        let squares = (xu * xu + xv * xv).max_lanes(yu * yu + yv * yv);
+        squares.map(|square| {
             // Not minified if a texel is larger than the pixel or if the derivatives are not
             // finite.
             let is_minified = (square > 1.0) & (square < f32::INFINITY);
-            let lambda = 0.5 * log2_approx(if is_minified { square } else { 1.0 });
-            // The level of detail, rounded down for trilinear filtering or to the nearest single
-            // level.
-            let level = floor_to_int(lambda + round).min(self.last_level);
-            let is_between = (mipmap_mode == MipmapMode::Linear) & (level < self.last_level);
-            let is_magnified = (mag_filter != min_filter) & (lambda <= 0.0);
-            let near = if is_magnified { 0 } else { 1 + level };
-            let far_weight = if is_between { lambda - level as f32 } else { 0.0 };
-            lod.near_levels[lane] = near;
-            lod.far_levels[lane] = near + i32::from(far_weight > 0.0);
-            lod.far_weights[lane] = far_weight;
-            lod.is_trilinear |= far_weight > 0.0;
-        }
-        lod
+            0.5 * log2_approx(if is_minified { square } else { 1.0 })
+        })
     }
 
     /// Locates the texels around a position, on levels numbered as in [`LevelOfDetail`].
@@ -239,6 +257,29 @@ fn wrap_texels<const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn each_lane_selects_the_levels_of_its_number_of_texels_per_pixel() {
+        let sampler = Sampler { mag_filter: TextureFilter::Nearest, ..Sampler::default() };
+        let texels = [0.5, 1.5, 4.0, 6.0, 300.0, f32::NAN, f32::INFINITY, 0.0];
+        let select = |mipmap_mode| {
+            let sampler = Sampler { mipmap_mode, ..sampler };
+            let addressing = TexelAddressing { width: 64, height: 64, last_level: 6, sampler };
+            let steps = [Lanes(texels.map(|count| count / 64.0)), Lanes::ZERO];
+            addressing.select_levels(&[steps, [Lanes::ZERO; 2]])
+        };
+        let lod = select(MipmapMode::Linear);
+        assert_eq!(lod.near_levels, [0, 1, 3, 3, 7, 0, 0, 0]);
+        assert_eq!(lod.far_levels, [0, 2, 3, 4, 7, 0, 0, 0]);
+        let weights = [0.0, libm::log2f(1.5), 0.0, libm::log2f(1.5), 0.0, 0.0, 0.0, 0.0];
+        for (weight, expected) in lod.far_weights.0.iter().zip(weights) {
+            assert!((weight - expected).abs() < 1e-5, "{weight} {expected}");
+        }
+        assert!(lod.is_trilinear);
+        let lod = select(MipmapMode::Nearest);
+        assert_eq!(lod.near_levels, [0, 2, 3, 4, 7, 0, 0, 0]);
+        assert_eq!((lod.far_levels, lod.is_trilinear), (lod.near_levels, false));
+    }
 
     #[test]
     fn coordinates_outside_the_image_are_wrapped() {

@@ -11,13 +11,29 @@
 //! Vulkan. Alpha is straight, not premultiplied, as in glTF, and is filtered separately. The color
 //! of transparent texels bleeds into their neighbors, so exporters add padding.
 //!
-//! With eight lanes, texels are fetched lane by lane as 32-bit numbers, but arithmetic processes
-//! all lanes at once.
+//! Textures with the same addressing are filtered as a group: for each lane, the texels of all of
+//! them are fetched with the same four indices. Texels are fetched lane by lane as 32-bit numbers,
+//! but arithmetic processes all lanes at once.
 
 use super::addressing::TexelQuads;
 use super::footprint::Tap;
 use super::{MipChain, TexelLanes, UvLanes};
 use crate::lanes::{Lanes, Rgb, map_to_lanes};
+
+/// The maximum number of textures that are sampled as one group.
+pub(crate) const MAX_GROUP: usize = 4;
+
+/// A texture of a group that is read at the same texels.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GroupedTexture<'a> {
+    /// The texels.
+    pub(crate) mip_chain: &'a MipChain<'a>,
+    /// Whether alpha is read; otherwise it is 1.
+    pub(crate) needs_alpha: bool,
+}
+
+/// The four texels of each quad, packed with red in the lowest byte.
+type PackedQuads<const N: usize> = [[u32; N]; 4];
 
 impl MipChain<'_> {
     /// Computes the texture's filtered color over the footprints of pixels, linear with straight
@@ -32,98 +48,103 @@ impl MipChain<'_> {
         needs_alpha: bool,
         anisotropy: u32,
     ) -> TexelLanes<N> {
-        // Anisotropic filtering: the weighted mean of the taps.
-        let footprint = self.addressing.footprint(uvs, anisotropy);
-        let mut sum = TexelLanes::ZERO;
-        for index in 0..footprint.max_tap_count() {
-            self.accumulate_tap(&footprint.tap(&self.addressing, index), needs_alpha, &mut sum);
-        }
-        sum
-    }
-
-    /// Adds the texel read at one tap of a footprint, times its weight.
-    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
-    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
-    pub(crate) fn accumulate_tap<const N: usize>(
-        &self,
-        tap: &Tap<N>,
-        needs_alpha: bool,
-        sum: &mut TexelLanes<N>,
-    ) {
-        // Trilinear: interpolate from the first level, which starts with weight 1, toward the
-        // second.
-        let mut texel = TexelLanes::ZERO;
-        for level in 0..tap.level_count {
-            let next = self.filter_texels(&tap.quads[level], needs_alpha);
-            texel = texel.lerp(next, tap.level_weights[level]);
-        }
-        sum.color += texel.color * tap.tap_weights;
-        sum.alpha += texel.alpha * tap.tap_weights;
+        let [texel, ..] =
+            sample_textures(&[GroupedTexture { mip_chain: self, needs_alpha }], uvs, anisotropy);
+        texel
     }
 
     /// Interpolates bilinearly in quads of texels, channel by channel.
     #[inline(always)]
     fn filter_texels<const N: usize>(
         &self,
+        texels: &PackedQuads<N>,
         quads: &TexelQuads<N>,
         needs_alpha: bool,
     ) -> TexelLanes<N> {
-        if let Some(table) = self.srgb_table {
-            return self.filter_srgb_texels(quads, table, needs_alpha);
-        }
-        let texels = self.fetch_texels(quads);
-        let r = filter_linear_channel(&texels, 0, quads);
-        let g = filter_linear_channel(&texels, 1, quads);
-        let b = filter_linear_channel(&texels, 2, quads);
+        let color = match self.srgb_table {
+            Some(table) => Rgb {
+                r: filter_srgb_channel(texels, 0, table, quads),
+                g: filter_srgb_channel(texels, 1, table, quads),
+                b: filter_srgb_channel(texels, 2, table, quads),
+            },
+            None => Rgb {
+                r: filter_linear_channel(texels, 0, quads),
+                g: filter_linear_channel(texels, 1, quads),
+                b: filter_linear_channel(texels, 2, quads),
+            },
+        };
         let mut alpha = Lanes::ONE;
         if needs_alpha {
-            alpha = filter_linear_channel(&texels, 3, quads);
-        }
-        TexelLanes { color: Rgb { r, g, b }, alpha }
-    }
-
-    /// Interpolates colors bilinearly, after decoding them from sRGB.
-    ///
-    /// The codes are looked up in the table byte by byte; if they were packed into vectors, they
-    /// would have to be extracted again.
-    #[inline(always)]
-    fn filter_srgb_texels<const N: usize>(
-        &self,
-        quads: &TexelQuads<N>,
-        table: &[f32; 256],
-        needs_alpha: bool,
-    ) -> TexelLanes<N> {
-        let mut linear = [[Lanes::ZERO; 4]; 3];
-        for lane in 0..N {
-            let texels: &[[u8; 4]] = &self.levels[quads.levels[lane] as usize].texels;
-            for (corner, indices) in quads.texels.iter().enumerate() {
-                let texel = &texels[indices[lane] as usize];
-                for (channel, corners) in linear.iter_mut().enumerate() {
-                    corners[corner][lane] = table[usize::from(texel[channel])];
-                }
-            }
-        }
-        let [r, g, b] = linear;
-        let color = Rgb { r: bilinear(r, quads), g: bilinear(g, quads), b: bilinear(b, quads) };
-        let mut alpha = Lanes::ONE;
-        if needs_alpha {
-            alpha = filter_linear_channel(&self.fetch_texels(quads), 3, quads);
+            alpha = filter_linear_channel(texels, 3, quads);
         }
         TexelLanes { color, alpha }
     }
+}
 
-    /// Fetches the four texels of each quad, packed with red in the lowest byte.
-    #[inline(always)]
-    fn fetch_texels<const N: usize>(&self, quads: &TexelQuads<N>) -> [[u32; N]; 4] {
-        let mut packed = [[0; N]; 4];
-        // A gather, because each lane has a separate mip level.
-        for lane in 0..N {
-            let texels: &[[u8; 4]] = &self.levels[quads.levels[lane] as usize].texels;
-            for (packed, indices) in packed.iter_mut().zip(&quads.texels) {
-                packed[lane] = u32::from_le_bytes(texels[indices[lane] as usize]);
-            }
+/// Samples up to [`MAX_GROUP`] textures that have the same addressing; see [`MipChain::sample`].
+///
+/// The result has one entry for each texture, in order; other entries are zero.
+#[inline(always)]
+pub(crate) fn sample_textures<const N: usize>(
+    textures: &[GroupedTexture<'_>],
+    uvs: &UvLanes<N>,
+    anisotropy: u32,
+) -> [TexelLanes<N>; MAX_GROUP] {
+    let mut sums = [TexelLanes::ZERO; MAX_GROUP];
+    let Some(first) = textures.first() else { return sums };
+    let addressing = first.mip_chain.addressing();
+    // Anisotropic filtering: the weighted mean of the taps.
+    let footprint = addressing.footprint(uvs, anisotropy);
+    for index in 0..footprint.max_tap_count() {
+        accumulate_tap(textures, &footprint.tap(addressing, index), &mut sums);
+    }
+    sums
+}
+
+/// Adds the texels that textures have at one tap of a footprint, times the tap's weight.
+#[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
+#[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
+fn accumulate_tap<const N: usize>(
+    textures: &[GroupedTexture<'_>],
+    tap: &Tap<N>,
+    sums: &mut [TexelLanes<N>; MAX_GROUP],
+) {
+    let mut texels = [TexelLanes::ZERO; MAX_GROUP];
+    let mut packed = [[[0; N]; 4]; MAX_GROUP];
+    // Trilinear: interpolate from the first level, which starts with weight 1, toward the second.
+    for (quads, weights) in tap.quads.iter().zip(&tap.level_weights).take(tap.level_count) {
+        fetch_texels(textures, quads, &mut packed);
+        for ((texture, packed), texel) in textures.iter().zip(&packed).zip(&mut texels) {
+            let next = texture.mip_chain.filter_texels(packed, quads, texture.needs_alpha);
+            *texel = texel.lerp(next, *weights);
         }
-        packed
+    }
+    for (sum, texel) in sums.iter_mut().zip(&texels).take(textures.len()) {
+        sum.color += texel.color * tap.tap_weights;
+        sum.alpha += texel.alpha * tap.tap_weights;
+    }
+}
+
+/// Fetches the four texels of each quad from all textures of a group.
+///
+/// This is a gather, because each lane has a separate mip level. The texels are written to memory
+/// rather than packed into vectors: the registers would not suffice for a group.
+#[inline(always)]
+fn fetch_texels<const N: usize>(
+    textures: &[GroupedTexture<'_>],
+    quads: &TexelQuads<N>,
+    packed: &mut [PackedQuads<N>; MAX_GROUP],
+) {
+    for lane in 0..N {
+        let level = quads.levels[lane] as usize;
+        let [a, b, c, d] = [0, 1, 2, 3].map(|corner: usize| quads.texels[corner][lane] as usize);
+        for (texture, packed) in textures.iter().zip(&mut *packed) {
+            let texels: &[[u8; 4]] = &texture.mip_chain.levels[level].texels;
+            packed[0][lane] = u32::from_le_bytes(texels[a]);
+            packed[1][lane] = u32::from_le_bytes(texels[b]);
+            packed[2][lane] = u32::from_le_bytes(texels[c]);
+            packed[3][lane] = u32::from_le_bytes(texels[d]);
+        }
     }
 }
 
@@ -133,11 +154,25 @@ fn channel_code(texel: u32, channel: usize) -> u32 {
     texel >> (8 * channel) & 255
 }
 
+/// Decodes one channel from sRGB with a table and interpolates it.
+#[inline(always)]
+fn filter_srgb_channel<const N: usize>(
+    texels: &PackedQuads<N>,
+    channel: usize,
+    table: &[f32; 256],
+    quads: &TexelQuads<N>,
+) -> Lanes<N> {
+    let light = map_to_lanes(texels, |texels| {
+        Lanes::from_fn(|lane| table[channel_code(texels[lane], channel) as usize])
+    });
+    bilinear(light, quads)
+}
+
 /// Interpolates one linearly encoded channel; the result is from 0 to 1. Dividing by 255 after the
 /// interpolation takes one division instead of four.
 #[inline(always)]
 fn filter_linear_channel<const N: usize>(
-    texels: &[[u32; N]; 4],
+    texels: &PackedQuads<N>,
     channel: usize,
     quads: &TexelQuads<N>,
 ) -> Lanes<N> {

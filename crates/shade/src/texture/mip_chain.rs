@@ -124,11 +124,16 @@ impl MipLevel<'_> {
 }
 
 /// Computes the mean of four linear texels, rounded to nearest.
+///
+/// Two channels are added at once, in the halves of a 32-bit number.
 fn average_texels(four: [[u8; 4]; 4]) -> [u8; 4] {
-    [0, 1, 2, 3].map(|k: usize| {
-        let sum: u16 = four.iter().map(|texel| u16::from(texel[k])).sum();
-        ((sum + 2) / 4) as u8
-    })
+    const CHANNELS: u32 = 0x00ff_00ff;
+    let texels = four.map(u32::from_le_bytes);
+    let mean = |shift: u32| {
+        let sum: u32 = texels.iter().map(|texel| texel >> shift & CHANNELS).sum();
+        (sum + 0x0002_0002) >> 2 & CHANNELS
+    };
+    (mean(0) | mean(8) << 8).to_le_bytes()
 }
 
 /// Tables for averaging sRGB colors in linear light.
@@ -159,7 +164,26 @@ impl SrgbAverager {
             let sum: u32 = four.iter().map(|texel| self.linear[usize::from(texel[k])]).sum();
             self.codes[((sum + 2) / 4) as usize]
         };
-        let [.., alpha] = average_texels(four);
-        [color(0), color(1), color(2), alpha]
+        let alphas: u32 = four.iter().map(|texel| u32::from(texel[3])).sum();
+        [color(0), color(1), color(2), ((alphas + 2) / 4) as u8]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn linear_channels_are_averaged_separately_and_rounded_to_nearest() {
+        let code = |n: u32| (n.wrapping_mul(2_654_435_761) >> 24) as u8;
+        let texels = |n: u32| [0, 1, 2, 3].map(|k| [0, 1, 2, 3].map(|c| code(16 * n + 4 * k + c)));
+        let extremes = [[[255; 4]; 4], [[0; 4]; 4], [[255, 0, 255, 0]; 4]];
+        for four in extremes.into_iter().chain((0..10_000).map(texels)) {
+            let average = average_texels(four);
+            for channel in 0..4 {
+                let sum: f32 = four.iter().map(|texel| f32::from(texel[channel])).sum();
+                assert_eq!(f32::from(average[channel]), (sum / 4.0 + 0.5).floor(), "{four:?}");
+            }
+        }
     }
 }
