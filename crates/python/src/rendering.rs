@@ -144,7 +144,7 @@ pub(crate) fn encode_png<'py>(
 }
 
 /// Reads a picture from colors with alpha.
-fn read_picture(rgba: &Bound<'_, PyAny>) -> PyResult<Picture> {
+pub(crate) fn read_picture(rgba: &Bound<'_, PyAny>) -> PyResult<Picture> {
     use numpy::{PyArray3, PyArrayMethods as _, PyUntypedArrayMethods as _};
     let wrong = |_| PyErr::from(Failure::argument("rgba", "expected uint8 (height, width, 4)"));
     let array = rgba.cast::<PyArray3<u8>>().map_err(wrong)?;
