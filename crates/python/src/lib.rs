@@ -8,7 +8,8 @@
 //! | cameras, points and pixels | `camera_options.rs`, `native_camera.rs`, `pixel_rays.rs` |
 //! | contents and poses of models | `model_contents.rs` |
 //! | meshes as arrays | `mesh_arrays.rs`, `mesh_colors.rs`, `mesh_material.rs` |
-//! | pictures and passes | `scene_options.rs`, `rendering.rs`, `phong_display.rs` |
+//! | pictures and passes | `scene_options.rs`, `rendering.rs` |
+//! | MuJoCo's light | `legacy_lights.rs`, `phong_display.rs` |
 //! | line drawings; explanations | `drawing_result.rs`; `explanation.rs` |
 //! | arguments: dictionaries, arrays | `keywords.rs`, `arrays.rs` |
 //! | threads, Ctrl+C, panics; exceptions | `detached.rs`, `failure.rs` |
@@ -20,6 +21,7 @@ mod drawing_result;
 mod explanation;
 mod failure;
 mod keywords;
+mod legacy_lights;
 mod loading;
 mod mesh_arrays;
 mod mesh_colors;

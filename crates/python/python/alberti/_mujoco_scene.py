@@ -20,7 +20,7 @@ from ._mujoco_shapes import (
     unit_shape,
 )
 from ._mujoco_sky import Sky
-from ._mujoco_view import camera_of, fog_over, highlight_ratio, lights_of
+from ._mujoco_view import camera_of, fog_over, highlight_ratio, lights_of, without_shadows
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -93,7 +93,7 @@ class Stage:
         has_fog = bool(self._scene.flags[int(flags.mjRND_FOG)])
         camera = camera_of(self._scene, size)
         light = {
-            **lights_of(self._mujoco, self._scene, self._model, self._options["softness"]),
+            **lights_of(self._mujoco, self._scene, self._options["softness"]),
             "camera": camera,
         }
         behind = self._behind(size, light)
@@ -116,7 +116,7 @@ class Stage:
             return None
         matrices = np.concatenate([poses, self._poses(parts)]) if parts else poses
         subjects = subjects + [subject for _, subject, _ in parts]
-        options = {**light, "passes": ("rgb",), "shadows": '"Off"'}
+        options = {**without_shadows(light), "passes": ("rgb",)}
         arrays = self._draw("behind", subjects, matrices, size, options)
         behind: NDArray[np.uint8] = arrays["rgba"]
         return behind

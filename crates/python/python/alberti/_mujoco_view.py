@@ -14,6 +14,11 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
+#: The texels along the side of a shadow map, and at most in all maps.
+_SHADOW_TEXELS = 1024
+_MOST_TEXELS = 1 << 26
+
+
 def camera_of(scene: Any, size: tuple[int, int]) -> _native.Camera:
     """Return the camera of a scene: the average of its two eyes."""
     left, right = scene.camera[0], scene.camera[1]
@@ -57,64 +62,62 @@ def highlight_ratio(scene: Any) -> float:
     return round(specular / diffuse, 2) if diffuse > 0 else 0.0
 
 
-def lights_of(mujoco: Any, scene: Any, model: Any, softness: float) -> dict[str, Any]:
+def lights_of(mujoco: Any, scene: Any, softness: float) -> dict[str, Any]:
     """Return the lights and shadows as options of a picture."""
     lights: list[dict[str, Any]] = []
+    legacy: list[list[float]] = []
     count = scene.nlight
     # MuJoCo's own light for scenes without lights.
     ambient = np.zeros(3) if count else np.full(3, 0.3)
     has_shadows = bool(scene.flags[int(mujoco.mjtRndFlag.mjRND_SHADOW)])
-    center = np.array(model.stat.center, np.float64)
-    casts = False
+    casters = sum(bool(light.castshadow) for light in scene.lights[:count]) * has_shadows
+    texels = min(_SHADOW_TEXELS, int(math.sqrt(_MOST_TEXELS / max(casters, 1))))
     for light in scene.lights[:count]:
         ambient = ambient + light.ambient
-        diffuse = np.array(light.diffuse, np.float64)
-        strength = float(diffuse.max())
+        strength = float(light.diffuse.max())
         if strength <= 0:
             continue
-        is_caster = has_shadows and bool(light.castshadow)
-        casts = casts or is_caster
-        described: dict[str, Any] = {
-            "color": (diffuse / strength).tolist(),
-            "intensity": math.pi * strength,
-            "shadows": {"On": {"softness_degrees": softness, "size": 1024}}
-            if is_caster
-            else "Off",
-        }
-        kind = _place(mujoco, light, described, center)
-        lights.append({kind: described})
+        direction = np.array(light.dir, np.float64)
+        length = float(np.linalg.norm(direction))
+        direction = direction / length if length > 1e-9 else np.array([0.0, 0.0, -1.0])
+        side = texels if has_shadows and light.castshadow else 0
+        is_sun = int(getattr(light, "type", 0)) == 1 or bool(getattr(light, "directional", False))
+        if is_sun:
+            shadows = {"On": {"softness_degrees": softness, "size": side}}
+            described = {
+                "direction": direction.tolist(),
+                "color": (light.diffuse / strength).tolist(),
+                "intensity": math.pi * strength,
+                "shadows": shadows if side else "Off",
+            }
+            lights.append({"Directional": described})
+            continue
+        cutoff = math.cos(math.radians(min(float(light.cutoff), 180.0)))
+        row = [*light.pos, *direction, *(math.pi * light.diffuse), *light.attenuation]
+        legacy.append([*row, float(light.exponent), cutoff, side, math.radians(softness)])
     if ambient.max() > 0:
         strength = float(ambient.max())
         color = (ambient / strength).tolist()
         lights.append({"Ambient": {"intensity": math.pi * strength, "color": color}})
-    texts = [json.dumps(light) for light in lights]
-    return {"lights": texts, "shadows": json.dumps({"On": {}} if casts else "Off")}
+    options: dict[str, Any] = {"lights": [json.dumps(light) for light in lights]}
+    if legacy:
+        options["legacy_lights"] = np.array(legacy)
+    return options
 
 
-def _place(mujoco: Any, light: Any, described: dict[str, Any], center: Any) -> str:
-    """Add the place and the direction of a light to its description, and return its kind."""
-    direction = np.array(light.dir, np.float64)
-    if np.linalg.norm(direction) < 1e-9:
-        direction = np.array([0.0, 0.0, -1.0])
-    is_sun = int(getattr(light, "type", 0)) == 1 or bool(getattr(light, "directional", False))
-    if is_sun:
-        described["direction"] = direction.tolist()
-        return "Directional"
-    position = np.array(light.pos, np.float64)
-    described["position"] = position.tolist()
-    # MuJoCo's lights have the same strength at every distance by default, and those of physics
-    # have their strength at the distance of the model's center.
-    distance = float(np.linalg.norm(center - position)) or 1.0
-    constant, linear, square = (float(factor) for factor in light.attenuation)
-    fall = max(constant + linear * distance + square * distance**2, 1e-6)
-    described["intensity"] *= distance**2 / fall
-    cutoff, exponent = float(light.cutoff), float(light.exponent)
-    if cutoff >= 90:
-        return "Point"
-    described["direction"] = direction.tolist()
-    described["outer_cone_degrees"] = cutoff
-    described["inner_cone_degrees"] = 0.99 * cutoff if exponent < 0.5 else 0.0
-    return "Spot"
+def without_shadows(options: dict[str, Any]) -> dict[str, Any]:
+    """Return the options of lights that cast no shadows."""
+    lights = []
+    for text in options["lights"]:
+        light = json.loads(text)
+        for described in light.values():
+            described.pop("shadows", None)
+        lights.append(json.dumps(light))
+    changed = {**options, "lights": lights, "shadows": '"Off"'}
+    if "legacy_lights" in options:
+        changed["legacy_lights"] = options["legacy_lights"].copy()
+        changed["legacy_lights"][:, 14] = 0
+    return changed
 
 
 def fog_over(
