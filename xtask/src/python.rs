@@ -33,6 +33,8 @@ const PEERS: &[&str] = &[
     "ipykernel",
     "kubernetes-validate",
     "ray",
+    "mujoco",
+    "gymnasium",
 ];
 /// The maximum size of a released wheel in bytes.
 const MAX_WHEEL_BYTES: u64 = 8_000_000;

@@ -19,18 +19,22 @@ pub(crate) fn show_linear<'py>(
     let front = read_picture(front)?;
     let behind = behind.map(read_picture).transpose()?;
     let light_of = srgb_to_linear_table();
+    let byte_of: [u8; 256] = std::array::from_fn(|code| (255.0 * light_of[code] + 0.5) as u8);
     let mut bytes = Vec::with_capacity(3 * front.pixels.len());
-    for (index, pixel) in front.pixels.iter().enumerate() {
-        let back = behind.as_ref().and_then(|picture| picture.pixels.get(index));
-        let light = |pixel: &[u8; 4], channel: usize| {
-            light_of[usize::from(pixel[channel])] * (f32::from(pixel[3]) / 255.0)
-        };
-        let passing = 1.0 - f32::from(pixel[3]) / 255.0;
-        for channel in 0..3 {
-            let back = back.map_or(0.0, |back| light(back, channel));
-            let sum = light(pixel, channel) + passing * back;
-            bytes.push((255.0 * sum + 0.5) as u8);
+    for (index, &[red, green, blue, alpha]) in front.pixels.iter().enumerate() {
+        if alpha == 255 {
+            bytes.extend([red, green, blue].map(|code| byte_of[usize::from(code)]));
+            continue;
         }
+        let back = behind.as_ref().and_then(|picture| picture.pixels.get(index));
+        let [back_red, back_green, back_blue, back_alpha] = back.copied().unwrap_or_default();
+        let share = f32::from(alpha) / 255.0;
+        let back_share = (1.0 - share) * (f32::from(back_alpha) / 255.0);
+        let mix = |code: u8, back: u8| {
+            let light = light_of[usize::from(code)] * share;
+            (255.0 * (light + light_of[usize::from(back)] * back_share) + 0.5) as u8
+        };
+        bytes.extend([mix(red, back_red), mix(green, back_green), mix(blue, back_blue)]);
     }
     new_array(py, bytes, &[front.height as usize, front.width as usize, 3])
 }

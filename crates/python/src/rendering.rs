@@ -7,8 +7,8 @@
 use crate::arrays::new_array;
 use crate::detached::run_detached;
 use crate::failure::{Failure, Fallible};
-use crate::legacy_lights::read_legacy_lights;
 use crate::keywords::{Keywords, not_a, plain_name};
+use crate::legacy_lights::read_legacy_lights;
 use crate::native_camera::NativeCamera;
 use crate::scene_options::apply_options;
 use crate::subject::Subject;

@@ -20,7 +20,7 @@ from ._mujoco_shapes import (
     unit_shape,
 )
 from ._mujoco_sky import Sky
-from ._mujoco_view import camera_of, fog_over, highlight_ratio, lights_of, without_shadows
+from ._mujoco_view import camera_of, fog_over, head_of, highlight_ratio, lights_of, without_shadows
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 #: The number of meshes with materials that are kept for later frames.
 _MOST_MESHES = 4096
+#: The largest distance in pixels between a circle and its chords in colors.
+_CHORD_PIXELS = 0.2
 #: The role of colors in ``mat_texid``.
 _COLOR_ROLE = 1
 #: Half the side of the part of an infinite plane that receives shadows, in extents of the model.
@@ -46,6 +48,9 @@ class Stage:
             int(value): name.removeprefix("mjGEOM_")
             for name, value in mujoco.mjtGeom.__members__.items()
         }
+        round_names = ("SPHERE", "ELLIPSOID", "CYLINDER", "CAPSULE", "ARROW", "ARROW1", "ARROW2")
+        names = self._type_names.items()
+        self._round_types = frozenset(kind for kind, name in names if name in round_names)
         self._shapes: dict[Any, Shape] = {}
         #: The meshes and placements of geoms of the same kind.
         self._recipes: OrderedDict[Any, list[tuple[_native.Subject, Placement]]] = OrderedDict()
@@ -93,11 +98,11 @@ class Stage:
         has_fog = bool(self._scene.flags[int(flags.mjRND_FOG)])
         camera = camera_of(self._scene, size)
         light = {
-            **lights_of(self._mujoco, self._scene, self._options["softness"]),
+            **lights_of(self._mujoco, self._scene, size, self._options["softness"]),
             "camera": camera,
         }
         behind = self._behind(size, light)
-        parts = self._parts(range(self._scene.ngeom), "front")
+        parts = self._parts(range(self._scene.ngeom), "front", size)
         passes = ("rgb", "depth") if has_fog else ("rgb",)
         arrays = self._render("front", parts, size, {**light, "passes": passes})
         if arrays is None:
@@ -111,7 +116,7 @@ class Stage:
         """Return the picture of the sky and of infinite planes, which receive no shadows."""
         subjects, poses = self._sky.parts(self._scene)
         planes = [at for at in range(self._scene.ngeom) if self._is_infinite(at)]
-        parts = self._parts(planes, "behind")
+        parts = self._parts(planes, "behind", size)
         if not parts and not subjects:
             return None
         matrices = np.concatenate([poses, self._poses(parts)]) if parts else poses
@@ -133,7 +138,7 @@ class Stage:
         """Return passes of all geoms with ids."""
         geoms = self._scene.geoms
         shown = [at for at in range(self._scene.ngeom) if geoms[at].segid >= 0]
-        parts = self._parts(shown, "solid")
+        parts = self._parts(shown, "solid", size)
         camera = camera_of(self._scene, size)
         options = {"camera": camera, "passes": passes, "lights": []}
         return self._render("solid", parts, size, options), parts
@@ -183,7 +188,7 @@ class Stage:
         rotations = np.array([geom.mat for geom in rows], np.float64).reshape(-1, 3, 3)
         positions = np.array([geom.pos for geom in rows], np.float64)
         scale = np.array([placement.scale for _, _, placement in parts])
-        scales = (scale @ sizes[:, :, None])[:, :, 0]
+        scales = (scale * sizes[:, None, :]).sum(axis=2)
         # Components that no size scales.
         scales[~scale.any(axis=2)] = 1.0
         # Parts without extent become too small to be seen.
@@ -212,21 +217,25 @@ class Stage:
             shift = np.rint(shift / period) * period
         return position + rotation[:, :2] @ shift
 
-    def _parts(self, indices: Any, layer: str) -> list[Part]:
-        """Return the parts of geoms.
+    def _parts(self, indices: Any, layer: str, picture: tuple[int, int]) -> list[Part]:
+        """Return the parts of geoms in a picture of this size.
 
         In the layer ``front``, infinite planes are only as large as the shadows on them; parts in
         the layer ``solid`` have no material.
         """
         geoms = self._scene.geoms
-        head = np.array(self._scene.camera[0].pos, np.float64)
+        head = head_of(self._scene)
         ratio = highlight_ratio(self._scene)
         parts: list[Part] = []
-        for at in indices:
-            geom = geoms[at]
-            size = geom.size
-            is_plane = geom.type == 0
-            key = (layer, ratio, geom.type, geom.dataid, geom.matid, geom.texcoord)
+        rows = [geoms[at] for at in indices]
+        is_solid = layer == "solid" or not rows
+        details = [0] * len(rows) if is_solid else self._slices(rows, picture)
+        for at, geom, detail in zip(indices, rows, details):
+            size, kind = geom.size, geom.type
+            is_plane = kind == 0
+            # Boxes, meshes and the like have no slices.
+            detail = detail if kind in self._round_types else 0
+            key = (layer, ratio, detail, kind, geom.dataid, geom.matid, geom.texcoord)
             if layer != "solid":
                 look = (geom.emission, geom.specular, geom.shininess, geom.rgba.tobytes())
                 key += look  # type: ignore[assignment]
@@ -235,7 +244,7 @@ class Stage:
                 key += (size.tobytes(), bool(is_behind))  # type: ignore[assignment]
             recipe = self._recipes.get(key)
             if recipe is None:
-                recipe = self._recipe(geom, layer, ratio, head)
+                recipe = self._recipe(geom, layer, ratio, head, detail)
                 if recipe is not None:
                     self._recipes[key] = recipe
                     if len(self._recipes) > _MOST_MESHES:
@@ -247,7 +256,7 @@ class Stage:
         return parts
 
     def _recipe(
-        self, geom: Any, layer: str, ratio: float, head: Any
+        self, geom: Any, layer: str, ratio: float, head: Any, slices: int
     ) -> list[tuple[_native.Subject, Placement]] | None:
         """Return the meshes of a geom with their placements, or None if its vertices move."""
         name = self._type_names.get(geom.type, "")
@@ -273,7 +282,7 @@ class Stage:
         elif name == "TRIANGLE":
             look = look._replace(is_double_sided=True)
         return [
-            (build(name.lower(), self._shape(part.shape, geom.dataid), look, self._model), part)
+            (build(name.lower(), self._shape(part.shape, geom.dataid, slices), look, self._model), part)
             for part in placements
         ]
 
@@ -299,20 +308,44 @@ class Stage:
         self._moving[layer, at] = shape, look, subject
         return [(subject, PLACEMENTS[name][0])]
 
-    def _shape(self, name: str, dataid: int) -> Shape:
-        """Return a shape, made on first use."""
+    def _shape(self, name: str, dataid: int, slices: int = 0) -> Shape:
+        """Return a shape, made on first use; with as many slices as in MuJoCo if 0 are given."""
         model = self._model
         if name == "hfield":
             # Programs change the heights of terrain.
             return height_field_shape(model, dataid)
-        key = (name, dataid if name == "mesh" else -1)
+        key = (name, dataid) if name == "mesh" else (name, slices)
         if key not in self._shapes:
             if name == "mesh":
                 self._shapes[key] = mesh_shape(model, dataid)
             else:
-                quality = model.vis.quality
-                self._shapes[key] = unit_shape(name, quality.numslices, quality.numstacks)
+                whole, stacks = model.vis.quality.numslices, model.vis.quality.numstacks
+                if 0 < slices < whole:
+                    whole, stacks = slices, max(2 * round(stacks * slices / whole / 2), 4)
+                self._shapes[key] = unit_shape(name, whole, stacks)
         return self._shapes[key]
+
+    def _slices(self, geoms: list[Any], size: tuple[int, int]) -> list[int]:
+        """Return for round geoms how many slices look smooth in a picture of this size.
+
+        The chord of a slice is at most a fifth of a pixel from the circle. Numbers are even, so
+        that few different shapes are needed.
+        """
+        camera = self._scene.camera[0]
+        span = float(camera.frustum_top - camera.frustum_bottom)
+        places = np.array([geom.pos for geom in geoms], np.float64)
+        radii = np.array([geom.size for geom in geoms], np.float64).max(axis=1)
+        away = places - head_of(self._scene)
+        distances = np.sqrt((away * away).sum(axis=1)) - radii
+        if camera.orthographic:
+            pixels = radii * size[1] / span
+        else:
+            near = float(camera.frustum_near)
+            pixels = radii * near * size[1] / (span * np.maximum(distances, near))
+        slices = np.pi / np.sqrt(2 * _CHORD_PIXELS / np.maximum(pixels, 0.5))
+        # Quadrants stay whole, so that boxes around round shapes touch them.
+        chosen: list[int] = (4 * np.ceil(np.clip(slices, 8, 400) / 4)).astype(int).tolist()
+        return chosen
 
     def _infinite_plane(self, geom: Any, is_near: bool) -> Shape:
         """Return a plane that reaches beyond the far plane, or as far as its shadows."""
@@ -356,8 +389,12 @@ class Stage:
                 factor = side if is_uniform else 1.0
             factors.append(count * factor)
         exponent = 128.0 * float(geom.shininess)
+        red, green, blue, alpha = (float(channel) for channel in geom.rgba)
+        if alpha < 0.995:
+            # MuJoCo blends transparent geoms twice: front to back, and back to front.
+            alpha = 1 - (1 - alpha) ** 2
         return Look(
-            rgba=tuple(float(channel) for channel in geom.rgba),  # type: ignore[arg-type]
+            rgba=(red, green, blue, alpha),
             emission=float(geom.emission),
             f0=float(geom.specular) * ratio * 8 / (exponent + 2),
             exponent=exponent,

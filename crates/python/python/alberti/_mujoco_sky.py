@@ -10,6 +10,7 @@ import numpy as np
 from . import _native
 from ._mujoco_looks import _merge_corners, cube_coordinates, texture_image
 from ._mujoco_shapes import unit_shape
+from ._mujoco_view import head_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -37,7 +38,7 @@ class Sky:
             return [], np.zeros((0, 4, 4))
         camera = scene.camera[0]
         distance = float(camera.frustum_far) * _DISTANCE
-        head = np.array(camera.pos, np.float64)
+        head = head_of(scene)
         pose = np.eye(4)
         pose[:3, :3] *= distance
         pose[:3, 3] = head

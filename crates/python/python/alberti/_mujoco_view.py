@@ -14,9 +14,16 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-#: The texels along the side of a shadow map, and at most in all maps.
-_SHADOW_TEXELS = 1024
+#: The least texels along the side of a shadow map, and the most in all maps.
+_LEAST_TEXELS = 128
 _MOST_TEXELS = 1 << 26
+
+
+def head_of(scene: Any) -> NDArray[np.float64]:
+    """Return the position between the two eyes."""
+    left, right = scene.camera[0], scene.camera[1]
+    head: NDArray[np.float64] = 0.5 * (left.pos.astype(np.float64) + right.pos)
+    return head
 
 
 def camera_of(scene: Any, size: tuple[int, int]) -> _native.Camera:
@@ -27,14 +34,14 @@ def camera_of(scene: Any, size: tuple[int, int]) -> _native.Camera:
         for name in ("pos", "forward", "up")
     )
     ahead /= np.linalg.norm(ahead)
-    across = np.cross(ahead, up)
+    across = _cross(ahead, up)
     across /= np.linalg.norm(across)
     near, far = float(left.frustum_near), float(left.frustum_far)
     top, bottom = float(left.frustum_top), float(left.frustum_bottom)
     width, height = size
     options: dict[str, Any] = {"near": near, "far": far, "size": size}
     if left.orthographic:
-        up = np.cross(across, ahead)
+        up = _cross(across, ahead)
         middle = (left.frustum_center + right.frustum_center) / 2
         eye = eye + across * middle + up * ((top + bottom) / 2)
         view = {"eye": eye, "target": eye + ahead, "up": up, "height": top - bottom}
@@ -42,7 +49,7 @@ def camera_of(scene: Any, size: tuple[int, int]) -> _native.Camera:
     half = float(left.frustum_width) or 0.5 * width / height * (top - bottom)
     center = (float(left.frustum_center) + float(right.frustum_center)) / 2
     pose = np.eye(4)
-    pose[:3, 0], pose[:3, 1], pose[:3, 2] = across, np.cross(across, ahead), -ahead
+    pose[:3, 0], pose[:3, 1], pose[:3, 2] = across, _cross(across, ahead), -ahead
     pose[:3, 3] = eye
     lens = (
         0.5 * width * near / half,
@@ -54,6 +61,12 @@ def camera_of(scene: Any, size: tuple[int, int]) -> _native.Camera:
     return _native.make_camera(options)
 
 
+def _cross(one: Any, other: Any) -> NDArray[np.float64]:
+    """Return the cross product. NumPy's own function is slow for single vectors."""
+    (a, b, c), (x, y, z) = one.tolist(), other.tolist()
+    return np.array([b * z - c * y, c * x - a * z, a * y - b * x])
+
+
 def highlight_ratio(scene: Any) -> float:
     """Return how bright the highlights of all lights are, relative to their diffuse light."""
     lights = scene.lights[: scene.nlight]
@@ -62,8 +75,10 @@ def highlight_ratio(scene: Any) -> float:
     return round(specular / diffuse, 2) if diffuse > 0 else 0.0
 
 
-def lights_of(mujoco: Any, scene: Any, softness: float) -> dict[str, Any]:
-    """Return the lights and shadows as options of a picture."""
+def lights_of(
+    mujoco: Any, scene: Any, size: tuple[int, int], softness: float
+) -> dict[str, Any]:
+    """Return the lights and shadows as options of a picture of this size."""
     lights: list[dict[str, Any]] = []
     legacy: list[list[float]] = []
     count = scene.nlight
@@ -71,7 +86,8 @@ def lights_of(mujoco: Any, scene: Any, softness: float) -> dict[str, Any]:
     ambient = np.zeros(3) if count else np.full(3, 0.3)
     has_shadows = bool(scene.flags[int(mujoco.mjtRndFlag.mjRND_SHADOW)])
     casters = sum(bool(light.castshadow) for light in scene.lights[:count]) * has_shadows
-    texels = min(_SHADOW_TEXELS, int(math.sqrt(_MOST_TEXELS / max(casters, 1))))
+    # Finer maps than the picture would hardly show.
+    texels = min(max(max(size), _LEAST_TEXELS), int(math.sqrt(_MOST_TEXELS / max(casters, 1))))
     for light in scene.lights[:count]:
         ambient = ambient + light.ambient
         strength = float(light.diffuse.max())
