@@ -46,7 +46,8 @@ def _encoded_bytes() -> NDArray[np.uint8]:
     """
     light = np.arange(256) / 255
     encoded = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
-    return np.rint(255 * encoded).astype(np.uint8)
+    codes: NDArray[np.uint8] = np.rint(255 * encoded).astype(np.uint8)
+    return codes
 
 
 def texture_image(model: Any, index: int) -> tuple[NDArray[np.uint8], bool]:

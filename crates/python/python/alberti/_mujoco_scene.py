@@ -130,7 +130,7 @@ class Stage:
         """Whether the geom is a plane without a limit in some direction."""
         geom = self._scene.geoms[index]
         is_plane = geom.type == 0 and geom.dataid >= 0
-        return is_plane and (geom.size[0] <= 0 or geom.size[1] <= 0)
+        return bool(is_plane and (geom.size[0] <= 0 or geom.size[1] <= 0))
 
     def _passes(
         self, size: tuple[int, int], passes: tuple[str, ...]

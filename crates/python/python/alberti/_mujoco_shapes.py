@@ -99,7 +99,7 @@ def unit_shape(name: str, slices: int, stacks: int) -> Shape:
             _revolve([1, 1], [-1, 1], [1, 1], [0, 0], slices),
             _revolve([1, 0], [1, 1], [0, 0], [1, 1], slices),
         ]
-        return Shape(*(np.concatenate(arrays) for arrays in zip(*(part[:2] for part in parts))))
+        return _join(parts)
     if name == "cone":
         slope = np.sqrt(0.5)
         return _revolve([1, 0], [0, 1], [slope, slope], [slope, slope], slices)
@@ -262,7 +262,8 @@ def flex_shape(scene: Any, geom: Any, tube: Shape, ball: Shape) -> Shape | None:
         if scene.flexedgeopt:
             begin = scene.flexedgeadr[index]
             edges = scene.flexedge.reshape(-1, 2)[begin : begin + scene.flexedgenum[index]]
-            parts += [_tube_between(tube, *vertices[edge].astype(float), radius) for edge in edges]
+            ends = vertices[edges].astype(float)
+            parts += [_tube_between(tube, start, end, radius) for start, end in ends]
     uv = None
     if used:
         begin = 3 * scene.flexfaceadr[index]
@@ -275,8 +276,13 @@ def flex_shape(scene: Any, geom: Any, tube: Shape, ball: Shape) -> Shape | None:
             uv[-len(vertices) :] = scene.flextexcoord.reshape(-1, 2)[rows]
     if not parts:
         return None
-    vertices, normals = (np.concatenate([part[at] for part in parts]) for at in (0, 1))  # type: ignore[arg-type]
-    return Shape(vertices, normals, uv)
+    return _join(parts)._replace(uv=uv)
+
+
+def _join(parts: list[Shape]) -> Shape:
+    """Return several shapes as one, without texture coordinates."""
+    vertices = np.concatenate([part.vertices for part in parts])
+    return Shape(vertices, np.concatenate([part.normals for part in parts]))
 
 
 def _tube_between(tube: Shape, start: Floats, end: Floats, radius: float) -> Shape:

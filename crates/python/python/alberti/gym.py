@@ -12,6 +12,7 @@ Requires the packages ``gymnasium`` and ``mujoco``.
 from __future__ import annotations
 
 from functools import lru_cache
+from importlib import import_module
 from typing import Any
 
 from ._errors import AlbertiError
@@ -54,7 +55,7 @@ def wrap(
 def _wrapper_class() -> Any:
     """Return the wrapper, whose base class is known only with Gymnasium."""
     try:
-        import gymnasium
+        gymnasium = import_module("gymnasium")
     except ImportError:
         message, help = "the package gymnasium is not installed", "pip install gymnasium"
         raise AlbertiError(message, "MISSING_PACKAGE", "gymnasium", help) from None
@@ -94,9 +95,9 @@ def _wrapper_class() -> Any:
 
 def _free_camera(inner: Any) -> Any:
     """Return Gymnasium's free camera: around the middle of the geoms, with its own settings."""
-    import mujoco
     import numpy as np
 
+    mujoco = import_module("mujoco")
     camera = mujoco.MjvCamera()
     camera.type = int(mujoco.mjtCamera.mjCAMERA_FREE)
     camera.fixedcamid = -1

@@ -13,6 +13,7 @@ Requires the package ``mujoco``, version 3 or later: ``pip install alberti[mujoc
 from __future__ import annotations
 
 import warnings
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, Literal, Union
 
 from ._errors import AlbertiError, AlbertiWarning
@@ -213,9 +214,8 @@ class Renderer:
 def _import_mujoco() -> Any:
     """Import the package mujoco."""
     try:
-        import mujoco
+        return import_module("mujoco")
     except ImportError:
         help = "pip install alberti[mujoco]"
         message = "the package mujoco is not installed"
         raise AlbertiError(message, "MISSING_PACKAGE", "mujoco", help) from None
-    return mujoco
