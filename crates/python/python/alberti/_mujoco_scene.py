@@ -103,14 +103,13 @@ class Stage:
         }
         behind = self._behind(size, light)
         parts = self._parts(range(self._scene.ngeom), "front", size)
-        passes = ("rgb", "depth") if has_fog else ("rgb",)
-        arrays = self._render("front", parts, size, {**light, "passes": passes})
+        arrays = self._render("front", parts, size, {**light, "passes": ("rgb",)})
         if arrays is None:
             if behind is None:
                 return np.zeros((size[1], size[0], 3), np.uint8)
             return _native.show_linear(behind)
         pixels = _native.show_linear(arrays["rgba"], behind)
-        return fog_over(pixels, arrays["depth"], self._model) if has_fog else pixels
+        return fog_over(pixels, self.depth(size), self._model) if has_fog else pixels
 
     def _behind(self, size: tuple[int, int], light: dict[str, Any]) -> NDArray[np.uint8] | None:
         """Return the picture of the sky and of infinite planes, which receive no shadows."""
@@ -138,7 +137,8 @@ class Stage:
         """Return passes of all geoms with ids."""
         geoms = self._scene.geoms
         shown = [at for at in range(self._scene.ngeom) if geoms[at].segid >= 0]
-        parts = self._parts(shown, "solid", size)
+        # Of surfaces in the same place, MuJoCo shows the last one, and alberti the first one.
+        parts = self._parts(shown[::-1], "solid", size)
         camera = camera_of(self._scene, size)
         options = {"camera": camera, "passes": passes, "lights": []}
         return self._render("solid", parts, size, options), parts
@@ -281,10 +281,9 @@ class Stage:
                 return [(build(name.lower(), shape, look, self._model), placement)]
         elif name == "TRIANGLE":
             look = look._replace(is_double_sided=True)
-        return [
-            (build(name.lower(), self._shape(part.shape, geom.dataid, slices), look, self._model), part)
-            for part in placements
-        ]
+        shapes = [self._shape(part.shape, geom.dataid, slices) for part in placements]
+        meshes = [build(name.lower(), shape, look, self._model) for shape in shapes]
+        return list(zip(meshes, placements))
 
     def _moving_recipe(
         self, at: int, geom: Any, layer: str, ratio: float

@@ -85,11 +85,8 @@ class Sky:
             ring = [radius * np.cos(angles), radius * np.sin(angles), np.full(len(angles), level)]
             rings.append(np.stack(ring, axis=1))
         count = len(angles)
-        faces = [
-            [row * count + at, row * count + at + 1, (row + 1) * count + at + 1, (row + 1) * count + at]
-            for row in range(2)
-            for at in range(_SLICES)
-        ]
+        first = [row * count + at for row in range(2) for at in range(_SLICES)]
+        faces = [[at, at + 1, at + count + 1, at + count] for at in first]
         color = np.array(model.vis.rgba.haze, float)
         colors = np.tile(color, (3 * count, 1))
         colors[:, 3] = np.repeat([0.0, 1.0, 0.0], count)

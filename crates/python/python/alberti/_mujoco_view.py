@@ -143,8 +143,7 @@ def fog_over(
     extent, view = float(model.stat.extent), model.vis
     start, end = float(view.map.fogstart) * extent, float(view.map.fogend) * extent
     thickness = np.clip((depth - start) / max(end - start, 1e-9), 0, 1)[..., None]
-    # The sky has no fog.
-    thickness = np.where(np.isfinite(depth)[..., None], thickness, 0)
     color = 255 * np.array(view.rgba.fog[:3])
-    mixed: NDArray[np.uint8] = np.rint(pixels * (1 - thickness) + color * thickness).astype(np.uint8)
-    return mixed
+    mixed = np.rint(pixels * (1 - thickness) + color * thickness)
+    foggy: NDArray[np.uint8] = mixed.astype(np.uint8)
+    return foggy

@@ -187,8 +187,8 @@ class Renderer:
 
         if self._stage is None:
             raise RuntimeError("render cannot be called after close.")
-        shape = (self._height, self._width)
-        shape += {"rgb": (3,), "depth": (), "segmentation": (2,)}[self._mode]  # type: ignore[assignment]
+        channels: tuple[int, ...] = {"rgb": (3,), "depth": (), "segmentation": (2,)}[self._mode]
+        shape = (self._height, self._width, *channels)
         if out is not None and out.shape != shape:
             raise ValueError(f"Expected `out.shape == {shape}`. Got `out.shape={out.shape}`")
         size = (self._width, self._height)
