@@ -311,7 +311,6 @@ class Stage:
         """Return a shape, made on first use; with as many slices as in MuJoCo if 0 are given."""
         model = self._model
         if name == "hfield":
-            # Programs change the heights of terrain.
             return height_field_shape(model, dataid)
         key = (name, dataid) if name == "mesh" else (name, slices)
         if key not in self._shapes:

@@ -35,10 +35,10 @@ class Renderer:
     It has the same methods as ``mujoco.Renderer``. Its pictures are the same on every machine, and
     any number of renderers can work in any number of threads and processes.
 
-    What differs: highlights and cones of light are similar rather than equal, surfaces do not
-    mirror each other, labels and the frame of the picture are not drawn, and pictures may be
-    larger than the model's offscreen buffer. Meshes, materials and textures of the model are read
-    when they are first drawn; after changing them, make a new renderer.
+    What differs: lighting is computed per pixel, highlights are similar rather than equal, surfaces
+    do not mirror each other, labels and the frame of the picture are not drawn, and pictures may
+    be larger than the model's offscreen buffer. Meshes, height fields, materials and textures of
+    the model are read when they are first drawn; after changing them, make a new renderer.
     """
 
     def __init__(
