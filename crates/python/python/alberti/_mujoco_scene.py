@@ -346,7 +346,7 @@ class Stage:
         return chosen
 
     def _infinite_plane(self, geom: Any, is_near: bool) -> Shape:
-        """Return a plane that reaches beyond the far plane, or as far as its shadows."""
+        """Return a plane that ends beyond the far plane, or where its shadows end."""
         model = self._model
         sides = []
         _, repeat, _ = self._texture(geom)
