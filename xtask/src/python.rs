@@ -38,6 +38,8 @@ const PEERS: &[&str] = &[
     "kubernetes-validate",
     "ray",
     "datasets",
+    "mujoco",
+    "gymnasium",
 ];
 /// The maximum size of a released wheel in bytes.
 const MAX_WHEEL_BYTES: u64 = 8_000_000;

@@ -9,6 +9,7 @@
 //! | contents and poses of models | `model_contents.rs` |
 //! | meshes as arrays | `mesh_arrays.rs`, `mesh_colors.rs`, `mesh_material.rs` |
 //! | pictures and passes | `scene_options.rs`, `rendering.rs` |
+//! | MuJoCo's light | `legacy_lights.rs`, `phong_display.rs` |
 //! | line drawings; explanations | `drawing_result.rs`; `explanation.rs` |
 //! | arguments: dictionaries, arrays | `keywords.rs`, `arrays.rs` |
 //! | threads, Ctrl+C, panics; exceptions | `detached.rs`, `failure.rs` |
@@ -20,12 +21,14 @@ mod drawing_result;
 mod explanation;
 mod failure;
 mod keywords;
+mod legacy_lights;
 mod loading;
 mod mesh_arrays;
 mod mesh_colors;
 mod mesh_material;
 mod model_contents;
 mod native_camera;
+mod phong_display;
 mod pixel_rays;
 mod rendering;
 mod scene_options;
@@ -60,13 +63,15 @@ mod _native {
     #[pymodule_export]
     use super::explanation::explain;
     #[pymodule_export]
-    use super::loading::{compose, load_model, load_scene};
+    use super::loading::{compose, compose_array, load_model, load_scene, move_models};
     #[pymodule_export]
     use super::mesh_arrays::build_model;
     #[pymodule_export]
     use super::model_contents::{animations, mesh_arrays, pose, variants};
     #[pymodule_export]
     use super::native_camera::{NativeCamera, camera_from_ron, make_camera};
+    #[pymodule_export]
+    use super::phong_display::show_linear;
     #[pymodule_export]
     use super::rendering::{encode_gray_png, encode_png, over_white, render, render_many};
     #[pymodule_export]

@@ -98,6 +98,48 @@ pub(crate) fn compose(parts: Vec<(Bound<'_, Subject>, Bound<'_, PyAny>)>) -> PyR
     Ok(Subject::new(origin, file, models))
 }
 
+/// Combines subjects like [`compose`], with the poses in one array (N, 4, 4).
+#[pyfunction]
+pub(crate) fn compose_array(
+    parts: Vec<Bound<'_, Subject>>,
+    poses: &Bound<'_, PyAny>,
+) -> PyResult<Subject> {
+    let parts = parts.iter().flat_map(|part| part.get().models.clone()).collect();
+    let (origin, file) = Origin::from_model_bytes("scene", Vec::new());
+    with_pose_array(&Subject::new(origin, file, parts), poses)
+}
+
+/// Returns the subject with each model in another place: a pose (4, 4) in `poses` from its own
+/// coordinates to the world. Nothing is loaded or prepared again.
+#[pyfunction]
+pub(crate) fn move_models(
+    subject: &Bound<'_, Subject>,
+    poses: &Bound<'_, PyAny>,
+) -> PyResult<Subject> {
+    with_pose_array(subject.get(), poses)
+}
+
+/// Returns the subject with the poses of an array (N, 4, 4), one for each model.
+fn with_pose_array(subject: &Subject, poses: &Bound<'_, PyAny>) -> PyResult<Subject> {
+    let numbers = arrays::real_array::<f64>("poses", poses, "float64")?;
+    let count = subject.models.len();
+    if numbers.shape != [count, 4, 4] {
+        let wanted = format!("({count}, 4, 4)");
+        return Err(arrays::wrong_shape("poses", &numbers.shape, &wanted).into());
+    }
+    let matrices = numbers.values.as_chunks::<16>().0.iter().enumerate();
+    let read = |(index, entries): (usize, &[f64; 16])| {
+        let map = Affine::from_raw(DMat4::from_cols_array(entries).transpose());
+        let is_affine = entries[12..] == [0.0, 0.0, 0.0, 1.0];
+        let map = map.filter(|map| is_affine && map.is_finite() && map.inverse().is_some());
+        map.ok_or_else(|| {
+            let message = "is not an invertible matrix with the last row [0, 0, 0, 1]";
+            Failure::argument(format!("poses[{index}]"), message)
+        })
+    };
+    Ok(subject.with_poses(matrices.map(read).collect::<Fallible<_>>()?))
+}
+
 /// Reads an invertible matrix whose last row is 0, 0, 0, 1.
 ///
 /// # Errors

@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::keywords::{Keywords, not_a};
 use crate::mesh_colors::linear_colors;
 use import::PhongMaterial;
-use model::{AlphaMode, Material};
+use model::{AlphaMode, Material, Specular};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scene_file::file::Color;
@@ -24,6 +24,9 @@ pub(crate) fn read_material(
     }
     let color = mesh.value("color")?.map(|value| read_color(&value)).transpose()?;
     let (metallic, roughness) = (fraction(mesh, "metallic")?, fraction(mesh, "roughness")?);
+    if let Some(keys) = mesh.value("phong")? {
+        return read_phong(&Keywords(keys.cast::<PyDict>()?)).map(Some);
+    }
     let double_sided = mesh.value("double_sided")?.is_none() || mesh.flag("double_sided")?;
     if color.is_none() && metallic.is_none() && roughness.is_none() && double_sided {
         return Ok(None);
@@ -88,4 +91,29 @@ fn read_mtl(keys: &Keywords<'_, '_>, has_texture: bool) -> PyResult<Material> {
         has_texture,
     };
     Ok(phong.to_material())
+}
+
+/// Creates the material of a fixed-function pipeline from linear keys: `diffuse` (4), `emission`
+/// (3), `f0`, `roughness`, and the flags `unlit`, `blend` and `double_sided`.
+fn read_phong(keys: &Keywords<'_, '_>) -> PyResult<Material> {
+    let f0 = keys.number("f0")?.unwrap_or(0.0) as f32;
+    let emissive = keys.vector::<3>("emission")?.unwrap_or_default();
+    let mut material = Material {
+        base_color: keys.vector::<4>("diffuse")?.unwrap_or([1.0; 4]).map(|c| c as f32),
+        roughness: fraction(keys, "roughness")?.unwrap_or(1.0),
+        metallic: 0.0,
+        emissive: emissive.map(|channel| channel as f32),
+        alpha_mode: if keys.flag("blend")? { AlphaMode::Blend } else { AlphaMode::Opaque },
+        double_sided: keys.flag("double_sided")?,
+        unlit: keys.flag("unlit")?,
+        ..Material::plain()
+    };
+    // Factors up to 1 reflect as much at grazing angles; colors scale only the reflection at
+    // normal incidence, which is 0.04 for the default index of refraction.
+    let strength = f0 / 0.04;
+    let factor = strength.clamp(0.0, 1.0);
+    let color = [if strength > 1.0 { strength } else { 1.0 }; 3];
+    material.extensions.specular =
+        Some(Box::new(Specular { factor, texture: None, color, color_texture: None }));
+    Ok(material)
 }

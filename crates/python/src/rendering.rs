@@ -8,6 +8,7 @@ use crate::arrays::new_array;
 use crate::detached::run_detached;
 use crate::failure::{Failure, Fallible};
 use crate::keywords::{Keywords, not_a, plain_name};
+use crate::legacy_lights::read_legacy_lights;
 use crate::native_camera::NativeCamera;
 use crate::scene_options::apply_options;
 use crate::subject::Subject;
@@ -18,6 +19,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scene_file::Pass;
 use scene_file::file::{CameraFile, ViewFile};
+use shade::Light;
 use shade::color::{SrgbEncoder, srgb_to_linear_table};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -38,6 +40,8 @@ pub(crate) struct RenderJob<'a> {
     subject: &'a Subject,
     /// The scene description, with the options of the call applied.
     file: SceneFile,
+    /// Lights that scene files do not have, which shine together with those of the file.
+    legacy_lights: Vec<Light>,
     /// Whether colors are requested.
     has_color: bool,
     passes: Vec<Pass>,
@@ -171,7 +175,7 @@ pub(crate) fn encode_gray_png<'py>(
 }
 
 /// Reads a picture from colors with alpha.
-fn read_picture(rgba: &Bound<'_, PyAny>) -> PyResult<Picture> {
+pub(crate) fn read_picture(rgba: &Bound<'_, PyAny>) -> PyResult<Picture> {
     use numpy::{PyArray3, PyArrayMethods as _, PyUntypedArrayMethods as _};
     let wrong = |_| PyErr::from(Failure::argument("rgba", "expected uint8 (height, width, 4)"));
     let array = rgba.cast::<PyArray3<u8>>().map_err(wrong)?;
@@ -262,12 +266,14 @@ impl<'a> RenderJob<'a> {
         check_pixel_count(width.into(), height.into())?;
         let (has_color, passes) = read_passes(options)?;
         let threads = thread_count(options.count("threads")?);
-        Ok(Self { subject, file, has_color, passes, threads })
+        let legacy_lights = read_legacy_lights(options)?;
+        Ok(Self { subject, file, legacy_lights, has_color, passes, threads })
     }
 
     /// Renders the picture and the passes.
     fn render(&self, cancel: &CancelToken) -> Fallible<RenderedJob> {
-        let scene = self.subject.resolve(&self.file)?;
+        let mut scene = self.subject.resolve(&self.file)?;
+        scene.lights.extend(&self.legacy_lights);
         let mut renderer = IdleRenderer::take();
         let (picture, passes, warnings) = self.render_scene(&scene, &mut renderer.0, cancel)?;
         let camera = NativeCamera::of_scene(&self.file.camera, &scene);

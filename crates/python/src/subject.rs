@@ -3,7 +3,7 @@
 
 use crate::arrays;
 use crate::failure::{Failure, Fallible};
-use homog::Bounds;
+use homog::{Affine, Bounds, Model as ModelSpace, World};
 use model::{ModelInstance, Severity, world_points};
 use pipeline::{Origin, Scene, SceneFile, Textures};
 use pyo3::prelude::*;
@@ -31,15 +31,16 @@ pub(crate) struct Subject {
     pub(crate) models: Vec<ModelInstance>,
     /// The folders allowed for scene files, and the model loading options.
     options: ResolveOptions,
-    /// The models with their mip chains; empty before the first picture.
-    textured: OnceLock<TexturedModels>,
+    /// The models with their mip chains; empty before the first picture. Subjects with the same
+    /// models in other poses share them.
+    textured: Arc<OnceLock<TexturedModels>>,
 }
 
 impl Subject {
     /// Creates a subject from loaded models.
     pub(crate) fn new(origin: Origin, file: SceneFile, models: Vec<ModelInstance>) -> Self {
         let options = ResolveOptions::default();
-        Self { origin, file, models, options, textured: OnceLock::new() }
+        Self { origin, file, models, options, textured: Arc::default() }
     }
 
     /// Creates a subject from a scene and loads its models.
@@ -59,6 +60,16 @@ impl Subject {
     pub(crate) fn with_models(&self, models: Vec<ModelInstance>) -> Self {
         let (origin, file) = (self.origin.clone(), self.file.clone());
         Self { options: self.options.clone(), ..Self::new(origin, file, models) }
+    }
+
+    /// Returns a subject with the same models in other places, and with the same mip chains.
+    pub(crate) fn with_poses(&self, poses: Vec<Affine<ModelSpace, World>>) -> Self {
+        let place = |(placed, model_to_world): (&ModelInstance, _)| ModelInstance {
+            model: Arc::clone(&placed.model),
+            model_to_world,
+        };
+        let models = self.models.iter().zip(poses).map(place).collect();
+        Self { textured: Arc::clone(&self.textured), ..self.with_models(models) }
     }
 
     /// Resolves a description that uses the models to a scene.

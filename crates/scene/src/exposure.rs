@@ -49,7 +49,9 @@ pub(super) fn resolve_exposure(
 fn illuminance(light: &Light, point: [f32; 3]) -> f32 {
     let brightest = |color: [f32; 3]| color.into_iter().fold(0.0, f32::max);
     let (from, candela, range) = match *light {
-        Light::Sun { lux, .. } | Light::Ambient { lux } => return brightest(lux),
+        Light::Sun { lux, .. } | Light::Ambient { lux } | Light::Legacy { lux, .. } => {
+            return brightest(lux);
+        }
         Light::Point { position, candela, range, .. }
         | Light::Spot { position, candela, range, .. } => (position, candela, range),
     };

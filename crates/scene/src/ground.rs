@@ -148,9 +148,9 @@ fn project_shadow(light: &Light, place: DVec3, height: f64, reach: f64) -> Optio
     light.shadow()?;
     let travel = match light {
         Light::Sun { to_light: towards, .. } => -DVec3::from(towards.map(f64::from)),
-        Light::Point { position, .. } | Light::Spot { position, .. } => {
-            place - DVec3::from(position.map(f64::from))
-        }
+        Light::Point { position, .. }
+        | Light::Spot { position, .. }
+        | Light::Legacy { position, .. } => place - DVec3::from(position.map(f64::from)),
         Light::Ambient { .. } => return None,
     };
     let drop = (place.y - height).max(0.0);

@@ -133,7 +133,9 @@ fn limit_shadow_maps(
 /// Returns the shadow of a light that uses a single shadow map.
 const fn mapped_shadow(light: &mut Light) -> Option<&mut Shadow> {
     match light {
-        Light::Sun { shadow, .. } | Light::Spot { shadow, .. } => shadow.as_mut(),
+        Light::Sun { shadow, .. } | Light::Spot { shadow, .. } | Light::Legacy { shadow, .. } => {
+            shadow.as_mut()
+        }
         Light::Point { .. } | Light::Ambient { .. } => None,
     }
 }
@@ -340,7 +342,8 @@ pub(super) fn scale_lights(lights: &mut [Light], factor: NonNegative) {
         let (Light::Sun { lux: intensity, .. }
         | Light::Ambient { lux: intensity }
         | Light::Point { candela: intensity, .. }
-        | Light::Spot { candela: intensity, .. }) = light;
+        | Light::Spot { candela: intensity, .. }
+        | Light::Legacy { lux: intensity, .. }) = light;
         *intensity = intensity.map(|channel| channel * factor);
     }
 }

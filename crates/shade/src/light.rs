@@ -4,6 +4,7 @@
 //!   Sun    E = lux                                            parallel light
 //!   Point  E = candela · window(d / range) / d²               inverse-square falloff
 //!   Spot   E = Point · (angle attenuation)²                   between the cosines of two angles
+//!   Legacy E = lux · cosⁿ / (k₀ + k₁ d + k₂ d²)               spot light of OpenGL 1, and of MuJoCo
 //! ```
 
 use super::lanes::{Lanes, Rgb, Vec3Lanes};
@@ -50,6 +51,24 @@ pub enum Light {
         /// Its shadow settings, if it casts shadows.
         shadow: Option<Shadow>,
     },
+    /// A spot light of OpenGL's fixed pipeline, for scenes of programs that use it. Scene files and
+    /// models do not have such lights.
+    Legacy {
+        /// The position in the world.
+        position: [f32; 3],
+        /// The unit direction of the cone's axis, away from the light.
+        axis: [f32; 3],
+        /// The illuminance along the axis where the falloff is 1.
+        lux: [f32; 3],
+        /// The coefficients of 1, d and d² in the polynomial that divides the illuminance.
+        falloff: [f32; 3],
+        /// The power of the cosine of the angle from the axis.
+        exponent: f32,
+        /// The cosine of the angle at which the light ends; −1 for light in all directions.
+        cutoff: f32,
+        /// Its shadow settings, if it casts shadows.
+        shadow: Option<Shadow>,
+    },
     /// Ambient light: uniform from all directions, and reflected diffusely, without highlights.
     Ambient {
         /// The illuminance of every surface, in lux.
@@ -84,9 +103,10 @@ impl Light {
     #[must_use]
     pub const fn shadow(&self) -> Option<Shadow> {
         match self {
-            Self::Sun { shadow, .. } | Self::Point { shadow, .. } | Self::Spot { shadow, .. } => {
-                *shadow
-            }
+            Self::Sun { shadow, .. }
+            | Self::Point { shadow, .. }
+            | Self::Spot { shadow, .. }
+            | Self::Legacy { shadow, .. } => *shadow,
             Self::Ambient { .. } => None,
         }
     }
@@ -112,9 +132,51 @@ impl Light {
                     ramp * ramp
                 })
             }
+            Self::Legacy { .. } => self.legacy_light(positions),
             Self::Ambient { .. } => IncidentLight { to_light: Vec3Lanes::ZERO, lux: Rgb::ZERO },
         }
     }
+
+    /// Computes the light of a `Legacy` light. This function is separate because such lights are
+    /// rare.
+    #[inline(never)]
+    fn legacy_light<const N: usize>(&self, positions: Vec3Lanes<N>) -> IncidentLight<N> {
+        let Self::Legacy { position, axis, lux, falloff, exponent, cutoff, .. } = *self else {
+            return IncidentLight { to_light: Vec3Lanes::ZERO, lux: Rgb::ZERO };
+        };
+        let to_light = Vec3Lanes::splat(position) - positions;
+        let square = to_light.dot(to_light);
+        let distance = square.map(f32::sqrt);
+        // At the light itself there is no direction, and thus no light.
+        let inverse = distance.map(|distance| if distance > 0.0 { 1.0 / distance } else { 0.0 });
+        let to_light = to_light * inverse;
+        let [constant, linear, quadratic] = falloff;
+        let divisor = square * quadratic + distance * linear + constant;
+        let strength = divisor.map(|divisor| if divisor > 0.0 { 1.0 / divisor } else { 0.0 });
+        let cosine = -Vec3Lanes::splat(axis).dot(to_light);
+        let angular = cosine.map(|cosine| match cosine >= cutoff {
+            true if exponent == 0.0 => 1.0,
+            true => power(cosine.max(0.0), exponent),
+            false => 0.0,
+        });
+        IncidentLight { to_light, lux: Rgb::splat(lux) * (strength * angular) }
+    }
+}
+
+/// Returns a power, by multiplication if the exponent is a small whole number.
+fn power(base: f32, exponent: f32) -> f32 {
+    if exponent != exponent.trunc() || !(0.0..=128.0).contains(&exponent) {
+        return libm::powf(base, exponent);
+    }
+    let (mut result, mut square, mut rest) = (1.0, base, exponent as u32);
+    while rest > 0 {
+        if rest % 2 == 1 {
+            result *= square;
+        }
+        square *= square;
+        rest /= 2;
+    }
+    result
 }
 
 impl<const N: usize> IncidentLight<N> {
@@ -174,6 +236,24 @@ mod tests {
         assert_eq!(lux_at(&light(2.0), [0.0; 3]), 0.0);
         assert_eq!(lux_at(&light(1.0), [0.0; 3]), 0.0);
         assert_eq!(lux_at(&light(4.0), [0.0, 2.0, 0.0]), 0.0, "at the light itself");
+    }
+
+    #[test]
+    fn legacy_lights_follow_the_polynomial_and_the_power_of_the_cosine() {
+        let (position, axis) = ([0.0, 2.0, 0.0], [0.0, -1.0, 0.0]);
+        let light = |falloff, exponent| {
+            let (lux, cutoff) = ([8.0, 0.0, 0.0], 0.5);
+            Light::Legacy { position, axis, lux, falloff, exponent, cutoff, shadow: None }
+        };
+        assert_eq!(lux_at(&light([1.0, 0.0, 0.0], 10.0), [0.0; 3]), 8.0);
+        assert_eq!(lux_at(&light([1.0, 0.5, 0.5], 10.0), [0.0; 3]), 2.0);
+        // At a cosine of 0.8, inside the cutoff, and then outside.
+        let beside = lux_at(&light([1.0, 0.0, 0.0], 10.0), [1.5, 0.0, 0.0]);
+        assert!((beside - 8.0 * 0.107_374_18).abs() < 1e-5, "{beside}");
+        let odd = lux_at(&light([1.0, 0.0, 0.0], 2.5), [1.5, 0.0, 0.0]);
+        assert!((odd - 8.0 * 0.572_433_4).abs() < 1e-5, "{odd}");
+        assert_eq!(lux_at(&light([1.0, 0.0, 0.0], 0.0), [1.5, 0.0, 0.0]), 8.0);
+        assert_eq!(lux_at(&light([1.0, 0.0, 0.0], 0.0), [4.0, 0.0, 0.0]), 0.0);
     }
 
     #[test]

@@ -52,6 +52,9 @@ impl LightCamera {
             Light::Spot { position, axis, cosines, .. } => {
                 fit_spot(scene, position.map(f64::from), axis.map(f64::from), cosines[1], shadow)
             }
+            Light::Legacy { position, axis, cutoff, .. } => {
+                fit_spot(scene, position.map(f64::from), axis.map(f64::from), cutoff, shadow)
+            }
             // A point light has six cameras; see `cube_fitting`.
             Light::Point { .. } | Light::Ambient { .. } => None,
         }
