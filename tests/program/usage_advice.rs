@@ -104,7 +104,11 @@ fn habits_from_other_programs_do_not_write_wrong_files() {
         (&["render", "teapot.glb", "-F", "JPEG"], "use `--format jpeg`"),
         (&["animate", "teapot.glb", "-s", "1"], "omit it: a film begins with the first frame"),
         (&["animate", "teapot.glb", "-frames:v", "4"], "use `--frames 4`"),
-        (&["--background", "a.blend", "-a"], "export the .blend file as .glb"),
+        (&["--background", "a.blend", "-f", "1"], "export the .blend file as .glb"),
+        (&["-b", "teapot.glb", "-a"], "run `alberti animate teapot.glb -o film.gif`"),
+        (&["--background", "--python", "a.py"], "runs no scripts, so omit `--background`"),
+        (&["animate", "teapot.glb", "-e", "48"], "use `--frames 48`"),
+        (&["batch", "teapot.glb", "--format", "webp"], "pictures are PNG files"),
         (
             &["render", "teapot.glb", "-xtgans"],
             "use `--overlay axes --tone-mapping aces --overlay grid",

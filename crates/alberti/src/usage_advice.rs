@@ -30,9 +30,6 @@ use std::path::Path;
 use unknown_flag::advise_on_flag;
 use wrong_value::advise_on_value;
 
-/// The folder in an example of `alberti batch`.
-const BATCH_EXAMPLE: &str = "batch models ";
-
 /// Parses the command line.
 ///
 /// # Errors
@@ -49,18 +46,13 @@ pub(crate) fn parse_args(words: &[OsString]) -> Result<Args, Error> {
         program
     };
     match parsed {
-        Ok(args) if has_bare_output(words) => {
+        // Building the program takes most of a short command's time.
+        Ok(args) if words.iter().skip(1).any(|word| OutputFormat::is_known(Path::new(word))) => {
             advise_on_output(words, &built()).map_or(Ok(args), Err)
         }
         Ok(args) => Ok(args),
         Err(usage) => Err(advise(usage, words, &built())),
     }
-}
-
-/// Whether an output may have been given without `-o`. Building the program to make sure takes
-/// most of a short command's time.
-fn has_bare_output(words: &[OsString]) -> bool {
-    words.iter().skip(1).any(|word| OutputFormat::is_known(Path::new(word)))
 }
 
 /// Returns the error for an output without `-o`, as in `alberti render model.glb picture.png`.
@@ -127,8 +119,7 @@ fn advise(mut error: Error, words: &[OsString], program: &Command) -> Error {
     }
 }
 
-/// Returns the message with the corrected command line: in place of an example's, or, if there are
-/// several mistakes, as a tip.
+/// Returns the message with the corrected command line, in place of an example's or as a tip.
 fn with_correction(message: String, correction: Option<Correction>) -> String {
     let Some(Correction { line, count }) = correction else { return message };
     let command = line.split(' ').take(2).collect::<Vec<_>>().join(" ");
@@ -165,8 +156,8 @@ fn with_given_model(message: &str, words: &[OsString]) -> String {
         name.map_or(message.clone(), |name| message.replace(example, &quoted(name)))
     });
     let all = all.map(quoted).collect::<Vec<_>>().join(" ");
-    let is_list = message.contains(BATCH_EXAMPLE) && all.contains(' ');
-    if is_list { message.replace(BATCH_EXAMPLE, &format!("batch {all} ")) } else { message }
+    let is_list = message.contains("batch models ") && all.contains(' ');
+    if is_list { message.replace("batch models ", &format!("batch {all} ")) } else { message }
 }
 
 /// Returns advice on words that clap reads as `-h`, such as `-hide_banner`.

@@ -6,11 +6,13 @@
 //!  worker           renders ────────────────────────────────────────────┘
 //! ```
 //! Python delivers signals only to its main thread, and only while that thread holds the lock, so a
-//! worker does the rendering.
+//! worker does the rendering. Work of a few milliseconds stays in the calling thread, because a new
+//! thread would take a good part of that time.
 
 use crate::failure::Failure;
 use pipeline::CancelToken;
 use pyo3::prelude::*;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread::{self, Builder};
 use std::time::Duration;
@@ -19,6 +21,26 @@ use std::time::Duration;
 const SIGNAL_INTERVAL: Duration = Duration::from_millis(50);
 /// The stack size of a worker in bytes, the same as for the main thread of a program.
 const STACK_BYTES: usize = 8 << 20;
+
+/// Runs `work` of a few milliseconds in this thread, without the lock.
+///
+/// # Errors
+/// Returns the error that `work` returns, or an error for a panic.
+pub(crate) fn run_briefly<T, E>(
+    py: Python<'_>,
+    work: impl FnOnce(&CancelToken) -> Result<T, E> + Send,
+) -> PyResult<T>
+where
+    T: Send,
+    E: Into<PyErr> + Send,
+{
+    // After a panic, `work` and what it borrows are not used again.
+    let work = AssertUnwindSafe(work);
+    match py.detach(|| catch_unwind(|| { work }.0(&CancelToken::default()))) {
+        Ok(result) => result.map_err(Into::into),
+        Err(panic) => Err(Failure::internal(&*panic).into()),
+    }
+}
 
 /// Runs `work` in another thread without the lock, and waits for it.
 ///

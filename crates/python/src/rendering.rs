@@ -5,7 +5,7 @@
 //! ```
 
 use crate::arrays::new_array;
-use crate::detached::run_detached;
+use crate::detached::{run_briefly, run_detached};
 use crate::failure::{Failure, Fallible};
 use crate::keywords::{Keywords, not_a, plain_name};
 use crate::legacy_lights::read_legacy_lights;
@@ -29,6 +29,11 @@ use std::thread;
 /// The maximum number of pixels in a picture. With four samples and all passes, such a picture
 /// takes about four gigabytes.
 const MAX_PIXELS: u64 = 1 << 26;
+/// The maximum number of pixels of a picture that is rendered in the calling thread.
+const MAX_BRIEF_PIXELS: u64 = 1 << 14;
+/// The maximum number of points, lines and triangles in such a picture.
+const MAX_BRIEF_ITEMS: usize = 10_000;
+
 /// The maximum number of idle renderers.
 const MAX_IDLE_RENDERERS: usize = 8;
 
@@ -67,7 +72,12 @@ pub(crate) fn render<'py>(
     options: &Bound<'py, PyDict>,
 ) -> PyResult<FrameParts<'py>> {
     let job = RenderJob::new(subject.get(), &Keywords(options))?;
-    run_detached(py, |cancel| job.render(cancel))?.into_parts(py)
+    let rendered = if job.is_brief() {
+        run_briefly(py, |cancel| RenderJob { threads: 1, ..job }.render(cancel))
+    } else {
+        run_detached(py, |cancel| job.render(cancel))
+    };
+    rendered?.into_parts(py)
 }
 
 /// Renders many pictures, each on one thread, and returns them in the order of the jobs.
@@ -268,6 +278,16 @@ impl<'a> RenderJob<'a> {
         let threads = thread_count(options.count("threads")?);
         let legacy_lights = read_legacy_lights(options)?;
         Ok(Self { subject, file, legacy_lights, has_color, passes, threads })
+    }
+
+    /// Whether rendering takes only a few milliseconds.
+    ///
+    /// Only on Linux with glibc do all Python threads have a stack as large as a worker's.
+    fn is_brief(&self) -> bool {
+        let (width, height) = self.file.image.size;
+        cfg!(all(target_os = "linux", target_env = "gnu"))
+            && u64::from(width) * u64::from(height) <= MAX_BRIEF_PIXELS
+            && self.subject.item_counts().iter().sum::<usize>() <= MAX_BRIEF_ITEMS
     }
 
     /// Renders the picture and the passes.

@@ -125,7 +125,7 @@ impl Subject {
     }
 
     /// Returns the point, line and triangle counts.
-    fn item_counts(&self) -> [usize; 3] {
+    pub(crate) fn item_counts(&self) -> [usize; 3] {
         let mut counts = [0; 3];
         for placed in &self.models {
             for (_, primitive) in placed.model.scene_primitives() {

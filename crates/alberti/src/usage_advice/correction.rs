@@ -1,5 +1,4 @@
-//! Corrects a whole command line, so that it can be copied: a tip on one mistake is of little use
-//! if it leaves out the flags that were right, or if the next mistake stops the next run.
+//! Corrects a whole command line, with all its mistakes, so that it can be copied.
 
 use super::foreign_words::foreign_words;
 use super::given_value::{SIDES, accepted_value, invalid_value, quoted};
@@ -14,9 +13,6 @@ use files::visible_text;
 use import::FileFormat;
 use std::ffi::OsString;
 use std::path::Path;
-
-/// The maximum number of mistakes that are corrected in a command line.
-const MAX_CORRECTIONS: usize = 12;
 
 /// A command line without mistakes.
 pub(super) struct Correction {
@@ -35,7 +31,7 @@ pub(super) fn corrected(words: &[OsString], program: &Command) -> Option<Correct
     if words.iter().any(|word| visible_text(word) != **word || word.contains('\'')) {
         return None;
     }
-    for count in 0..=MAX_CORRECTIONS {
+    for count in 0..12 {
         let typed: Vec<OsString> = words.iter().map(OsString::from).collect();
         let joined = join_negative_numbers(typed.clone(), || program.clone());
         let parsed = program.clone().try_get_matches_from(&joined);
@@ -43,6 +39,7 @@ pub(super) fn corrected(words: &[OsString], program: &Command) -> Option<Correct
         words = match (parsed, output) {
             (_, Some(at)) => replaced(&words, at..at + 1, &format!("-o {}", quoted(&words[at]))),
             (Err(error), None) => next_correction(&error, words, program)?,
+            (Ok(_), None) if !is_plausible(&words) => return None,
             (Ok(_), None) => {
                 let rest = words.iter().skip(1).map(|word| quoted(word));
                 let line: Vec<String> =
@@ -52,6 +49,19 @@ pub(super) fn corrected(words: &[OsString], program: &Command) -> Option<Correct
         };
     }
     None
+}
+
+/// Whether a command line that parses will probably run: its output has a format that the command
+/// writes, and its lens and projection fit together.
+fn is_plausible(words: &[String]) -> bool {
+    let after = |flags: [&str; 2]| {
+        words.windows(2).find(|pair| flags.contains(&pair[0].as_str())).map(|pair| &*pair[1])
+    };
+    let is_parallel = after(["--projection", "--projection"]).is_some_and(|it| it != "perspective");
+    let is_written =
+        |name: &str| name.ends_with(".gif") || OutputFormat::from_path(Path::new(name)).is_ok();
+    after(["-o", "--output"]).is_none_or(|name| is_written(name) && !name.contains(['#', '%']))
+        && !(is_parallel && after(["--fov", "--fov"]).is_some())
 }
 
 /// Returns the place of an output that has no `-o`, as in `alberti render a.glb a.png`.

@@ -129,27 +129,25 @@ pub(super) fn what_to_write(
     }
 }
 
-/// Returns the flags here for f3d's short flags in one word, such as `-xgq`. Those without a
-/// counterpart are left out.
+/// Returns the flags here for f3d's short flags in one word, such as `-xgq`, except for some
+/// without a counterpart.
 fn combined_flags(name: &str, command: &Command) -> Option<String> {
-    const FLAGS: [(char, &str); 7] = [
+    const FLAGS: [(char, &str); 6] = [
         ('x', "--overlay axes"),
         ('g', "--overlay grid"),
         ('e', "--overlay edges"),
         ('a', "--samples 8"),
         ('q', "--ambient-occlusion"),
         ('t', "--tone-mapping aces"),
-        ('p', ""),
     ];
     let letters = name.strip_prefix('-').filter(|letters| !letters.starts_with('-'))?;
     let is_known = foreign_flag(letters, command).is_some() || !has_flag(command, "overlay");
-    if letters.len() < 2 || is_known || letters == "page" {
+    if is_known || letters == "page" || letters.len() < 2 {
         return None;
     }
-    let letters = letters.trim_end_matches(['n', 's']).chars();
-    let flags = letters.map(|letter| FLAGS.iter().find(|flag| flag.0 == letter).map(|it| it.1));
-    let flags = flags.collect::<Option<Vec<_>>>()?;
-    let flags: Vec<&str> = flags.into_iter().filter(|flag| !flag.is_empty()).collect();
+    let letters = letters.trim_matches(['n', 's', 'p']).chars();
+    let find = |letter| Some(FLAGS.iter().find(|flag| flag.0 == letter)?.1);
+    let flags = letters.map(find).collect::<Option<Vec<_>>>()?;
     (!flags.is_empty()).then(|| flags.join(" "))
 }
 
@@ -247,9 +245,20 @@ fn lens_advice(stem: &str, words: &[String], command: &Command) -> Option<String
 /// Returns advice on Blender's `-b` or `--background` before a file: Alberti never opens a window.
 fn advise_on_no_window(name: &str, words: &[String]) -> Option<String> {
     let is_file = |file: &String| Path::new(file).extension().is_some();
-    let file = ["-b", "--background"].contains(&name).then(|| value_of(name, words))?;
-    let file = file.filter(is_file)?;
-    let help = if file.to_ascii_lowercase().ends_with(".blend") {
+    if !["-b", "--background"].contains(&name) {
+        return None;
+    }
+    let Some(file) = value_of(name, words) else {
+        let help = "to render a model, run `alberti render model.glb`";
+        return Some(format!(
+            "this program opens no window and runs no scripts, so omit `{name}`; {help}"
+        ));
+    };
+    let file = Some(file).filter(is_file)?;
+    let has = |flag: &str| words.iter().any(|word| word == flag);
+    let help = if has("-a") || has("--render-anim") {
+        format!("to render the animation, run `alberti animate {} -o film.gif`", quoted(&file))
+    } else if file.to_ascii_lowercase().ends_with(".blend") {
         "export the .blend file as .glb and run `alberti render model.glb`".to_owned()
     } else {
         let output = value_of("-o", words).map(|name| {
