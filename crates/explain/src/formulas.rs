@@ -129,7 +129,7 @@ impl Formula {
         })
     }
 
-    /// Returns the titles and file names of the pages of the book that cover the formula.
+    /// Returns the titles and file names of book pages that cover the formula.
     pub fn book_pages(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
         let ids = self.name.split(|c: char| !c.is_alphanumeric() && c != '-');
         let links = ids.filter_map(pages).next().unwrap_or_default().split(", [");

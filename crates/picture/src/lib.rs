@@ -15,7 +15,7 @@
 //! | `comparison` | the difference of two pictures, as numbers and as a picture |
 //! | `hdr` | environment panoramas in Radiance format |
 //! | `png_rows` | PNG as a stream, for pictures that do not fit in memory |
-//! | `read_png` | PNG files of a known size |
+//! | `read_png` | reads a PNG file whose size is known |
 //! | `terminal` | pictures as text: half blocks, ASCII art, and kitty's graphics protocol |
 
 mod channel;

@@ -62,7 +62,7 @@ np.savez(sys.argv[2], **found)
 
 @pytest.fixture(scope="module")
 def theirs(tmp_path_factory):
-    """Return the pictures of MuJoCo's own renderer in OSMesa."""
+    """Return pictures from MuJoCo's own renderer in OSMesa."""
     path = tmp_path_factory.mktemp("mujoco") / "theirs.npz"
     folder = str(Path(__file__).parent)
     places = [str(Path(alberti.__file__).parents[1]), os.environ.get("PYTHONPATH", "")]

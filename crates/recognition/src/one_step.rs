@@ -37,11 +37,11 @@ pub(crate) fn one_step_remedies(m: &Entries<4>, best: &MatrixReading) -> Vec<Rem
     }
     let is_unnamed = !best.meaning.is_named();
     let remedy = |(misprint, cost, entries): Step| {
-        let is_told = |reading: &MatrixReading| {
+        let is_plausible = |reading: &MatrixReading| {
             let meaning = &reading.meaning;
             is_sound(reading) && (is_projection(meaning) || (is_unnamed && is_rigid(meaning)))
         };
-        let found = readings_of(&entries).into_iter().find(is_told)?;
+        let found = readings_of(&entries).into_iter().find(is_plausible)?;
         let remedied = Some(matrix_of(&entries));
         Some(Remedy { misprint, cost: found.cost + cost, remedied })
     };

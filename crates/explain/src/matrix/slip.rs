@@ -155,10 +155,10 @@ pub(super) fn matrix_verdict(map: Projective<View, Clip>, found: &Recognition) -
     match (corrected_reading(found), found.misprint()) {
         (Some((reading, _)), Some(slip)) if slip.misprint == Misprint::Transposed => {
             let turned = describe_meaning(&reading);
-            let stands = what.replacen("It is", "As given, for column vectors, it is", 1);
+            let as_given = what.replacen("It is", "As given, for column vectors, it is", 1);
             format!(
                 "Transposed, it is {turned}. The matrix is for row vectors, or stored by columns. \
-                 {stands}"
+                 {as_given}"
             )
         }
         (Some((reading, _)), Some(slip)) => one_step_verdict(map.rows(), found, slip, &reading),
@@ -188,12 +188,12 @@ fn one_step_verdict(
     };
     let first = found.first();
     let is_window = changed_entries(rows, slip).iter().all(|place| place[0] < 2);
-    let stands = if is_window && is_mirrored(&first) {
+    let as_given = if is_window && is_mirrored(&first) {
         format!(" As given, it is {}.", describe_meaning(&first))
     } else {
         String::new()
     };
-    verdict + &others + &stands
+    verdict + &others + &as_given
 }
 
 /// Adds a misprint with the same numbers to a verdict.

@@ -61,12 +61,12 @@ fn views_of_three_interfaces_are_read_with_their_gaze() {
             let is_right = |found: &(CameraReading, u32)| is_view(&found.0, axes, eye, target);
             let (_, least) = *found.first().expect("a camera");
             let place = found.iter().position(is_right).expect("the view");
-            let is_told = if target == [0.0; 3] || axes == ViewAxes::OpenCv {
+            let is_listed = if target == [0.0; 3] || axes == ViewAxes::OpenCv {
                 place == 0
             } else {
                 found[place].1 <= least + 3
             };
-            assert!(is_told, "{axes:?}, {eye:?}, {target:?}: {found:?}");
+            assert!(is_listed, "{axes:?}, {eye:?}, {target:?}: {found:?}");
             count += 1;
         }
     }

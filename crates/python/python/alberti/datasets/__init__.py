@@ -19,7 +19,7 @@ format                  contents
 ``nerf``                ``transforms.json`` of nerfstudio and instant-ngp, with depth maps
 ``colmap``              a sparse model in COLMAP's binary and text formats
 ``coco``                boxes and masks of objects (COCO), of their visible parts
-``bop``                 poses and masks of the models of a scene (BOP)
+``bop``                 model poses and masks (BOP)
 ``webdataset``          tar files with samples for WebDataset
 ``parquet``             a table for Hugging Face ``datasets`` (needs ``pyarrow``)
 ======================  =======================================================================

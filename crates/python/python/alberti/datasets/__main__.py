@@ -43,7 +43,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0, help="seed of the cameras")
     parser.add_argument("--format", choices=FORMATS, default="nerf", help="format to write")
     parser.add_argument("--threads", type=int, help="number of threads")
-    parser.add_argument("--verify", action="store_true", help="check the files of a data set")
+    parser.add_argument("--verify", action="store_true", help="check a data set")
     given = parser.parse_args()
     try:
         if given.verify:

@@ -1,4 +1,4 @@
-"""BOP: the poses and masks of the models of a scene (Hodaň et al., 2018)."""
+"""BOP: model poses and masks (Hodaň et al., 2018)."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Bop:
         self._info: dict[str, Any] = {}
 
     def add(self, index: int, frame: Frame) -> None:
-        """Write the pictures and masks of a frame."""
+        """Write a frame's pictures and masks."""
         import numpy as np
 
         start = "test/000000"

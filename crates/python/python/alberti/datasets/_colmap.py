@@ -1,4 +1,4 @@
-"""Sparse models of COLMAP."""
+"""COLMAP's sparse models."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Colmap:
         self._images: list[tuple[int, list[float], int, str]] = []
 
     def add(self, index: int, frame: Frame) -> None:
-        """Write the picture of a frame."""
+        """Write a frame's picture."""
         name = f"{index:06}.png"
         self._folder.write(f"images/{name}", frame.png())
         key = (*frame.size, *pixel_camera(frame))

@@ -52,7 +52,7 @@ class Folder:
 
 
 def verify(folder: str | os.PathLike[str]) -> list[str]:
-    """Compare the files of a data set with its manifest.
+    """Compare a data set with its manifest.
 
     Args:
         folder: A folder that :func:`write` returned, or a copy.

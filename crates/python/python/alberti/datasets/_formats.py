@@ -34,7 +34,7 @@ class Nerf:
         self._frames: list[dict[str, Any]] = []
 
     def add(self, index: int, frame: Frame) -> None:
-        """Write the files of a frame."""
+        """Write a frame."""
         name = f"{index:06}.png"
         self._folder.write(f"images/{name}", frame.png())
         self._folder.write(f"depth/{name}", depth_png(frame.depth, self._unit))

@@ -1,4 +1,4 @@
-"""Picture files of data sets."""
+"""Encoders for the pictures in data sets."""
 
 from __future__ import annotations
 

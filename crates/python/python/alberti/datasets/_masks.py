@@ -30,7 +30,7 @@ class Coco:
         self._annotations: list[dict[str, Any]] = []
 
     def add(self, index: int, frame: Frame) -> None:
-        """Write the picture of a frame and keep its annotations."""
+        """Write a frame's picture and keep its annotations."""
         name = f"{index:06}.png"
         self._folder.write(f"images/{name}", frame.png())
         width, height = frame.size
