@@ -89,6 +89,7 @@ fn a_mistake_without_a_single_remedy_gets_no_whole_command() {
         "render crate.glb --resolution 8x8 --tile 3",
         "render crate.glb --animation-index=-1 --resolution 8x8",
         "render crate.glb --ortho-scale 4 --resolution 8x8",
+        "compare crate.glb crate.glb difference.png",
         "render crate.glb --camera-view-angle 45 --camera-orthographic",
         "animate crate.glb --turntable --frame-start 1 --frame-end 9 -o turn.mp4",
         "render crate.glb --resolution 8x8 --bg white -o frame_####.png",

@@ -129,7 +129,11 @@ fn with_correction(message: String, correction: Option<Correction>) -> String {
     {
         return format!("{before}run `{line}`{after}");
     }
-    if count < 2 { message } else { format!("{message}\n\n  tip: the whole command is `{line}`") }
+    if count < 2 || message.contains("is not a command") {
+        message
+    } else {
+        format!("{message}\n\n  tip: the whole command is `{line}`")
+    }
 }
 
 /// Adds the corrected command line to an error with several mistakes, as a tip.
@@ -356,14 +360,11 @@ mod tests {
                 .get_arguments()
                 .find(|known| known.get_long() == Some(row.owner))
                 .expect("a flag");
-            let names: Vec<String> = flag
-                .get_possible_values()
-                .iter()
-                .map(|known| known.get_name().to_owned())
-                .collect();
+            let values = flag.get_possible_values();
             assert!(accepted_value(row.owner, value, render).is_some(), "{value}");
             for word in row.words() {
-                assert!(!names.iter().any(|name| name == word), "{word} is already a value");
+                let is_value = values.iter().any(|known| known.get_name() == word);
+                assert!(!is_value, "{word} is already a value");
             }
         }
     }

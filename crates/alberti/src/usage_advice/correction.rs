@@ -51,8 +51,7 @@ pub(super) fn corrected(words: &[OsString], program: &Command) -> Option<Correct
     None
 }
 
-/// Whether a command line that parses will probably run: its output has a format that the command
-/// writes, and its lens and projection fit together.
+/// Whether a command line that parses will probably run, judging by its output and projection.
 fn is_plausible(words: &[String]) -> bool {
     let after = |flags: [&str; 2]| {
         words.windows(2).find(|pair| flags.contains(&pair[0].as_str())).map(|pair| &*pair[1])
