@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// The maximum size of the module in bytes, uncompressed and compressed. The goals are 2,500,000
 /// and 950,000.
-const MODULE: [usize; 2] = [2_932_000, 1_231_000];
+const MODULE: [usize; 2] = [2_936_000, 1_231_000];
 /// The maximum size in bytes of everything that the page loads except the module and models: HTML,
 /// styles and scripts.
 const PAGE: usize = 84_000;
