@@ -307,7 +307,7 @@ const FLAGS_OF_RENDER: &[(&[&str], &str)] = &[
     (&["--views", "front,top", "-o", "a.png"], "use a template, as in -o '{stem}_{view}.png'\n"),
     (&["--paper", "a4"], "`alberti sheet model.glb --paper a4` draws on paper"),
     (&["-a"], "`--samples 8` smooths edges"),
-    (&["-s", "1"], "`alberti animate model.glb --from 0 --to 2.5 -o film.gif` renders a range"),
+    (&["-s", "1"], "`--size 1920x1080` sets the size in pixels, and `--scalars temperature`"),
     (&["--colour", "white"], "`--background white` is the color behind the model"),
     (&["--size", "50%"], "`--scale 0.5` scales the width and height"),
     (&["--background", "rgba(255,255,255,0.5)"], "a background color has no alpha"),
