@@ -40,19 +40,27 @@ pub(crate) fn parse_args(words: &[OsString]) -> Result<Args, Error> {
         let args = Args::from_arg_matches(&matches);
         args.map_err(|error| error.format(&mut Args::command()))
     });
-    let built = || {
-        let mut program = Args::command();
-        program.build();
-        program
-    };
     match parsed {
         // Building the program takes most of a short command's time.
-        Ok(args) if words.iter().skip(1).any(|word| OutputFormat::is_known(Path::new(word))) => {
-            advise_on_output(words, &built()).map_or(Ok(args), Err)
+        Ok(args) if words.windows(2).any(|pair| is_bare_output(&pair[0], &pair[1])) => {
+            advise_on_output(words, &built_program()).map_or(Ok(args), Err)
         }
         Ok(args) => Ok(args),
-        Err(usage) => Err(advise(usage, words, &built())),
+        Err(usage) => Err(advise(usage, words, &built_program())),
     }
+}
+
+/// Returns all commands with their flags.
+fn built_program() -> Command {
+    let mut program = Args::command();
+    program.build();
+    program
+}
+
+/// Whether a word is a picture and follows no flag.
+fn is_bare_output(before: &OsString, word: &OsString) -> bool {
+    let is_flag = |word: &OsString| word.to_string_lossy().starts_with('-');
+    !is_flag(before) && !is_flag(word) && OutputFormat::is_known(Path::new(word))
 }
 
 /// Returns the error for an output without `-o`, as in `alberti render model.glb picture.png`.
@@ -313,14 +321,6 @@ mod tests {
     use super::given_value::accepted_value;
     use super::unknown_flag::foreign_flag;
     use super::*;
-    use crate::args::Args;
-
-    /// Returns all commands with their flags.
-    fn built_program() -> Command {
-        let mut program = Args::command();
-        program.build();
-        program
-    }
 
     /// Each piece of advice parses as printed, on a command that has the flag. No name in the table
     /// is a flag of that command.
